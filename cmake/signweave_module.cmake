@@ -1,0 +1,55 @@
+# signweave_module(NAME SOURCES a.cpp … DEPENDS core … [LIBRARIES Eigen3::Eigen …])
+#
+# One module of the library: the folder it is called from. The sources are its table of contents; its tests are found by
+# name (*_test.cpp), never listed. DEPENDS names the modules whose headers it may include; the test `layers` holds it to
+# that. LIBRARIES are third-party targets.
+define_property(GLOBAL PROPERTY SIGNWEAVE_LAYERS BRIEF_DOCS "rows 'module:dependency,dependency'")
+define_property(GLOBAL PROPERTY SIGNWEAVE_MODULES BRIEF_DOCS "library targets, lowest first")
+
+function(signweave_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
+  set(target signweave_${name})
+  list(TRANSFORM arg_DEPENDS PREPEND signweave:: OUTPUT_VARIABLE depends)
+  if(arg_SOURCES)
+    add_library(${target} STATIC ${arg_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:signweave_flags>)
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(signweave::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                             $<INSTALL_INTERFACE:include>)
+  target_link_libraries(${target} ${scope} ${depends} ${arg_LIBRARIES})
+  string(REPLACE ";" "," row "${arg_DEPENDS}")
+  set_property(GLOBAL APPEND PROPERTY SIGNWEAVE_LAYERS "${name}:${row}")
+  set_property(GLOBAL APPEND PROPERTY SIGNWEAVE_MODULES ${target})
+  signweave_tests(${name} LIBRARIES signweave::${name})
+endfunction()
+
+# signweave_tests(NAME LIBRARIES …): one test program from every *_test.cpp of the folder it is called from.
+function(signweave_tests name)
+  cmake_parse_arguments(arg "" "" "LIBRARIES;SOURCES" ${ARGN})
+  if(NOT SIGNWEAVE_TESTS)
+    return()
+  endif()
+  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  if(NOT tests)
+    return()
+  endif()
+  add_executable(${name}_test ${tests} ${arg_SOURCES})
+  target_link_libraries(${name}_test PRIVATE ${arg_LIBRARIES} signweave_flags GTest::gmock GTest::gtest_main
+                        rapidcheck rapidcheck_gtest)
+  target_compile_definitions(${name}_test PRIVATE SIGNWEAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                             SIGNWEAVE_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
+  gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()
+
+# Writes the table of modules for the test `layers`.
+function(signweave_write_layers)
+  get_property(rows GLOBAL PROPERTY SIGNWEAVE_LAYERS)
+  string(REPLACE ";" "\n" text "${rows}")
+  file(WRITE ${PROJECT_BINARY_DIR}/layers.txt "${text}\n")
+endfunction()

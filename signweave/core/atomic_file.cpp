@@ -1,0 +1,63 @@
+#include "signweave/core/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace signweave {
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+  temporary_ = path_;
+  temporary_ += fmt::format(".{}.part", ::getpid());
+  file_ = std::fopen(temporary_.c_str(), "wb");
+  if (file_ == nullptr) fail("cannot be written");
+}
+
+AtomicFile::~AtomicFile() {
+  if (file_ != nullptr) {
+    std::fclose(file_);
+    std::error_code ignored;
+    std::filesystem::remove(temporary_, ignored);
+  }
+}
+
+void AtomicFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail("cannot be written");
+}
+
+void AtomicFile::commit() {
+  if (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0) fail("cannot be written");
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
+  std::fclose(file_);
+  file_ = nullptr;
+}
+
+void AtomicFile::fail(const char* what) {
+  throw Error(ErrorCode::io, fmt::format("{}: {}: {}", path_.string(), what, std::strerror(errno)));
+}
+
+std::string read_file(const std::filesystem::path& path, std::size_t most) {
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) {
+    const ErrorCode code = errno == ENOENT ? ErrorCode::not_found : ErrorCode::io;
+    throw Error(code, fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+  }
+  std::string text;
+  char block[1 << 16];
+  std::size_t got = 0;
+  while (text.size() <= most && (got = std::fread(block, 1, sizeof block, file)) > 0) text.append(block, got);
+  const int fault = std::ferror(file) != 0 ? errno : 0;
+  std::fclose(file);
+  if (fault != 0)
+    throw Error(ErrorCode::io, fmt::format("{}: cannot be read: {}", path.string(), std::strerror(fault)));
+  if (text.size() > most) {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: larger than {} bytes, which is more than such a file can need", path.string(), most));
+  }
+  return text;
+}
+
+}  // namespace signweave

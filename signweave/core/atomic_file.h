@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "signweave/core/bytes.h"
+
+namespace signweave {
+
+/// A file that appears whole or not at all: bytes go to a temporary file beside it, and `commit` flushes that to disk
+/// and renames it into place. Without `commit` nothing is left behind. Faults are Error{io, "PATH: …"}.
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::filesystem::path path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(std::string_view text);
+  void commit();
+
+ private:
+  [[noreturn]] void fail(const char* what);
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  std::FILE* file_ = nullptr;
+};
+
+/// The whole of a file. Error{not_found} or Error{io} where it cannot be read; Error{bad_input} where it has more than
+/// `most` bytes.
+std::string read_file(const std::filesystem::path& path, std::size_t most = std::size_t{1} << 32);
+
+}  // namespace signweave

@@ -1,0 +1,150 @@
+#include "signweave/core/text.h"
+
+#include <fmt/format.h>
+#include <utf8proc.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <numeric>
+
+namespace signweave {
+namespace {
+
+struct Free {
+  void operator()(utf8proc_uint8_t* text) const noexcept { std::free(text); }
+};
+
+std::string mapped(std::string_view text, int options) {
+  utf8proc_uint8_t* result = nullptr;
+  const auto* bytes = reinterpret_cast<const utf8proc_uint8_t*>(text.data());
+  const utf8proc_ssize_t size = utf8proc_map(bytes, static_cast<utf8proc_ssize_t>(text.size()), &result,
+                                             static_cast<utf8proc_option_t>(UTF8PROC_STABLE | options));
+  const std::unique_ptr<utf8proc_uint8_t, Free> owner(result);
+  if (size < 0) return std::string(text);  // not UTF-8: compared byte by byte
+  return {reinterpret_cast<const char*>(result), static_cast<std::size_t>(size)};
+}
+
+std::vector<utf8proc_int32_t> letters(std::string_view text) {
+  std::vector<utf8proc_int32_t> result;
+  const auto* at = reinterpret_cast<const utf8proc_uint8_t*>(text.data());
+  auto left = static_cast<utf8proc_ssize_t>(text.size());
+  while (left > 0) {
+    utf8proc_int32_t letter = -1;
+    utf8proc_ssize_t used = utf8proc_iterate(at, left, &letter);
+    if (used < 1) {
+      letter = *at;
+      used = 1;
+    }
+    result.push_back(letter);
+    at += used;
+    left -= used;
+  }
+  return result;
+}
+
+/// Levenshtein distance, with a swap of two neighbours as one step.
+std::size_t edit_distance(const std::vector<utf8proc_int32_t>& a, const std::vector<utf8proc_int32_t>& b) {
+  std::vector<std::size_t> before(b.size() + 1);
+  std::vector<std::size_t> last(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before.swap(last);
+    last.swap(row);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string match_form(std::string_view label) {
+  const std::string_view inner = trimmed(label);
+  if (std::all_of(inner.begin(), inner.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; })) {
+    return std::string(inner);
+  }
+  return mapped(inner, UTF8PROC_COMPOSE);
+}
+
+bool is_utf8(std::string_view text) noexcept {
+  const auto* at = reinterpret_cast<const utf8proc_uint8_t*>(text.data());
+  auto left = static_cast<utf8proc_ssize_t>(text.size());
+  while (left > 0) {
+    utf8proc_int32_t letter = -1;
+    const utf8proc_ssize_t used = utf8proc_iterate(at, left, &letter);
+    if (used < 1) return false;
+    at += used;
+    left -= used;
+  }
+  return true;
+}
+
+std::string fold_case(std::string_view text) {
+  return mapped(text, UTF8PROC_COMPOSE | UTF8PROC_CASEFOLD);
+}
+
+std::vector<std::string> near_matches(std::string_view wanted, std::span<const std::string> known, std::size_t most) {
+  const std::vector<utf8proc_int32_t> target = letters(fold_case(match_form(wanted)));
+  const std::size_t farthest = std::max<std::size_t>(1, (target.size() + 2) / 3);
+  struct Near {
+    std::size_t distance;
+    std::string_view name;
+  };
+  std::vector<Near> near;
+  for (const std::string& name : known) {
+    const std::vector<utf8proc_int32_t> other = letters(fold_case(name));
+    const std::size_t longer = std::max(other.size(), target.size());
+    if (longer - std::min(other.size(), target.size()) > farthest || longer > 200) continue;
+    const std::size_t distance = edit_distance(target, other);
+    if (distance <= farthest) near.push_back({distance, name});
+  }
+  std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.name < b.name;
+  });
+  std::vector<std::string> result;
+  for (const Near& one : near) {
+    if (result.size() == most) break;
+    if (result.empty() || result.back() != one.name) result.emplace_back(one.name);
+  }
+  return result;
+}
+
+std::string did_you_mean(std::string_view wanted, std::span<const std::string> known) {
+  const std::vector<std::string> near = near_matches(wanted, known);
+  if (near.empty()) return {};
+  std::string result = "; did you mean ";
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (i > 0) result += i + 1 == near.size() ? " or " : ", ";
+    result += near[i];
+  }
+  return result + "?";
+}
+
+std::string printable(std::string_view text) {
+  std::string result;
+  std::size_t shown = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (++shown > 80 && (byte & 0xC0) != 0x80) return result + "…";
+    if (byte < 0x20 || byte == 0x7F) {
+      result += fmt::format("\\x{:02x}", byte);
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string_view trimmed(std::string_view text) noexcept {
+  constexpr std::string_view kBlank = " \t\r\n\v\f";
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+}
+
+}  // namespace signweave

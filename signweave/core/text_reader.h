@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signweave/core/error.h"
+
+namespace signweave {
+
+/// Words and numbers from a text file, with FILE:LINE in every failure. Reads through a window of fixed size, so a file
+/// never lies in memory whole. Line ends are LF, CRLF or CR; a byte order mark at the start is passed over.
+///
+/// A view returned by one call is valid until the next call. Not for several threads.
+class TextReader {
+ public:
+  /// Opens a file. Throws Error{not_found} or Error{io} where it cannot be read.
+  explicit TextReader(const std::filesystem::path& path);
+  /// Reads borrowed text, which must outlive the reader; `name` stands for the file in errors.
+  TextReader(std::string name, std::string_view text);
+  ~TextReader();
+  TextReader(const TextReader&) = delete;
+  TextReader& operator=(const TextReader&) = delete;
+
+  /// The next word (between white space, across lines); empty at the end of the text.
+  /// Throws Error{bad_input} for a word longer than 64 KiB, or one that holds a NUL byte (a binary file).
+  std::string_view word();
+  /// The next word, not consumed.
+  std::string_view peek();
+  /// The rest of this line without white space at its ends, consumed with the line's end. At most 64 KiB.
+  std::string_view rest_of_line();
+  /// The next word as a finite number; `what` says what was expected ("an offset").
+  double number(std::string_view what);
+  /// The next word must be this one.
+  void expect(std::string_view word);
+
+  /// The line, from 1, of the word returned last.
+  std::size_t line() const noexcept { return line_; }
+  const std::string& name() const noexcept { return name_; }
+  /// Bytes of the whole file, 0 where the system does not tell (a pipe).
+  std::size_t total_bytes() const noexcept { return total_bytes_; }
+  /// Bytes consumed so far: for a progress bar.
+  std::size_t bytes_read() const noexcept { return consumed_; }
+
+  /// Throws Error{bad_input, "NAME:LINE: what"}.
+  [[noreturn]] void fail(std::string_view what) const;
+  Notice notice(std::string_view text) const;
+
+ private:
+  bool fill();
+  int get();
+  int look();
+
+  std::string name_;
+  std::FILE* file_ = nullptr;
+  std::vector<char> window_;
+  std::string_view text_;  ///< what is left of the window, or of the borrowed text
+  std::size_t total_bytes_ = 0;
+  std::size_t consumed_ = 0;
+  std::size_t current_line_ = 1;
+  std::size_t line_ = 1;
+  std::string word_;
+  bool peeked_ = false;
+};
+
+}  // namespace signweave

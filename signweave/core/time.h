@@ -1,0 +1,90 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace signweave {
+
+using Milliseconds = std::chrono::milliseconds;  ///< annotation time, whole milliseconds
+using Seconds = std::chrono::duration<double>;   ///< everything that is computed
+using namespace std::chrono_literals;
+
+/// [begin, end) of annotation time.
+struct TimeSpan {
+  Milliseconds begin{0};
+  Milliseconds end{0};
+
+  Milliseconds duration() const noexcept { return end - begin; }
+  bool contains(TimeSpan other) const noexcept { return begin <= other.begin && other.end <= end; }
+  bool overlaps(TimeSpan other) const noexcept { return begin < other.end && other.begin < end; }
+  friend bool operator==(TimeSpan, TimeSpan) = default;
+};
+
+/// [begin, end) of frames of one motion.
+struct FrameRange {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+
+  std::int64_t size() const noexcept { return end - begin; }
+  bool empty() const noexcept { return end <= begin; }
+  friend bool operator==(FrameRange, FrameRange) = default;
+};
+
+/// Frames a second as a fraction, so that a long recording does not drift: 120/1, 30000/1001.
+/// Invariant where made by the functions below: both parts positive, in lowest terms.
+struct FrameRate {
+  std::int64_t numerator = 30;
+  std::int64_t denominator = 1;
+
+  double hertz() const noexcept { return static_cast<double>(numerator) / static_cast<double>(denominator); }
+  Seconds frame_time() const noexcept {
+    return Seconds(static_cast<double>(denominator) / static_cast<double>(numerator));
+  }
+  friend bool operator==(FrameRate, FrameRate) = default;
+};
+
+/// What a frame time printed in a file stands for.
+struct SnappedRate {
+  FrameRate rate;
+  bool snapped = false;  ///< the text was rounded; the rate is the standard one that rounds to it
+};
+
+/// The frame rate that `text` ("0.008333", "3.3333e-2"; seconds a frame) stands for: the standard rate (whole numbers
+/// of 1 to 1000 frames a second that are in use, and the NTSC rates n·1000/1001) which, printed with as many digits,
+/// gives the same text; else exactly the decimal fraction printed. None where the text is no finite number of
+/// seconds in [1e-6, 1e4].
+std::optional<SnappedRate> snap_frame_time(std::string_view text);
+
+/// A rate given by a user in frames a second: "100", "29.97", "30000/1001". None where it is no rate in [1e-4, 1e6].
+std::optional<FrameRate> parse_frame_rate(std::string_view text);
+
+/// "120", "29.97" or "30000/1001": the shortest of these that names the rate.
+std::string to_string(FrameRate rate);
+
+/// Ties frames to annotation time. Frame i covers the annotation time origin + i · frame_time and the frame_time after.
+/// EAF's TIME_ORIGIN t of a media file puts its frame 0 at −t.
+struct FrameClock {
+  Seconds frame_time{1.0 / 30.0};
+  Seconds origin{0.0};  ///< annotation time of frame 0
+
+  /// Annotation time of a (possibly fractional) frame.
+  Seconds time_of(double frame) const noexcept { return origin + frame * frame_time; }
+  /// The (fractional) frame at an annotation time.
+  double frame_at(Seconds time) const noexcept { return (time - origin) / frame_time; }
+  friend bool operator==(FrameClock, FrameClock) = default;
+};
+
+/// The frames nearest to a span: each bound goes to the nearest frame, so spans that touch share no frame and leave
+/// none out. The result may reach outside the motion; see `clamp`.
+FrameRange frames_of(TimeSpan span, const FrameClock& clock) noexcept;
+
+/// The annotation time of a range of frames, to the nearest millisecond.
+TimeSpan span_of(FrameRange frames, const FrameClock& clock) noexcept;
+
+/// The part of `range` inside [0, frames).
+FrameRange clamp(FrameRange range, std::int64_t frames) noexcept;
+
+}  // namespace signweave

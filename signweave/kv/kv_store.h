@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signweave/core/bytes.h"
+
+namespace signweave::kv {
+
+/// A snapshot of the store. Owns every byte that `get` lends: a span is valid until the transaction ends.
+/// Belongs to one thread at a time. Does not block writers, and is not blocked by them.
+class ReadTransaction {
+ public:
+  virtual ~ReadTransaction() = default;
+  /// The value of a key, or none. Throws Error{corrupt} or Error{io}.
+  virtual std::optional<ByteSpan> get(ByteSpan key) const = 0;
+};
+
+/// All or nothing: what is put and erased becomes visible, and durable, at `commit`; without it nothing happened.
+/// One at a time per store; a second waits. Belongs to one thread.
+class WriteTransaction : public ReadTransaction {
+ public:
+  /// Stores a value (replacing one that is there). Throws Error{io}, for a full disk too.
+  virtual void put(ByteSpan key, ByteSpan value) = 0;
+  /// Removes a key; false where it was not there.
+  virtual bool erase(ByteSpan key) = 0;
+  virtual void commit() = 0;
+};
+
+struct EngineInfo {
+  std::string name;  ///< "lmdb"
+  std::string version;
+  std::uint64_t entries = 0;
+  std::uint64_t bytes_on_disk = 0;
+};
+
+/// One key-value database in one folder. Several threads and (with LMDB) several processes may read at once.
+/// There is no ordered scan: hash engines have none, so what must be listed is a record of its own.
+class KvStore {
+ public:
+  virtual ~KvStore() = default;
+  virtual std::unique_ptr<ReadTransaction> read() const = 0;
+  virtual std::unique_ptr<WriteTransaction> write() = 0;
+  virtual EngineInfo info() const = 0;
+  /// Longest key in bytes.
+  virtual std::size_t longest_key() const noexcept = 0;
+};
+
+enum class Access { read_only, read_write };
+
+/// The names of the engines that this build has, the default first.
+std::vector<std::string> engines();
+
+/// Makes an empty store of the named engine in `folder`, which must not exist or be empty.
+/// Throws Error{already_exists}, Error{unsupported} for an unknown engine, Error{io}.
+void create(const std::filesystem::path& folder, std::string_view engine);
+
+/// Opens a store; the engine is recognised by its files. Throws Error{not_found} where there is none,
+/// Error{corrupt} where the files are shorter than their own records say, Error{io}.
+std::unique_ptr<KvStore> open(const std::filesystem::path& folder, Access access);
+
+}  // namespace signweave::kv

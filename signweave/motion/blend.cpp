@@ -1,0 +1,82 @@
+#include "signweave/motion/blend.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signweave {
+
+Eigen::Quaternionf slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) noexcept {
+  if (t <= 0.0f) return a;
+  float cosine = a.dot(b);
+  const float side = cosine < 0 ? -1.0f : 1.0f;
+  if (t >= 1.0f) return Eigen::Quaternionf(side * b.coeffs());
+  cosine = std::min(std::abs(cosine), 1.0f);
+  float from = 1.0f - t;
+  float to = t;
+  if (cosine < 0.9995f) {  // nearer than that the arc is a line within a float's precision
+    const float angle = std::acos(cosine);
+    const float inverse = 1.0f / std::sin(angle);
+    from = std::sin(from * angle) * inverse;
+    to = std::sin(to * angle) * inverse;
+  }
+  Eigen::Quaternionf result(from * a.coeffs() + (side * to) * b.coeffs());
+  result.normalize();
+  return result;
+}
+
+void blend(PoseView a, PoseView b, float t, MutablePoseView out) noexcept {
+  for (std::size_t i = 0; i < out.rotations.size(); ++i) out.rotations[i] = slerp(a.rotations[i], b.rotations[i], t);
+  for (std::size_t i = 0; i < out.translations.size(); ++i) {
+    out.translations[i] = a.translations[i] + t * (b.translations[i] - a.translations[i]);
+  }
+}
+
+void sample(const Motion& motion, double frame, MutablePoseView out) noexcept {
+  const double last = static_cast<double>(motion.frame_count() - 1);
+  const double at = std::clamp(frame, 0.0, last);
+  const double whole = std::floor(at);
+  const PoseView before = motion.pose(static_cast<std::int64_t>(whole));
+  if (at == whole) {
+    std::copy(before.rotations.begin(), before.rotations.end(), out.rotations.begin());
+    std::copy(before.translations.begin(), before.translations.end(), out.translations.begin());
+    return;
+  }
+  blend(before, motion.pose(static_cast<std::int64_t>(whole) + 1), static_cast<float>(at - whole), out);
+}
+
+Standing standing_over(const Motion& motion, FrameRange frames) noexcept {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double sine = 0;
+  double cosine = 0;
+  for (std::int64_t frame = frames.begin; frame < frames.end; ++frame) {
+    const PoseView pose = motion.pose(frame);
+    if (!pose.translations.empty()) position += pose.translations[0].cast<double>();
+    // The twist of the root's rotation about the vertical.
+    const Eigen::Quaternionf& root = pose.rotations[0];
+    const double heading = 2.0 * std::atan2(static_cast<double>(root.y()), static_cast<double>(root.w()));
+    sine += std::sin(heading);
+    cosine += std::cos(heading);
+  }
+  Standing standing;
+  if (!frames.empty()) {
+    standing.position = (position / static_cast<double>(frames.size())).cast<float>();
+    standing.position.y() = 0;
+    standing.heading = static_cast<float>(std::atan2(sine, cosine));
+  }
+  return standing;
+}
+
+GroundTransform align(const Standing& from, const Standing& to) noexcept {
+  GroundTransform transform;
+  transform.turn = Eigen::AngleAxisf(to.heading - from.heading, Eigen::Vector3f::UnitY());
+  transform.shift = to.position - transform.turn * from.position;
+  transform.shift.y() = 0;
+  return transform;
+}
+
+void apply(const GroundTransform& transform, MutablePoseView pose) noexcept {
+  pose.rotations[0] = transform.turn * pose.rotations[0];
+  if (!pose.translations.empty()) pose.translations[0] = transform.turn * pose.translations[0] + transform.shift;
+}
+
+}  // namespace signweave

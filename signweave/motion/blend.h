@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "signweave/motion/motion.h"
+
+namespace signweave {
+
+// Everything here works on poses of one skeleton (same counts), allocates nothing and cannot fail.
+
+/// The shortest arc from a to b at t in [0, 1]; exactly a at 0 and ±b at 1. Unit quaternions in, unit out.
+Eigen::Quaternionf slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) noexcept;
+
+/// out = the pose at t between a and b: slerp of rotations, linear translations. `out` may be a or b.
+void blend(PoseView a, PoseView b, float t, MutablePoseView out) noexcept;
+
+/// The pose of a motion at a fractional frame, clamped to its first and last. A whole frame gives that frame's bits.
+void sample(const Motion& motion, double frame, MutablePoseView out) noexcept;
+
+/// A motion of the ground plane: a turn about the vertical through the origin, then a shift along the ground.
+struct GroundTransform {
+  Eigen::Quaternionf turn = Eigen::Quaternionf::Identity();  ///< about +Y
+  Eigen::Vector3f shift = Eigen::Vector3f::Zero();           ///< metres, its y is 0
+};
+
+/// Where someone stands and faces: the root's ground position and heading over some frames.
+struct Standing {
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< metres, model space, y is 0
+  float heading = 0;                                   ///< radians about +Y, from the root's rotation
+};
+
+/// The mean standing over frames (at least one) of a motion: mean position, circular mean of the heading.
+Standing standing_over(const Motion& motion, FrameRange frames) noexcept;
+
+/// The transform that takes a signer who stands as `from` to where `to` stands.
+GroundTransform align(const Standing& from, const Standing& to) noexcept;
+
+/// Applies a transform to a pose's root. Other joints keep their bits.
+void apply(const GroundTransform& transform, MutablePoseView pose) noexcept;
+
+}  // namespace signweave

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "signweave/core/time.h"
+#include "signweave/motion/skeleton.h"
+
+namespace signweave {
+
+/// One frame of a motion, borrowed from it.
+struct PoseView {
+  std::span<const Eigen::Quaternionf> rotations;  ///< [joint], unit, each relative to its parent
+  std::span<const Eigen::Vector3f> translations;  ///< [translated joint], the root first; metres, parent's space
+};
+
+/// The same, writable.
+struct MutablePoseView {
+  std::span<Eigen::Quaternionf> rotations;
+  std::span<Eigen::Vector3f> translations;
+
+  operator PoseView() const noexcept { return {rotations, translations}; }
+};
+
+/// One pose that owns its numbers.
+struct Pose {
+  std::vector<Eigen::Quaternionf> rotations;
+  std::vector<Eigen::Vector3f> translations;
+
+  Pose() = default;
+  explicit Pose(const Skeleton& skeleton)
+      : rotations(skeleton.joint_count(), Eigen::Quaternionf::Identity()),
+        translations(skeleton.translation_count(), Eigen::Vector3f::Zero()) {}
+  explicit Pose(PoseView view)
+      : rotations(view.rotations.begin(), view.rotations.end()),
+        translations(view.translations.begin(), view.translations.end()) {}
+  PoseView view() const noexcept { return {rotations, translations}; }
+  MutablePoseView view() noexcept { return {rotations, translations}; }
+};
+
+/// One number per frame beside the joints, such as a face weight.
+struct ScalarTrack {
+  std::string name;
+  std::vector<float> values;  ///< [frame]
+  friend bool operator==(const ScalarTrack&, const ScalarTrack&) = default;
+};
+
+/// Poses of one skeleton at a fixed rate. Metres, Y up, right-handed. Copying copies the poses and shares the skeleton.
+class Motion {
+ public:
+  Motion() = default;
+  /// `frames` poses, every rotation the identity and every translation its joint's offset.
+  Motion(std::shared_ptr<const Skeleton> skeleton, FrameRate rate, std::int64_t frames = 0);
+
+  const Skeleton& skeleton() const noexcept { return *skeleton_; }
+  const std::shared_ptr<const Skeleton>& shared_skeleton() const noexcept { return skeleton_; }
+  FrameRate rate() const noexcept { return rate_; }
+  std::int64_t frame_count() const noexcept { return frames_; }
+  Seconds duration() const noexcept { return static_cast<double>(frames_) * rate_.frame_time(); }
+
+  /// The pose of a frame in [0, frame_count()). Borrowed: valid until a frame is appended or the motion ends.
+  PoseView pose(std::int64_t frame) const noexcept;
+  MutablePoseView pose(std::int64_t frame) noexcept;
+
+  /// Appends a pose, which must have the skeleton's counts.
+  void append(PoseView pose);
+  /// Appends a pose at rest, to be filled in.
+  MutablePoseView append();
+  /// Makes room for that many frames; a hint.
+  void reserve(std::int64_t frames);
+
+  /// All rotations, [frame][joint], and all translations, [frame][translated joint].
+  std::span<const Eigen::Quaternionf> rotations() const noexcept { return rotations_; }
+  std::span<const Eigen::Vector3f> translations() const noexcept { return translations_; }
+
+  const std::vector<ScalarTrack>& tracks() const noexcept { return tracks_; }
+  /// Adds a track, which must have one value per frame.
+  void add_track(ScalarTrack track);
+
+  /// A copy of some frames, with their part of every track. `range` must lie within the motion.
+  Motion slice(FrameRange range) const;
+
+ private:
+  std::shared_ptr<const Skeleton> skeleton_ = std::make_shared<const Skeleton>();
+  FrameRate rate_;
+  std::int64_t frames_ = 0;
+  std::vector<Eigen::Quaternionf> rotations_;
+  std::vector<Eigen::Vector3f> translations_;
+  std::vector<ScalarTrack> tracks_;
+};
+
+/// Flips signs so that every quaternion lies in the hemisphere of the same joint's in the frame before: q and -q are
+/// one rotation, and a blend between neighbours must not turn the long way round.
+void keep_hemisphere(Motion& motion) noexcept;
+
+}  // namespace signweave

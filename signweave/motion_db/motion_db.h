@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "signweave/core/bytes.h"
+#include "signweave/core/time.h"
+#include "signweave/kv/kv_store.h"
+#include "signweave/motion/motion.h"
+#include "signweave/motion_db/access_mode.h"
+
+/// The motion database (the paper's raw database): motions cut into packets on a key-value store. It knows nothing of
+/// names or annotation. Which motions are visible is the caller's record (see database/), so a motion is written under
+/// a new generation number first, in bounded transactions, and becomes visible when the caller's one record names it.
+namespace signweave::motion_db {
+
+/// What must be known to read, or to erase, a stored motion: the caller keeps it.
+struct StoredMotion {
+  std::uint64_t generation = 0;  ///< unique in the database, never used again
+  AccessMode mode;               ///< frames_per_packet filled in
+  FrameRate rate;
+  std::int64_t frames = 0;
+  std::uint32_t joints = 0;
+  std::uint32_t translations = 0;
+  std::vector<std::string> tracks;  ///< names of the scalar tracks
+  friend bool operator==(const StoredMotion&, const StoredMotion&) = default;
+};
+
+void encode(const StoredMotion& stored, ByteWriter& out);
+StoredMotion decode(ByteReader& in);
+
+/// The descriptor that `put` will write under, with a default p filled in: known before anything is written, so that a
+/// caller can note what to sweep after a crash.
+StoredMotion describe(const Motion& motion, AccessMode mode, std::uint64_t generation);
+
+/// How many packets the motion has: the paper's 1, ceil(n/p), m, m * ceil(n/p). Skeleton and scalar tracks are records
+/// of their own and not counted.
+std::uint64_t packet_count(const StoredMotion& stored) noexcept;
+
+/// Writes skeleton, packets and tracks in transactions of bounded size. `progress` may throw to cancel.
+void put(kv::KvStore& store, const StoredMotion& stored, const Motion& motion,
+         const std::function<void(double fraction)>& progress = {});
+
+/// Erases everything that `put` wrote or began to write under this descriptor. Doing it twice is harmless.
+void erase(kv::KvStore& store, const StoredMotion& stored);
+
+/// What a read cost.
+struct ReadCost {
+  std::uint64_t packets = 0;
+  std::uint64_t bytes = 0;
+};
+
+/// The skeleton of a stored motion.
+std::shared_ptr<const Skeleton> read_skeleton(const kv::ReadTransaction& snapshot, const StoredMotion& stored);
+
+/// Some frames of some joints (empty: all), bit for bit as they were put, reading only the packets that hold them.
+/// The result has the whole skeleton; joints that were not asked for are at rest. Throws Error{corrupt} naming joints
+/// and frames where a packet is missing or its checksum is wrong. `skeleton` is what read_skeleton gave (so that
+/// motions share it).
+Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
+            const std::shared_ptr<const Skeleton>& skeleton, FrameRange frames, const JointSet& joints = {},
+            ReadCost* cost = nullptr);
+
+/// Verifies every record of a motion: one line per fault found, naming joints and frames; empty where all is well.
+std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored);
+
+}  // namespace signweave::motion_db

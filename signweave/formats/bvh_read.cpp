@@ -269,8 +269,10 @@ void settle_space(const Motion& motion, const ReadOptions& options, Layout& layo
     const std::string up = fmt::format("up axis {}{}", layout.up == UpAxis::z ? "z" : "y",
                                        options.up || guess.up_certain ? "" : " (the body gives no clear answer)");
     const std::string unit =
-        guess.unit_certain ? fmt::format("unit {} (stature {:.2f} m)", unit_name(layout.unit), guess.stature)
-                           : fmt::format("unit cm, which makes the body {:.3g} m tall and may be wrong", guess.stature);
+        !guess.unit_plausible
+            ? fmt::format("unit cm, which makes the body {:.3g} m tall and may well be wrong,", guess.stature)
+            : fmt::format("unit {} (stature {:.2f} m{})", unit_name(layout.unit), guess.stature,
+                          guess.unit_certain ? "" : ", which is unusual");
     std::string text;
     if (!options.up && !options.unit) text = fmt::format("{} and {} guessed; --up and --unit override", up, unit);
     if (!options.up && options.unit) text = fmt::format("{} guessed; --up overrides", up);

@@ -39,15 +39,21 @@ void append_fixed(std::string& out, double value, int decimals) {
 /// A length in the file's unit: the shortest decimals that a reader takes back to the same bits of metres.
 void append_length(std::string& out, float metres, double unit) {
   const double value = static_cast<double>(metres) / unit;
+  if (value == 0) {
+    out += '0';
+    return;
+  }
+  // Nine significant digits name every float.
+  const int last = std::max(4, 8 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
   const std::size_t begin = out.size();
-  for (int decimals = 4; decimals < 9; ++decimals) {
+  for (int decimals = std::max(4, last - 5); decimals < last; ++decimals) {
     append_fixed(out, value, decimals);
     double read = 0;
     std::from_chars(out.data() + begin, out.data() + out.size(), read);
     if (to_metres(static_cast<float>(read), unit) == metres) return;
     out.resize(begin);
   }
-  append_fixed(out, value, 9);
+  append_fixed(out, value, last);
 }
 
 /// The shortest decimal of six places or more that reads back as this rate.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -15,8 +16,45 @@ namespace {
 constexpr std::size_t kWindow = std::size_t{1} << 18;
 constexpr std::size_t kLongestWord = std::size_t{1} << 16;
 
-bool is_blank(int c) noexcept {
-  return c == ' ' || (c >= '\t' && c <= '\r');
+enum class Kind : unsigned char { letter, blank, nul };
+
+constexpr std::array<Kind, 256> kKinds = [] {
+  std::array<Kind, 256> kinds{};
+  kinds[0] = Kind::nul;
+  kinds[' '] = Kind::blank;
+  for (std::size_t c = '\t'; c <= '\r'; ++c) kinds[c] = Kind::blank;
+  return kinds;
+}();
+
+Kind kind_of(char c) noexcept {
+  return kKinds[static_cast<unsigned char>(c)];
+}
+
+/// True where a number that no double can hold is too small rather than too large.
+bool underflows(std::string_view text) noexcept {
+  long long power = 0;  // of ten, of the first digit that is not 0
+  bool point = false;
+  bool digits = false;
+  std::size_t i = 0;
+  for (; i < text.size() && text[i] != 'e' && text[i] != 'E'; ++i) {
+    if (text[i] == '.') {
+      point = true;
+    } else if (text[i] >= '0' && text[i] <= '9') {
+      digits = digits || text[i] != '0';
+      if (digits && !point) ++power;
+      if (!digits && point) --power;
+    }
+  }
+  if (i < text.size()) {
+    ++i;
+    const bool negative = i < text.size() && text[i] == '-';
+    if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
+    long long exponent = 0;
+    const auto [end, error] = std::from_chars(text.data() + i, text.data() + text.size(), exponent);
+    if (error == std::errc::result_out_of_range) return negative;
+    power += negative ? -exponent : exponent;
+  }
+  return power < 0;
 }
 
 }  // namespace
@@ -35,12 +73,12 @@ TextReader::TextReader(const std::filesystem::path& path) : name_(path.string())
   total_bytes_ = ignored ? 0 : size;
   window_.resize(kWindow);
   fill();
-  if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+  if (text_.starts_with("\xEF\xBB\xBF")) consume(3);
 }
 
 TextReader::TextReader(std::string name, std::string_view text)
     : name_(std::move(name)), text_(text), total_bytes_(text.size()) {
-  if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+  if (text_.starts_with("\xEF\xBB\xBF")) consume(3);
 }
 
 TextReader::~TextReader() {
@@ -62,13 +100,15 @@ int TextReader::look() {
   return static_cast<unsigned char>(text_.front());
 }
 
-int TextReader::get() {
-  const int c = look();
-  if (c < 0) return c;
-  text_.remove_prefix(1);
-  ++consumed_;
-  if (c == '\n' || (c == '\r' && look() != '\n')) ++current_line_;
-  return c;
+void TextReader::consume(std::size_t bytes) noexcept {
+  text_.remove_prefix(bytes);
+  consumed_ += bytes;
+}
+
+/// Counts lines; a CR counts at once, and the LF after it no more.
+void TextReader::step_over(char c) noexcept {
+  if (c == '\r' || (c == '\n' && !after_return_)) ++current_line_;
+  after_return_ = c == '\r';
 }
 
 std::string_view TextReader::word() {
@@ -76,14 +116,36 @@ std::string_view TextReader::word() {
     peeked_ = false;
     return word_;
   }
-  word_.clear();
-  while (is_blank(look())) get();
+  do {
+    std::size_t blanks = 0;
+    for (; blanks < text_.size() && kind_of(text_[blanks]) == Kind::blank; ++blanks) step_over(text_[blanks]);
+    consume(blanks);
+  } while (text_.empty() && fill());
   line_ = current_line_;
-  for (int c = look(); c >= 0 && !is_blank(c); c = look()) {
-    if (c == 0) fail("a NUL byte: this is not a text file");
-    if (word_.size() == kLongestWord) fail("a word of more than 64 KiB: this is not a text file");
-    word_ += static_cast<char>(c);
-    get();
+  after_return_ = false;
+
+  // Nearly every word lies in the window whole and is returned from there; only one at its edge is put together.
+  word_ = {};
+  bool joined = false;
+  while (!text_.empty()) {
+    std::size_t size = 0;
+    while (size < text_.size() && kind_of(text_[size]) == Kind::letter) ++size;
+    if (size < text_.size() && text_[size] == '\0') fail("a NUL byte: this is no text file");
+    if (size + (joined ? joined_.size() : 0) > kLongestWord) {
+      fail("a word of more than 64 KiB: this is no file of the expected kind");
+    }
+    const std::string_view part = text_.substr(0, size);
+    const bool whole = size < text_.size() || file_ == nullptr;
+    if (whole && !joined) {
+      word_ = part;
+    } else {
+      if (!joined) joined_.clear();
+      joined_ += part;
+      word_ = joined_;
+      joined = true;
+    }
+    consume(size);
+    if (whole || !fill()) break;
   }
   return word_;
 }
@@ -97,39 +159,44 @@ std::string_view TextReader::peek() {
 }
 
 std::string_view TextReader::rest_of_line() {
-  // A peeked word may stand on a later line, so peeking and then reading a line is a bug of the caller's.
-  std::string line = peeked_ ? word_ : std::string();
+  std::string line = peeked_ ? std::string(word_) : std::string();
+  if (!peeked_) line_ = current_line_;
   peeked_ = false;
-  if (line.empty()) line_ = current_line_;
-  for (int c = look(); c >= 0 && c != '\n' && c != '\r'; c = look()) {
-    if (c == 0) fail("a NUL byte: this is not a text file");
+  int c = look();
+  for (; c >= 0 && c != '\n' && c != '\r'; c = look()) {
+    if (c == 0) fail("a NUL byte: this is no text file");
     if (line.size() == kLongestWord) fail("a line of more than 64 KiB where a name was expected");
     line += static_cast<char>(c);
-    get();
+    consume(1);
   }
-  if (get() == '\r' && look() == '\n') get();
-  word_ = std::string(trimmed(line));
+  if (c >= 0) {
+    step_over(static_cast<char>(c));
+    consume(1);
+    if (c == '\r' && look() == '\n') consume(1);
+    after_return_ = false;
+  }
+  joined_ = trimmed(line);
+  word_ = joined_;
   return word_;
 }
 
 double TextReader::number(std::string_view what) {
   std::string_view text = word();
   if (text.empty()) fail(fmt::format("the file ends here, expected {}", what));
-  if (text.front() == '+') text.remove_prefix(1);
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc::result_out_of_range && end == text.data() + text.size()) {
     // Too small for a double is as good as 0; too large is as bad as infinite.
-    const bool tiny = text.find("e-") != text.npos || text.find("E-") != text.npos || text.starts_with("0.0") ||
-                      text.starts_with("-0.0") || text.starts_with(".0");
-    if (tiny) return 0.0;
+    if (underflows(text)) return 0.0;
     fail(fmt::format("'{}' is too large, expected {}", printable(word_), what));
   }
   if (error != std::errc() || end != text.data() + text.size()) {
     fail(fmt::format("expected {}, found '{}'", what, printable(word_)));
   }
-  if (!std::isfinite(value))
+  if (!std::isfinite(value)) {
     fail(fmt::format("expected {}, found '{}', which is no finite number", what, printable(word_)));
+  }
   return value;
 }
 

@@ -52,8 +52,9 @@ class TextReader {
 
  private:
   bool fill();
-  int get();
   int look();
+  void consume(std::size_t bytes) noexcept;
+  void step_over(char c) noexcept;
 
   std::string name_;
   std::FILE* file_ = nullptr;
@@ -63,7 +64,9 @@ class TextReader {
   std::size_t consumed_ = 0;
   std::size_t current_line_ = 1;
   std::size_t line_ = 1;
-  std::string word_;
+  bool after_return_ = false;  ///< the last character was a CR, so an LF belongs to the same line end
+  std::string_view word_;      ///< into the window, or into `joined_`
+  std::string joined_;         ///< a word or line that did not lie in one window
   bool peeked_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace signweave {
 namespace {
@@ -71,6 +72,21 @@ constexpr std::array kStandardRates = {
     FrameRate{24000, 1001}, FrameRate{30000, 1001}, FrameRate{48000, 1001}, FrameRate{60000, 1001},
     FrameRate{120000, 1001}};
 
+/// NTSC rates as people write them.
+constexpr std::array kDecimalRates = {FrameRate{2997, 125}, FrameRate{2997, 100}, FrameRate{2997, 50}};
+
+/// The rate whose frame time is nearest to `seconds`, none where all are farther off than `most`.
+std::optional<FrameRate> nearest(std::span<const FrameRate> rates, double seconds, double most) {
+  std::optional<FrameRate> result;
+  for (const FrameRate& rate : rates) {
+    const double off = std::abs(rate.frame_time().count() - seconds);
+    if (off > most) continue;
+    most = off;
+    result = rate;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<SnappedRate> snap_frame_time(std::string_view text) {
@@ -85,18 +101,15 @@ std::optional<SnappedRate> snap_frame_time(std::string_view text) {
   // Without the exact decimals the last printed place is unknown: take a double's own precision for it.
   const double half_place =
       decimal ? 0.5 * std::pow(10.0, -decimal->decimals) : seconds * std::numeric_limits<double>::epsilon();
-  // A rounded frame time covers an interval of rates; two standard rates may lie in it ("0.02" is 48 as well as 50), so
-  // the nearest one is taken, and only where the interval is narrow enough to mean anything (0.5 %).
-  const FrameRate* nearest = nullptr;
-  double distance = std::min(half_place * 1.02 + 1e-15, seconds * 0.005);
-  for (const FrameRate& rate : kStandardRates) {
-    const double off = std::abs(rate.frame_time().count() - seconds);
-    if (off <= distance) {
-      distance = off;
-      nearest = &rate;
-    }
-  }
-  if (nearest != nullptr) return SnappedRate{*nearest, nearest->frame_time().count() != seconds};
+  // A rounded frame time covers an interval of rates. Several standard rates may lie in it ("0.02" is 48 as well as
+  // 50), so the nearest one is taken, and only where the interval is narrow enough to mean anything ("0.03" is no
+  // rate).
+  const double last_place = half_place * 1.02 + 1e-15;
+  std::optional<FrameRate> rate = nearest(kStandardRates, seconds, std::min(last_place, 0.025 * seconds));
+  // Some programs cut digits off instead of rounding ("0.0166"), and some take "23.976" by its word.
+  if (!rate && decimal) rate = nearest(kStandardRates, seconds + half_place, std::min(last_place, 0.005 * seconds));
+  if (!rate) rate = nearest(kDecimalRates, seconds, std::min(last_place, 0.005 * seconds));
+  if (rate) return SnappedRate{*rate, rate->frame_time().count() != seconds};
 
   if (decimal && decimal->digits > 0 && decimal->decimals >= 0 && decimal->decimals <= 18) {
     std::int64_t numerator = 1;

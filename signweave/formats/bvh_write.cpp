@@ -1,0 +1,248 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <numbers>
+
+#include "signweave/core/atomic_file.h"
+#include "signweave/core/text.h"
+#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh_euler.h"
+#include "signweave/formats/bvh_space.h"
+
+namespace signweave::bvh {
+namespace {
+
+constexpr std::size_t kFlushAt = std::size_t{1} << 16;
+constexpr std::size_t kDeepestIndent = 24;  ///< a chain of 60,000 joints would be all tabs otherwise
+constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
+                                                           "Xrotation", "Yrotation", "Zrotation"};
+
+using Sink = std::function<void(std::string_view)>;
+
+/// Appends `value` with at most `decimals` decimals and none that say nothing. Never in scientific notation, which not
+/// every reader of BVH knows.
+void append_fixed(std::string& out, double value, int decimals) {
+  const std::size_t begin = out.size();
+  fmt::format_to(std::back_inserter(out), "{:.{}f}", value, decimals);
+  if (decimals > 0) {
+    out.erase(out.find_last_not_of('0') + 1);
+    if (out.back() == '.') out.pop_back();
+  }
+  if (std::string_view(out).substr(begin) == "-0") out.erase(begin, 1);
+}
+
+/// A length in the file's unit: the shortest decimals that a reader takes back to the same bits of metres.
+void append_length(std::string& out, float metres, double unit) {
+  const double value = static_cast<double>(metres) / unit;
+  const std::size_t begin = out.size();
+  for (int decimals = 4; decimals < 9; ++decimals) {
+    append_fixed(out, value, decimals);
+    double read = 0;
+    std::from_chars(out.data() + begin, out.data() + out.size(), read);
+    if (to_metres(static_cast<float>(read), unit) == metres) return;
+    out.resize(begin);
+  }
+  append_fixed(out, value, 9);
+}
+
+/// The shortest decimal of six places or more that reads back as this rate.
+std::string frame_time_text(FrameRate rate) {
+  for (int decimals = 6; decimals < 17; ++decimals) {
+    std::string text = fmt::format("{:.{}f}", rate.frame_time().count(), decimals);
+    const std::optional<SnappedRate> read = snap_frame_time(text);
+    if (read && read->rate == rate) return text;
+  }
+  return fmt::format("{:.17g}", rate.frame_time().count());
+}
+
+class Writer {
+ public:
+  Writer(const Motion& motion, const Layout& layout, const Sink& sink)
+      : motion_(motion),
+        skeleton_(motion.skeleton()),
+        layout_(layout),
+        space_{.up = layout.up, .mirrored = layout.mirrored},
+        sink_(sink),
+        columns_(layout.channels) {
+    if (!fits(layout, skeleton_)) {
+      throw Error(ErrorCode::bad_input,
+                  "this BVH layout does not fit the motion's skeleton: it needs the same joints, and positions for "
+                  "every joint that moves; write with the default layout");
+    }
+    if (layout.root_columns == RootColumns::rotation_first) {
+      std::rotate(columns_[0].begin(), columns_[0].begin() + 3, columns_[0].end());
+    }
+    for (const Joint& joint : skeleton_.joints()) {
+      if (joint.name.find_first_of(std::string_view("\r\n\0", 3)) != std::string::npos) {
+        throw Error(ErrorCode::bad_input, fmt::format("joint '{}' has a line break in its name, which BVH cannot hold; "
+                                                      "rename it",
+                                                      printable(joint.name)));
+      }
+    }
+    for (const std::vector<Channel>& channels : columns_) orders_.push_back(rotation_order(channels));
+    before_.resize(columns_.size());
+  }
+
+  void write() {
+    write_hierarchy();
+    write_header();
+    for (std::int64_t frame = 0; frame < motion_.frame_count(); ++frame) write_frame(frame);
+    sink_(text_);
+  }
+
+ private:
+  double unit_of(std::size_t joint) const noexcept { return joint == 0 ? layout_.root_unit : layout_.unit; }
+
+  void indent(std::size_t depth) { text_.append(std::min(depth, kDeepestIndent), '\t'); }
+
+  void flush() {
+    if (text_.size() < kFlushAt) return;
+    sink_(text_);
+    text_.clear();
+  }
+
+  void write_offset(const Eigen::Vector3f& offset, double unit) {
+    const Eigen::Vector3f turned = space_.to_file(offset);
+    text_ += "OFFSET";
+    for (const float value : turned) {
+      text_ += ' ';
+      append_length(text_, value, unit);
+    }
+    text_ += '\n';
+  }
+
+  /// Opens a joint: everything but its children and its closing brace.
+  void write_joint(std::size_t joint, std::size_t depth) {
+    indent(depth);
+    text_ += joint == 0 ? "ROOT " : "JOINT ";
+    text_ += skeleton_.joints()[joint].name;
+    text_ += '\n';
+    indent(depth);
+    text_ += "{\n";
+    indent(depth + 1);
+    write_offset(skeleton_.joints()[joint].offset, unit_of(joint));
+    indent(depth + 1);
+    text_ += fmt::format("CHANNELS {}", layout_.channels[joint].size());
+    for (const Channel channel : layout_.channels[joint]) {
+      text_ += ' ';
+      text_ += kChannelNames[static_cast<std::size_t>(channel)];
+    }
+    text_ += '\n';
+  }
+
+  void write_tip(const Tip& tip, std::size_t depth) {
+    indent(depth);
+    text_ += "End Site\n";
+    indent(depth);
+    text_ += "{\n";
+    indent(depth + 1);
+    write_offset(tip.offset, layout_.unit);
+    indent(depth);
+    text_ += "}\n";
+  }
+
+  /// Depth first with a list of its own, since files nest thousands deep. The order met is the order of the columns.
+  void write_hierarchy() {
+    const std::size_t joints = skeleton_.joint_count();
+    std::vector<std::vector<std::size_t>> children(joints);
+    std::vector<std::vector<std::size_t>> tips(joints);
+    for (std::size_t i = 1; i < joints; ++i) {
+      children[static_cast<std::size_t>(skeleton_.joints()[i].parent)].push_back(i);
+    }
+    for (std::size_t i = 0; i < skeleton_.tips().size(); ++i) {
+      tips[static_cast<std::size_t>(skeleton_.tips()[i].joint)].push_back(i);
+    }
+    struct Open {
+      std::size_t joint;
+      std::size_t next_child = 0;
+    };
+    std::vector<Open> open;
+    const auto enter = [&](std::size_t joint) {
+      write_joint(joint, open.size());
+      open.push_back({.joint = joint});
+      order_.push_back(joint);
+      for (const std::size_t tip : tips[joint]) write_tip(skeleton_.tips()[tip], open.size());
+    };
+    text_ += "HIERARCHY\n";
+    enter(0);
+    while (!open.empty()) {
+      Open& last = open.back();
+      if (last.next_child < children[last.joint].size()) {
+        enter(children[last.joint][last.next_child++]);
+      } else {
+        open.pop_back();
+        indent(open.size());
+        text_ += "}\n";
+      }
+      flush();
+    }
+  }
+
+  void write_header() {
+    // The text of the file stands only for the rate that it was read as; a motion of another rate prints its own.
+    const std::optional<SnappedRate> printed = snap_frame_time(layout_.frame_time);
+    const bool keep = printed && printed->rate == motion_.rate();
+    text_ += fmt::format("MOTION\nFrames: {}\nFrame Time: {}\n", motion_.frame_count(),
+                         keep ? layout_.frame_time : frame_time_text(motion_.rate()));
+  }
+
+  void write_frame(std::int64_t frame) {
+    const PoseView pose = motion_.pose(frame);
+    bool first = true;
+    for (const std::size_t joint : order_) {
+      const RotationOrder& order = orders_[joint];
+      const Eigen::Quaterniond rotation = space_.to_file(pose.rotations[joint]).cast<double>().normalized();
+      const Angles angles = angles_of(rotation, order, frame == 0 ? nullptr : &before_[joint]);
+      before_[joint] = angles;
+      const std::optional<std::size_t> translation = skeleton_.translation_of(static_cast<JointIndex>(joint));
+      const Eigen::Vector3f position =
+          space_.to_file(translation ? pose.translations[*translation] : skeleton_.joints()[joint].offset);
+      std::size_t rotations = 0;
+      for (const Channel channel : columns_[joint]) {
+        if (!first) text_ += ' ';
+        first = false;
+        if (is_rotation(channel)) {
+          append_fixed(text_, angles[rotations++] * (180 / std::numbers::pi), 6);
+        } else {
+          append_length(text_, position[axis_of(channel)], unit_of(joint));
+        }
+      }
+    }
+    text_ += '\n';
+    flush();
+  }
+
+  const Motion& motion_;
+  const Skeleton& skeleton_;
+  const Layout& layout_;
+  Space space_;
+  const Sink& sink_;
+  std::vector<std::vector<Channel>> columns_;  ///< [joint], as they stand in a frame
+  std::vector<RotationOrder> orders_;          ///< [joint]
+  std::vector<Angles> before_;                 ///< [joint], of the frame before
+  std::vector<std::size_t> order_;             ///< joints in the file's order
+  std::string text_;
+};
+
+}  // namespace
+
+void write(const std::filesystem::path& path, const Motion& motion, const Layout& layout) {
+  AtomicFile file(path);
+  const Sink sink = [&](std::string_view text) { file.write(text); };
+  Writer(motion, layout, sink).write();
+  file.commit();
+}
+
+std::string write_text(const Motion& motion, const Layout& layout) {
+  std::string result;
+  const Sink sink = [&](std::string_view text) { result += text; };
+  Writer(motion, layout, sink).write();
+  return result;
+}
+
+}  // namespace signweave::bvh

@@ -1,0 +1,108 @@
+#include "demo/corpus.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "signweave/formats/contact_sheet.h"
+
+namespace signweave::demo {
+namespace {
+
+struct PlacedPhase {
+  const char* label;
+  std::int64_t begin, end;  ///< frames
+};
+
+std::vector<PlacedPhase> phases_of(const PlacedSign& sign) {
+  return {{"Preparation", sign.begin, sign.stroke_begin},
+          {"Stroke", sign.stroke_begin, sign.stroke_end},
+          {"Retraction", sign.stroke_end, sign.end}};
+}
+
+AnnotationDocument annotate(const Script& script, const Timeline& timeline) {
+  const FrameClock clock{.frame_time = timeline.rate.frame_time()};
+  AnnotationDocument document;
+  document.author = "signweave demo: synthetic, placeholder shapes, not LSF";
+  document.date = "2009-07-06T12:00:00+02:00";  // the sixth of July that the forecast speaks of: the same bytes always
+  document.linked_files.push_back({.url = "./" + script.name + ".bvh",
+                                   .relative_url = "./" + script.name + ".bvh",
+                                   .mime_type = "application/octet-stream",
+                                   .media = false});
+  document.properties = {{"signweave:placeholder", "made motion: these shapes are not signs of LSF"}};
+  document.types = {{"gloss", Stereotype::none, ""}, {"phase", Stereotype::time_subdivision, ""}};
+  Tier glosses;
+  glosses.id = "Gloss";
+  glosses.type = "gloss";
+  glosses.participant = "synthetic";
+  Tier phases = glosses;
+  phases.id = "Phase";
+  phases.type = "phase";
+  phases.parent = glosses.id;
+  std::size_t number = 0;
+  const auto next_id = [&number] { return fmt::format("a{}", ++number); };
+  for (const PlacedSign& sign : timeline.signs) {
+    const std::string id = next_id();
+    glosses.annotations.push_back(
+        {.id = id, .label = std::string(sign.shape->gloss), .span = span_of({sign.begin, sign.end}, clock), .parent = ""});
+    for (const PlacedPhase& phase : phases_of(sign)) {
+      phases.annotations.push_back(
+          {.id = next_id(), .label = phase.label, .span = span_of({phase.begin, phase.end}, clock), .parent = id});
+    }
+  }
+  document.tiers = {std::move(glosses), std::move(phases)};
+  return document;
+}
+
+std::string truth_of(const Script& script, const Timeline& timeline) {
+  const FrameClock clock{.frame_time = timeline.rate.frame_time()};
+  const WristPlan plan(script, timeline);
+  std::string text = "gloss,phase,begin_ms,end_ms,hand,x,y,z\n";
+  for (const PlacedSign& sign : timeline.signs) {
+    for (const PlacedPhase& phase : phases_of(sign)) {
+      const TimeSpan span = span_of({phase.begin, phase.end}, clock);
+      for (const Side side : {Side::right, Side::left}) {
+        if (!acts(*sign.shape, side)) continue;
+        const Eigen::Vector3f wrist = plan.at(side, static_cast<double>(phase.end));
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{:.4f},{:.4f},{:.4f}\n", sign.shape->gloss,
+                       phase.label, span.begin.count(), span.end.count(), side == Side::right ? "right" : "left",
+                       wrist.x(), wrist.y(), wrist.z());
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+SyntheticRecording make_recording(const Script& script, FrameRate rate, std::uint64_t seed) {
+  // One stream of numbers per recording and use, so that a change of one leaves the others as they are.
+  std::uint64_t mixed = seed;
+  for (const char c : script.name) mixed = mixed * 1'099'511'628'211ull + static_cast<unsigned char>(c);
+  Random timing(mixed);
+  Random unrest(timing.bits());
+  const Signer signer = make_signer();
+  SyntheticRecording recording;
+  recording.name = script.name;
+  recording.timeline = schedule(script, rate, timing);
+  recording.motion = animate(signer, script, recording.timeline, unrest);
+  recording.document = annotate(script, recording.timeline);
+  recording.truth = truth_of(script, recording.timeline);
+  return recording;
+}
+
+std::string stroke_sheet(const SyntheticRecording& recording) {
+  ContactSheetOptions options;
+  options.columns = 8;
+  options.title = recording.name + ": begin and end of every stroke";
+  options.note = "synthetic motion: placeholder shapes, not LSF";
+  for (const PlacedSign& sign : recording.timeline.signs) {
+    options.frames.push_back(sign.stroke_begin);
+    options.captions.push_back(fmt::format("{} [", sign.shape->gloss));
+    options.frames.push_back(sign.stroke_end);
+    options.captions.push_back(fmt::format("{} ]", sign.shape->gloss));
+  }
+  return contact_sheet(recording.motion, options);
+}
+
+}  // namespace signweave::demo

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signweave/core/error.h"
+
+namespace signweave::eaf {
+
+/// The XML of one EAF file as a tree that knows its lines. For the eaf_*.cpp files only.
+///
+/// Encodings: UTF-8 (with or without a byte order mark), UTF-16 and UTF-32 (by mark, or by the zero bytes of "<"), and
+/// ISO-8859-1 where the XML declaration says so. Entities that a DOCTYPE defines are not expanded: "&lol;" stays the
+/// five letters it is, so a bomb of entities is harmless.
+class Xml {
+ public:
+  /// Parses `bytes`, which must outlive this. `name` stands for the file in errors.
+  /// Throws Error{bad_input, "NAME:LINE: …"} for what is empty, binary, cut off or no XML.
+  Xml(std::string name, std::string_view bytes);
+  Xml(const Xml&) = delete;
+  Xml& operator=(const Xml&) = delete;
+
+  pugi::xml_node root() const { return document_.document_element(); }
+  const pugi::xml_document& document() const noexcept { return document_; }
+  const std::string& name() const noexcept { return name_; }
+  /// The text as UTF-8: the bytes themselves, or what they were converted to. Offsets of nodes point into it.
+  std::string_view text() const noexcept { return text_; }
+  /// From 1; 0 where the node has no place.
+  std::size_t line_of(pugi::xml_node node) const;
+
+  /// An attribute's value, empty where it is missing. Valid as long as this.
+  std::string_view attribute(pugi::xml_node node, const char* name) const;
+  /// An attribute that must be there and not be empty.
+  std::string_view required(pugi::xml_node node, const char* name) const;
+  /// All text directly inside a node, blanks and all.
+  std::string content(pugi::xml_node node) const;
+
+  [[noreturn]] void fail(pugi::xml_node node, std::string_view what) const;
+  Notice notice(pugi::xml_node node, std::string_view what) const;
+
+ private:
+  [[noreturn]] void fail_at(std::size_t offset, std::string_view what) const;
+  void decode(std::string_view bytes);
+  std::size_t line_at(std::size_t offset) const;
+  std::string where(pugi::xml_node node) const;
+
+  std::string name_;
+  std::string converted_;  ///< where the bytes were no UTF-8
+  std::string_view text_;
+  std::vector<std::size_t> line_starts_;
+  pugi::xml_document document_;
+};
+
+/// `text` as it stands in XML between tags or in a quoted attribute. Throws Error{bad_input} for what XML cannot hold:
+/// bytes that are not UTF-8, and control characters; `what` names the text.
+std::string escaped(std::string_view text, std::string_view what);
+
+}  // namespace signweave::eaf

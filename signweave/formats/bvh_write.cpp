@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t kFlushAt = std::size_t{1} << 16;
 constexpr std::size_t kDeepestIndent = 24;  ///< a chain of 60,000 joints would be all tabs otherwise
+constexpr int kAngleDecimals = 5;           ///< degrees; what follows is the rounding of float quaternions
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
 
@@ -56,14 +57,14 @@ void append_length(std::string& out, float metres, double unit) {
   append_fixed(out, value, last);
 }
 
-/// The shortest decimal of six places or more that reads back as this rate.
+/// The shortest decimal of six places or more that reads back as this rate, or comes nearest to it.
 std::string frame_time_text(FrameRate rate) {
   for (int decimals = 6; decimals < 17; ++decimals) {
     std::string text = fmt::format("{:.{}f}", rate.frame_time().count(), decimals);
     const std::optional<SnappedRate> read = snap_frame_time(text);
     if (read && read->rate == rate) return text;
   }
-  return fmt::format("{:.17g}", rate.frame_time().count());
+  return fmt::format("{:.15f}", rate.frame_time().count());
 }
 
 class Writer {
@@ -213,7 +214,7 @@ class Writer {
         if (!first) text_ += ' ';
         first = false;
         if (is_rotation(channel)) {
-          append_fixed(text_, angles[rotations++] * (180 / std::numbers::pi), 6);
+          append_fixed(text_, angles[rotations++] * (180 / std::numbers::pi), kAngleDecimals);
         } else {
           append_length(text_, position[axis_of(channel)], unit_of(joint));
         }

@@ -119,11 +119,16 @@ TEST_P(KvStoreTest, BytesLentByAWriteTransactionSurviveItsOwnPuts) {
   put(*store_, "small", "value");
   put(*store_, "large", std::string(9'000, 'l'));
   const auto change = store_->write();
+  for (const char* key : {"a", "b", "c"}) change->put(bytes_of(key), bytes_of("first"));
+  const std::optional<ByteSpan> own = change->get(bytes_of("b"));
   const std::optional<ByteSpan> small = change->get(bytes_of("small"));
   const std::optional<ByteSpan> large = change->get(bytes_of("large"));
   for (int i = 0; i < 200; ++i) change->put(bytes_of("key" + std::to_string(i)), bytes_of(std::string(100, 'x')));
   change->put(bytes_of("small"), bytes_of("other"));
   change->put(bytes_of("large"), bytes_of(std::string(9'000, 'm')));
+  change->erase(bytes_of("a"));
+  change->put(bytes_of("b"), bytes_of("other"));
+  EXPECT_EQ(text_of(*own), "first");
   EXPECT_EQ(text_of(*small), "value");
   EXPECT_EQ(text_of(*large), std::string(9'000, 'l'));
 }

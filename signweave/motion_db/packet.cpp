@@ -248,11 +248,11 @@ Skeleton decode_skeleton(ByteSpan value, const std::string& where) {
   }
 }
 
-std::string name_of(std::uint64_t generation, const Record& record, const Skeleton* skeleton) {
-  std::string name = "stored motion " + std::to_string(generation);
+std::string name_of(const StoredMotion& stored, const Record& record, const Skeleton* skeleton) {
+  std::string name = "stored motion " + std::to_string(stored.generation);
   if (record.kind == RecordKind::skeleton) return name + ", skeleton";
   if (record.kind == RecordKind::track) {
-    name += ", track " + std::to_string(record.part);
+    name += ", track " + std::to_string(record.part) + " (" + printable(stored.tracks[record.part]) + ')';
   } else if (record.part == kAllJoints) {
     name += ", all joints";
   } else {

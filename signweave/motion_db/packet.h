@@ -85,6 +85,6 @@ const char* fault_of(ByteSpan value, std::uint64_t generation, const Record& rec
 Skeleton decode_skeleton(ByteSpan value, const std::string& where);
 
 /// "stored motion 7, joint 3 (LeftHand), frames [64, 128)": for errors. `skeleton` may be null.
-std::string name_of(std::uint64_t generation, const Record& record, const Skeleton* skeleton);
+std::string name_of(const StoredMotion& stored, const Record& record, const Skeleton* skeleton);
 
 }  // namespace signweave::motion_db

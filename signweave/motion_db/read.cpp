@@ -15,7 +15,7 @@ struct Found {
 };
 
 [[noreturn]] void fail(const StoredMotion& stored, const Record& record, const Skeleton* skeleton, const char* fault) {
-  throw Error(ErrorCode::corrupt, name_of(stored.generation, record, skeleton) + ": " + fault +
+  throw Error(ErrorCode::corrupt, name_of(stored, record, skeleton) + ": " + fault +
                                       "; import the recording again or restore the database from a copy");
 }
 
@@ -111,8 +111,7 @@ std::shared_ptr<const Skeleton> read_skeleton(const kv::ReadTransaction& snapsho
   if (const char* fault = fault_of(*value, stored.generation, Record{}, Width{})) {
     fail(stored, Record{}, nullptr, fault);
   }
-  auto skeleton =
-      std::make_shared<const Skeleton>(decode_skeleton(*value, name_of(stored.generation, Record{}, nullptr)));
+  auto skeleton = std::make_shared<const Skeleton>(decode_skeleton(*value, name_of(stored, Record{}, nullptr)));
   if (skeleton->joint_count() != stored.joints || skeleton->translation_count() != stored.translations) {
     fail(stored, Record{}, nullptr, "it has other joints than the motion");
   }
@@ -168,7 +167,7 @@ std::vector<std::string> check(const kv::ReadTransaction& snapshot, const Stored
   const auto check_record = [&](const Record& record, std::optional<Width> width) {
     const std::optional<ByteSpan> value = snapshot.get(key_of(stored.generation, record));
     const char* const fault = value ? fault_of(*value, stored.generation, record, width) : "it is missing";
-    if (fault) faults.push_back(name_of(stored.generation, record, skeleton.get()) + ": " + fault);
+    if (fault) faults.push_back(name_of(stored, record, skeleton.get()) + ": " + fault);
   };
   for_each_packet(stored, {0, stored.frames}, {}, [&](const Record& record) {
     std::optional<Width> width;

@@ -78,8 +78,9 @@ void SegmentTable::index_tiers() {
       if (list.empty() || list.back().tier != row.tier) list.push_back({row.tier, {id, id}, {id, id}});
       TierRows& rows = list.back();
       rows.extra.end = id + 1;
+      const bool follows = rows.own.begin < id && row.extra == rows_[id - 1].extra;
+      if (row.span.end < row.span.begin || (follows && row.span.begin < rows_[id - 1].span.end)) rows.apart = false;
       if (row.extra) continue;
-      if (rows.own.size() > 0 && row.span.begin < rows_[id - 1].span.end) rows.apart = false;
       rows.own.end = id + 1;
       rows.extra.begin = id + 1;
     }

@@ -108,7 +108,7 @@ class SegmentTable {
     std::uint32_t tier = kNone;
     RowRange own;       ///< the annotations of the tier, in time order
     RowRange extra;     ///< what stands for no annotation of its own (see `segments_of`), in time order
-    bool apart = true;  ///< no two of `own` overlap, so their ends ascend too; false in a faulty document only
+    bool apart = true;  ///< no two of `own` overlap, nor two of `extra`, so their ends ascend too
   };
   /// The tiers of a recording that have rows, ascending by tier.
   std::span<const TierRows> tiers_of(std::uint32_t recording) const noexcept;

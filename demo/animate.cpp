@@ -90,11 +90,12 @@ class Animator {
   const Quaternionf& rotation(JointIndex joint) const { return model_.rotations[static_cast<std::size_t>(joint)]; }
 
   /// Angles of the left arm (the right's are the same in the mirror) for a wrist at a place of the sign table.
-  WristAngles angles_at(const Vector3f& place, const Vector3f& palm, const Vector3f& fingers) const {
+  WristAngles angles_at(const Vector3f& place, const Vector3f& palm, const Vector3f& fingers,
+                        float swivel = kNaturalSwivel) const {
     const Vector3f wrist = to_model(place, Side::left);
     const Vector3f clavicle = signer_.rest_position(signer_.left.shoulder);
     const Vector3f shoulder = clavicle + clavicle_rotation(wrist - shoulder_) * (shoulder_ - clavicle);
-    return comfortable_wrist(shoulder, wrist, sizes_, palm, fingers);
+    return comfortable_wrist(shoulder, wrist, sizes_, palm, fingers, swivel);
   }
 
   struct Held {
@@ -107,14 +108,16 @@ class Animator {
     if (fresh) at->second = find_held(sign, side, done);
     return at->second;
   }
-  Held find_held(const SignShape* sign, Side side, int done) const {
+  Held find_held(const SignShape* sign, Side side, int done) {
     if (sign == nullptr || !acts(*sign, side)) return {rest_, Handshape::relaxed};
     if (side == Side::left && sign->hands == Hands::on_base) {
       return {angles_at(sign->base.place, sign->base.palm, sign->base.fingers), sign->base.shape};
     }
     const Vector3f place = stroke_place(*sign, side, static_cast<float>(done));
     if (done == 0) return {angles_at(place, sign->palm, sign->fingers), sign->shape};
-    return {angles_at(place, sign->palm_end.value_or(sign->palm), sign->fingers_end.value_or(sign->fingers)),
+    // In the stroke the elbow stays about where it is.
+    const float swivel = held(sign, side, 0).angles.swivel;
+    return {angles_at(place, sign->palm_end.value_or(sign->palm), sign->fingers_end.value_or(sign->fingers), swivel),
             sign->shape_end.value_or(sign->shape)};
   }
 

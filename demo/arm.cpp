@@ -17,7 +17,7 @@ constexpr float radians(float degrees) {
   return degrees * std::numbers::pi_v<float> / 180.0f;
 }
 
-constexpr float kMiddleTwist = radians(-80);  // thumb up, between pronation and supination
+constexpr float kMiddleTwist = radians(-5);
 
 /// The rotation that takes the rest pose's arm (along x, bending about −y) to a bone direction and a hinge.
 Quaternionf bone_rotation(const Vector3f& along, const Vector3f& hinge) {
@@ -78,7 +78,7 @@ ArmPose solve_arm(const Vector3f& shoulder, const Vector3f& wrist, ArmSizes size
 }
 
 WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, ArmSizes sizes, const Vector3f& palm,
-                              const Vector3f& fingers) {
+                              const Vector3f& fingers, float swivel) {
   Matrix3f axes;  // the rest pose's hand: fingers along x, palm towards −y
   axes.col(0) = fingers.normalized();
   axes.col(1) = -(palm - palm.dot(axes.col(0)) * axes.col(0)).normalized();
@@ -87,7 +87,7 @@ WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, A
 
   WristAngles best;
   float least = std::numeric_limits<float>::max();
-  for (int degrees = -15; degrees <= 80; ++degrees) {
+  for (int degrees = -5; degrees <= 60; ++degrees) {
     WristAngles angles{.swivel = radians(static_cast<float>(degrees))};
     const Quaternionf turn = solve_arm(shoulder, wrist, sizes, angles).fore_arm.conjugate() * hand;
     // turn = twist about x, then a swing without any: its x is 0.
@@ -101,14 +101,14 @@ WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, A
     angles.flexion = -vector.z();
     const auto square = [](float value) { return value * value; };
     const float cost =
-        square(excess(twist - kMiddleTwist, radians(60))) * 2 + square(excess(angles.flexion, radians(35))) +
-        square(excess(angles.radial + radians(8), radians(18))) * 2 + 0.06f * square(angles.swivel - radians(8));
+        square(excess(twist - kMiddleTwist, radians(55))) * 2 + square(excess(angles.flexion, radians(35))) +
+        square(excess(angles.radial + radians(8), radians(18))) * 2 + 0.25f * square(angles.swivel - swivel);
     if (cost < least) {
       least = cost;
       best = angles;
     }
   }
-  best.twist = std::clamp(best.twist, radians(-170), radians(5));
+  best.twist = std::clamp(best.twist, radians(-90), radians(85));
   best.flexion = std::clamp(best.flexion, radians(-70), radians(70));
   best.radial = std::clamp(best.radial, radians(-40), radians(25));
   return best;

@@ -18,7 +18,7 @@ TwoBones solve_two_bones(const Eigen::Vector3f& start, const Eigen::Vector3f& ta
 
 /// What the wrist does, in the angles that joints have limits for. Radians.
 struct WristAngles {
-  float twist = 0;    ///< of the forearm about its length: 0 palm down (pronated), −π palm up (supinated)
+  float twist = 0;  ///< of the forearm: with the elbow at the side 0 turns the thumb up, −π/2 the palm up, π/2 down
   float flexion = 0;  ///< towards the palm
   float radial = 0;   ///< towards the thumb
   float swivel = 0;   ///< of the elbow about the line shoulder–wrist: outwards and up
@@ -37,10 +37,14 @@ struct ArmPose {
 ArmPose solve_arm(const Eigen::Vector3f& shoulder, const Eigen::Vector3f& wrist, ArmSizes sizes,
                   const WristAngles& angles);
 
-/// The angles that turn the palm and the fingers as near to two directions as joints allow (forearm 175° of turn, wrist
-/// 70° of flexion and of extension, 25° to the thumb, 40° from it), with the elbow where that is comfortable.
+inline constexpr float kNaturalSwivel = 0.2f;  ///< radians: the elbow a little away from the body
+
+/// The angles that turn the palm and the fingers as near to two directions as joints allow (forearm 90° to palm up and
+/// 85° to palm down, wrist 70° of flexion and of extension, 25° to the thumb, 40° from it), with the elbow as near to
+/// `swivel` as is comfortable.
 WristAngles comfortable_wrist(const Eigen::Vector3f& shoulder, const Eigen::Vector3f& wrist, ArmSizes sizes,
-                              const Eigen::Vector3f& palm, const Eigen::Vector3f& fingers);
+                              const Eigen::Vector3f& palm, const Eigen::Vector3f& fingers,
+                              float swivel = kNaturalSwivel);
 
 /// How the clavicle follows a wrist target (relative to the shoulder joint in the rest pose).
 Eigen::Quaternionf clavicle_rotation(const Eigen::Vector3f& shoulder_to_wrist);

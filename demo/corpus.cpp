@@ -43,8 +43,10 @@ AnnotationDocument annotate(const Script& script, const Timeline& timeline) {
   const auto next_id = [&number] { return fmt::format("a{}", ++number); };
   for (const PlacedSign& sign : timeline.signs) {
     const std::string id = next_id();
-    glosses.annotations.push_back(
-        {.id = id, .label = std::string(sign.shape->gloss), .span = span_of({sign.begin, sign.end}, clock), .parent = ""});
+    glosses.annotations.push_back({.id = id,
+                                   .label = std::string(sign.shape->gloss),
+                                   .span = span_of({sign.begin, sign.end}, clock),
+                                   .parent = ""});
     for (const PlacedPhase& phase : phases_of(sign)) {
       phases.annotations.push_back(
           {.id = next_id(), .label = phase.label, .span = span_of({phase.begin, phase.end}, clock), .parent = id});

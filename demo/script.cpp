@@ -126,7 +126,7 @@ Script villes() {
 }
 
 Eigen::Vector3f rest_place() {
-  return {0.105f, -0.375f, 0.190f};
+  return {0.095f, -0.410f, 0.195f};
 }
 
 Timeline schedule(const Script& script, FrameRate rate, Random& random) {

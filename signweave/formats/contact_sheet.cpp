@@ -37,6 +37,7 @@ struct Part {
 struct Bone {
   Vector3f from, to;  ///< metres, facing the viewer
   const Part* part;
+  bool skull = false;  ///< from the head joint to its top
 };
 
 bool contains(std::string_view text, std::string_view what) {
@@ -99,12 +100,12 @@ std::vector<Bone> bones_of(const Skeleton& skeleton, const std::vector<Part>& pa
   for (std::size_t i = 1; i < skeleton.joint_count(); ++i) {
     if (!parts[i].shown || parts[i].in_head) continue;
     const auto parent = static_cast<std::size_t>(skeleton.joints()[i].parent);
-    bones.push_back({pose.positions[parent], pose.positions[i], &parts[i]});
+    bones.push_back({pose.positions[parent], pose.positions[i], &parts[i], parts[parent].head && parts[i].head});
   }
   for (const Tip& tip : skeleton.tips()) {
     const auto joint = static_cast<std::size_t>(tip.joint);
     if (!parts[joint].shown || parts[joint].in_head) continue;
-    bones.push_back({pose.positions[joint], position_of(tip, pose), &parts[joint]});
+    bones.push_back({pose.positions[joint], position_of(tip, pose), &parts[joint], parts[joint].head});
   }
   return bones;
 }
@@ -190,7 +191,7 @@ void draw(const std::vector<Bone>& bones, const View& view, std::string& out) {
   for (const Bone* bone : order) {
     const double depth = 0.5 * static_cast<double>(bone->from.z() + bone->to.z());
     const double near = (depth - view.far) / std::max(view.near - view.far, 1e-6);
-    if (bone->part->head && bone->from != bone->to && bone->part->side == BodySide::none) {
+    if (bone->skull) {
       const Vector3f middle = 0.5f * (bone->from + bone->to);
       const double radius = 0.5 * view.scale * static_cast<double>((bone->to - bone->from).norm());
       fmt::format_to(std::back_inserter(out),

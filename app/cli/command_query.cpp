@@ -9,7 +9,7 @@
 #include "app/cli/command.h"
 #include "app/cli/table.h"
 #include "signweave/database/database.h"
-#include "signweave/query/hints.h"
+#include "signweave/query/find.h"
 #include "signweave/query/parse.h"
 #include "signweave/query/plan.h"
 

@@ -1,0 +1,225 @@
+// The paper's two scenarios (section 5.1) end to end over the library, on the demo corpus, for every transition method.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "demo/corpus.h"
+#include "signweave/core/error.h"
+#include "signweave/database/database.h"
+#include "signweave/database/test_recording.h"
+#include "signweave/formats/eaf.h"
+#include "signweave/motion/kinematics.h"
+#include "signweave/synthesis/provenance.h"
+#include "signweave/synthesis/synthesizer.h"
+
+namespace signweave {
+namespace {
+
+using testing_database::TestFolder;
+
+/// The demo corpus in a database, made once.
+const Database& corpus() {
+  static const TestFolder folder;
+  static const std::unique_ptr<const Database> database = [] {
+    Database::create(folder / "db", {});
+    Database writer(folder / "db", kv::Access::read_write);
+    for (const demo::Script& script : {demo::meteo(), demo::villes()}) {
+      demo::SyntheticRecording made = demo::make_recording(script, {100, 1}, 1);
+      Recording recording{.name = made.name};
+      recording.motion = MotionPart{.motion = std::move(made.motion)};
+      TierNames tiers = guess_tier_names(made.document);
+      recording.annotation = AnnotationPart{.document = std::move(made.document), .tiers = std::move(tiers)};
+      recording.clock = {.frame_time = Seconds(0.01)};
+      writer.put(recording);
+    }
+    return std::make_unique<const Database>(folder / "db", kv::Access::read_only);
+  }();
+  return *database;
+}
+
+class Scenario : public testing::TestWithParam<const TransitionMethod*> {
+ protected:
+  Synthesized edit(const Edit& what) const { return synthesize(corpus(), "meteo", what, {.method = GetParam()}); }
+};
+
+std::vector<std::string> glosses_of(const Synthesis& made) {
+  std::vector<std::string> glosses;
+  for (const PlacedSign& sign : made.signs) glosses.push_back(sign.sign.gloss);
+  return glosses;
+}
+
+std::vector<std::string> glosses_of_meteo() {
+  std::vector<std::string> glosses;
+  const AnnotationDocument document = corpus().document("meteo");
+  for (const Annotation& annotation : document.find_tier("Gloss")->annotations) glosses.push_back(annotation.label);
+  return glosses;
+}
+
+Edit scenario_1() {
+  Edit edit;
+  for (const char* text : {"BRETAGNE=VANNES", "DEMAIN=MARSEILLE", "VENDREDI=RENNES", "MATIN#2=LE MANS"}) {
+    edit.replacements.push_back(parse_replacement(text));
+  }
+  return edit;
+}
+
+Edit scenario_2() {
+  Edit edit;
+  edit.swaps.push_back(parse_swap("BRETAGNE..PLUIE,NUAGES#2..BROUILLARD"));
+  return edit;
+}
+
+/// Every frame that a recording gave has that recording's own bits (its root may be aligned).
+void expect_captured_frames_are_kept(const Synthesis& made) {
+  std::map<std::string, Motion> sources;
+  for (const Placed& placed : made.stretches) {
+    if (!sources.contains(placed.recording)) sources.emplace(placed.recording, corpus().read(placed.recording));
+  }
+  std::size_t kept = 0;
+  for (std::int64_t frame = 0; frame < made.motion.frame_count(); ++frame) {
+    const FrameSource& source = made.sources[static_cast<std::size_t>(frame)];
+    if (source.stretch == FrameSource::kNone) continue;
+    ASSERT_EQ(source.frame, std::floor(source.frame));
+    const Motion& recording = sources.at(made.stretches[static_cast<std::size_t>(source.stretch)].recording);
+    const PoseView captured = recording.pose(static_cast<std::int64_t>(source.frame));
+    const PoseView shown = made.motion.pose(frame);
+    for (std::size_t joint = 1; joint < shown.rotations.size(); ++joint) {
+      const auto& a = shown.rotations[joint].coeffs();
+      const auto& b = captured.rotations[joint].coeffs();
+      ASSERT_TRUE(a == b || a == -b) << "frame " << frame << " joint " << joint;
+    }
+    ++kept;
+  }
+  EXPECT_GT(kept, static_cast<std::size_t>(made.motion.frame_count()) * 3 / 4);
+}
+
+/// No hand moves faster than a hand can.
+void expect_no_jump(const Motion& motion) {
+  ModelPose before;
+  ModelPose now;
+  to_model_space(motion.skeleton(), motion.pose(0), before);
+  for (std::int64_t frame = 1; frame < motion.frame_count(); ++frame) {
+    to_model_space(motion.skeleton(), motion.pose(frame), now);
+    for (std::size_t joint = 0; joint < now.positions.size(); ++joint) {
+      const double speed = (now.positions[joint] - before.positions[joint]).norm() * motion.rate().hertz();
+      ASSERT_LT(speed, 5.0) << "m/s at frame " << frame << ", " << motion.skeleton().joints()[joint].name;
+    }
+    std::swap(before, now);
+  }
+}
+
+TEST_P(Scenario, OneReplacesFourWordsWithEightJunctions) {
+  const Synthesized made = edit(scenario_1());
+  EXPECT_EQ(made.result.junctions.size(), 8u);
+  std::vector<std::string> expected = glosses_of_meteo();
+  std::size_t matins = 0;
+  for (std::string& gloss : expected) {
+    if (gloss == "BRETAGNE") gloss = "VANNES";
+    if (gloss == "DEMAIN") gloss = "MARSEILLE";
+    if (gloss == "VENDREDI") gloss = "RENNES";
+    if (gloss == "MATIN" && ++matins == 2) gloss = "LE MANS";
+  }
+  EXPECT_EQ(glosses_of(made.result), expected);
+  expect_captured_frames_are_kept(made.result);
+  expect_no_jump(made.result.motion);
+}
+
+TEST_P(Scenario, TwoSwapsTwoPredictionsWithThreeJunctions) {
+  const Synthesized made = edit(scenario_2());
+  EXPECT_EQ(made.result.junctions.size(), 3u);
+  const std::vector<std::string> glosses = glosses_of(made.result);
+  const std::vector<std::string> tail(glosses.end() - 16, glosses.end());
+  EXPECT_THAT(tail, testing::ElementsAre("NUAGES", "NUIT", "EN-MER", "MATIN", "BROUILLARD", "DEMAIN", "SOLEIL-BRILLER",
+                                         "CHAUD-SEC-FERA", "NAGER", "CE-SERA-LE-MOMENT", "VENDREDI", "BRETAGNE",
+                                         "MATIN", "NUAGES", "APRES-MIDI", "PLUIE"));
+  expect_captured_frames_are_kept(made.result);
+  expect_no_jump(made.result.motion);
+}
+
+TEST_P(Scenario, TransitionsLastTheMeanOfTheCorpus) {
+  const Synthesized made = edit(scenario_1());
+  const auto mean = corpus().contents()->transitions.mean.count();
+  for (const Junction& junction : made.result.junctions) {
+    EXPECT_NEAR(static_cast<double>(junction.frames.size()) * 10.0, static_cast<double>(mean), 5.0);
+  }
+}
+
+TEST_P(Scenario, WhatElanShowsIsConsistent) {
+  const Synthesized made = edit(scenario_1());
+  const AnnotationDocument document = annotation_of(made.result, "scenario1.bvh");
+  const eaf::File back = eaf::read_text("scenario1.eaf", eaf::write_text(document));
+  EXPECT_TRUE(back.notices.empty());
+  const TierNames tiers = guess_tier_names(back.document);
+  const SignsFound found = signs_in(back.document, tiers);
+  EXPECT_TRUE(found.notices.empty()) << found.notices[0].text;  // each sign is exactly filled by its phases
+  EXPECT_EQ(found.signs.size(), made.result.signs.size());
+  EXPECT_EQ(back.document.find_tier("Junction")->annotations.size(), 8u);
+  EXPECT_EQ(back.document.find_tier("Source")->annotations.size(), 9u);
+}
+
+TEST_P(Scenario, UneditedStretchesStayAsCaptured) {
+  const Synthesized made = edit(scenario_1());
+  const Motion meteo = corpus().read("meteo");
+  const Placed& first = made.result.stretches.front();
+  for (std::int64_t frame = 0; frame < first.core.end; ++frame) {
+    for (std::size_t joint = 0; joint < meteo.skeleton().joint_count(); ++joint) {  // the root too: nothing is aligned
+      const auto& a = made.result.motion.pose(frame).rotations[joint].coeffs();
+      const auto& b = meteo.pose(frame).rotations[joint].coeffs();
+      ASSERT_TRUE(a == b || a == -b) << frame << ' ' << joint;
+    }
+    ASSERT_EQ(made.result.motion.pose(frame).translations[0], meteo.pose(frame).translations[0]);
+  }
+}
+
+std::vector<const TransitionMethod*> every_method() {
+  std::vector<const TransitionMethod*> methods;
+  for (const TransitionMethod& method : transition_methods()) methods.push_back(&method);
+  return methods;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryMethod, Scenario, testing::ValuesIn(every_method()),
+                         [](const auto& tested) { return std::string(tested.param->name); });
+
+TEST(Utterances, NeighboursKeepTheirRecordedTransition) {
+  const Synthesized made = synthesize(corpus(), parse_utterance("NUAGES#1 APRES-MIDI PLUIE"));
+  EXPECT_EQ(made.result.junctions.size(), 0u);
+  EXPECT_EQ(made.result.signs.size(), 3u);
+}
+
+TEST(Utterances, AnUnknownGlossNamesNearOnes) {
+  try {
+    synthesize(corpus(), parse_utterance("VANES"));
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("no sign 'VANES' in this database; did you mean VANNES?"));
+  }
+}
+
+TEST(Utterances, ATokenBeyondTheLastSaysHowManyThereAre) {
+  try {
+    synthesize(corpus(), parse_utterance("VANNES#99"));
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("no token 99 of 'VANNES': there are 2"));
+  }
+}
+
+TEST(Edits, AGlossThatOccursTwiceNeedsANumber) {
+  Edit edit;
+  edit.replacements.push_back(parse_replacement("MATIN=VANNES"));
+  try {
+    synthesize(corpus(), "meteo", edit);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("'MATIN' occurs 2 times in recording 'meteo'; say which: MATIN#1 to MATIN#2"));
+  }
+}
+
+TEST(Edits, RunsThatShareSignsCannotBeSwapped) {
+  Edit edit;
+  edit.swaps.push_back(parse_swap("BRETAGNE..PLUIE,NUAGES#1..DEMAIN"));
+  EXPECT_THROW(synthesize(corpus(), "meteo", edit), Error);
+}
+
+}  // namespace
+}  // namespace signweave

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "signweave/core/text.h"
 #include "signweave/formats/eaf_edit_head.h"
 #include "signweave/formats/eaf_edit_known.h"
 #include "signweave/formats/eaf_edit_slots.h"
@@ -143,7 +144,15 @@ class TierEditor {
     } else if (context_.checked.stereotypes[t] == Stereotype::symbolic_subdivision) {
       references.previous = previous(t, i);
     }
-    if (was == nullptr || was->has_slots() != with_slots) return annotation_element(one, references, context_.line);
+    if (was == nullptr || was->has_slots() != with_slots) {
+      if (!with_slots && one.parent.empty()) {
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("tier '{}': annotation '{}' has no parent, though the type of its "
+                                "tier needs one now; give it one",
+                                printable(now_.tiers[t].id), printable(one.id)));
+      }
+      return annotation_element(one, references, context_.line);
+    }
     std::vector<Attribute> attributes = attributes_of(one, references);
     if (!with_slots && same_chain(t, i)) attributes.pop_back();  // as the file has it, which may be without
     const Extent extent = context_.extents.of(was->element);

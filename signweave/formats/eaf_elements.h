@@ -51,7 +51,7 @@ inline constexpr std::string_view kLastUsedAnnotationId = "lastUsedAnnotationId"
 
 /// The tiers of a document that can be written, with what is looked up again and again.
 struct CheckedDocument {
-  AnnotationDocument document;          ///< every annotation has an id, lastUsedAnnotationId is true where it is given
+  AnnotationDocument document;          ///< every annotation has an id, every tier a type that is declared
   std::vector<std::size_t> tier_order;  ///< parents before children, else as given
   std::vector<std::size_t> parents;     ///< [tier], index of the parent tier or kNone
   std::vector<Stereotype> stereotypes;  ///< [tier]

@@ -266,16 +266,12 @@ std::string generate(const CheckedDocument& checked) {
   lines.add(1, "</TIME_ORDER>");
   std::set<std::string> languages;
   std::set<std::string> vocabularies;
-  std::vector<TierType> types = document.types;
   for (const std::size_t index : checked.tier_order) {
     const Tier& tier = document.tiers[index];
     add_tier(checked, index, slots, lines);
     if (!tier.language.empty()) languages.insert(tier.language);
-    const bool known =
-        std::any_of(types.begin(), types.end(), [&](const TierType& type) { return type.id == tier.type; });
-    if (!known) types.push_back({tier.type, checked.stereotypes[index], {}});
   }
-  for (const TierType& type : types) {
+  for (const TierType& type : document.types) {
     lines.add(1, type_element(type));
     if (!type.controlled_vocabulary.empty()) vocabularies.insert(type.controlled_vocabulary);
   }

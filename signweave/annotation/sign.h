@@ -17,8 +17,8 @@ namespace signweave {
 enum class PhaseKind : unsigned char {
   preparation = 0,  ///< the hands move to where the stroke begins
   stroke = 1,       ///< the part with meaning
-  retraction = 2,   ///< the hands leave or rest
-  hold = 3,         ///< the hands keep still: kept as annotated; counts as stroke between strokes, see `signs_in`
+  retraction = 2,   ///< the hands leave or rest ("rest" is a built-in label of it)
+  hold = 3,         ///< the hands keep still: kept as annotated; see Sign::stroke_span for what it counts as
   other = 4,        ///< a label that no mapping knows: kept, reported
 };
 
@@ -49,12 +49,13 @@ struct Sign {
   std::string annotation;  ///< id in the document
   bool inferred = false;   ///< no phases annotated: the whole sign is taken as one stroke
 
-  /// From the first stroke's begin to the last stroke's end; holds between or after strokes count as stroke where they
-  /// lie between two strokes. None where the sign has no stroke: such a sign is never a candidate.
+  /// From the first stroke's begin to the last stroke's end, with all that lies between them, holds too. A hold before
+  /// the first stroke or after the last one does not count, unless TierNames::phase_labels makes it a stroke: then its
+  /// phase is one. None where the sign has no stroke: such a sign is never a candidate.
   std::optional<TimeSpan> stroke_span() const noexcept;
-  /// From the sign's begin to the first stroke. Empty span where there is no preparation.
+  /// From the sign's begin to the first stroke. Empty span where there is no preparation, or no stroke.
   TimeSpan preparation_span() const noexcept;
-  /// From the last stroke to the sign's end. Empty span where there is no retraction.
+  /// From the last stroke to the sign's end. Empty span where there is no retraction, or no stroke.
   TimeSpan retraction_span() const noexcept;
   friend bool operator==(const Sign&, const Sign&) = default;
 };
@@ -74,8 +75,9 @@ struct TierNames {
 };
 
 /// Which tiers look like sign tiers and phase tiers: by name ("Gloss", "Glose RH", "Lexem_Gloss_l", "signs"), by
-/// tier type, by structure (a time-subdivided child whose labels are phases). Best guess first where several hands or
-/// signers have tiers. Empty lists where nothing fits.
+/// tier type, by structure (a time-subdivided child whose labels are phases). Hand and signer are read from the names
+/// ("GlossL S1", "gloss@A"); a signer only where the tier names no participant. Best guess first where several hands or
+/// signers have tiers: those with phases, then those with more annotations. Empty lists where nothing fits.
 TierNames guess_tier_names(const AnnotationDocument& document);
 
 /// The kind that a label stands for: the user's mapping, then the built-in table (English, French, German, Dutch,
@@ -89,7 +91,13 @@ struct SignsFound {
 };
 
 /// The signs of a document. A sign whose annotation has no phase gets one inferred stroke over its whole span.
-/// Empty labels are no signs. Throws Error{not_found} with near matches where a named tier is not in the document.
+/// Empty labels are no signs.
+///
+/// A phase belongs to the sign that is its ancestor. On a phase tier that is under no sign tier it belongs to the sign
+/// that holds it, else to the one it shares most time with; a hand or signer in the tier's name ("Phase RH") chooses
+/// the sign tiers, else it is tried on all. Phases are kept as annotated, never cut to fit: a sign that its phases do
+/// not fill exactly and in order (section 5.2 of the paper) is a notice. `where` of a notice is the tier.
+/// Throws Error{not_found} with near matches where a named tier is not in the document.
 SignsFound signs_in(const AnnotationDocument& document, const TierNames& names);
 
 }  // namespace signweave

@@ -164,8 +164,9 @@ class Parser {
       if (parent == tiers_.end()) {
         std::vector<std::string> known;
         for (const FileTier& other : parts_.tiers) known.push_back(other.tier.id);
-        xml_.fail(tier.element, fmt::format("tier '{}' has the parent '{}', which is no tier of this file{}", name,
-                                            printable(tier.tier.parent), did_you_mean(tier.tier.parent, known)));
+        xml_.fail(tier.element,
+                  fmt::format("tier '{}' has the parent '{}', which is no tier of this file; name one that is{}", name,
+                              printable(tier.tier.parent), did_you_mean(tier.tier.parent, known)));
       }
       tier.parent = parent->second;
     }
@@ -275,7 +276,10 @@ class Parser {
       if (parent == annotations_.end()) {
         refuse(one.annotation.parent, "which is not in the file; add it or remove this one");
       }
-      if (tier.parent == kNone || parent->second != tier.parent) {
+      if (tier.parent == kNone) {
+        refuse(one.annotation.parent, "though its tier has no parent; give the tier a PARENT_REF");
+      }
+      if (parent->second != tier.parent) {
         refuse(one.annotation.parent,
                fmt::format("which is on tier '{}' and not on the parent tier '{}'; refer to one that is",
                            printable(parts_.tiers[parent->second].tier.id), printable(tier.tier.parent)));

@@ -192,7 +192,8 @@ double TextReader::number(std::string_view what) {
     fail(fmt::format("'{}' is too large, expected {}", printable(word_), what));
   }
   if (error != std::errc() || end != text.data() + text.size()) {
-    fail(fmt::format("expected {}, found '{}'", what, printable(word_)));
+    const bool comma = error == std::errc() && *end == ',';
+    fail(fmt::format("expected {}, found '{}'{}", what, printable(word_), comma ? "; write a decimal point" : ""));
   }
   if (!std::isfinite(value)) {
     fail(fmt::format("expected {}, found '{}', which is no finite number", what, printable(word_)));

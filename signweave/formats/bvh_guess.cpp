@@ -154,6 +154,7 @@ Guess guess_space(const Motion& motion, std::optional<UpAxis> up) {
 
   const double by_bones = stature(skeleton, measures.bones, head, feet);
   const double length = by_bones > 0 ? by_bones : guess.up == UpAxis::z ? measures.extent.z() : measures.extent.y();
+  guess.has_bones = by_bones > 0;
   guess.unit_plausible = false;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Unit& unit : kUnits) {
@@ -165,7 +166,6 @@ Guess guess_space(const Motion& motion, std::optional<UpAxis> up) {
     guess.unit_plausible = true;
   }
   guess.stature = length * guess.unit;
-  guess.unit_certain = guess.unit_plausible && guess.stature > kCommonSmallest && guess.stature < kCommonTallest;
   return guess;
 }
 
@@ -174,6 +174,18 @@ std::string unit_name(double unit) {
     if (known.metres == unit) return std::string(known.name);
   }
   return fmt::format("{:g} m", unit);
+}
+
+std::string unit_reason(const Guess& guess) {
+  const std::string unit = unit_name(guess.unit);
+  if (!guess.unit_plausible) {
+    return fmt::format("{}, which makes the body {:.3g} m tall and may well be wrong,", unit, guess.stature);
+  }
+  if (!guess.has_bones) {
+    return fmt::format("{} (no head and feet by name; extent {:.2f} m)", unit, guess.stature);
+  }
+  const bool usual = guess.stature > kCommonSmallest && guess.stature < kCommonTallest;
+  return fmt::format("{} (stature {:.2f} m{})", unit, guess.stature, usual ? "" : ", which is unusual");
 }
 
 }  // namespace signweave::bvh

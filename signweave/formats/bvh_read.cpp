@@ -29,24 +29,23 @@ struct MotionHeader {
 
 /// "Frames: 12" as key and value.
 struct Entry {
-  std::string key;
+  std::string line;
+  std::string key;  ///< without blanks; empty where the line has no colon
   std::string value;
 };
 
 Entry read_entry(TextReader& reader, std::string_view expected) {
-  std::string line(reader.word());
-  if (line.empty()) reader.fail(fmt::format("the file ends here, expected '{}'", expected));
-  line += ' ';
-  line += reader.rest_of_line();
-  const std::size_t colon = line.find(':');
   Entry entry;
+  entry.line = reader.word();
+  if (entry.line.empty()) reader.fail(fmt::format("the file ends here, expected '{}'", expected));
+  entry.line += ' ';
+  entry.line += reader.rest_of_line();
+  const std::size_t colon = entry.line.find(':');
   if (colon != std::string::npos) {
-    for (const char c : line.substr(0, colon)) {
+    for (const char c : entry.line.substr(0, colon)) {
       if (c != ' ' && c != '\t') entry.key += c;
     }
-    entry.value = trimmed(std::string_view(line).substr(colon + 1));
-  } else {
-    entry.value = trimmed(line);
+    entry.value = trimmed(std::string_view(entry.line).substr(colon + 1));
   }
   return entry;
 }
@@ -63,7 +62,7 @@ MotionHeader read_header(TextReader& reader, std::vector<Notice>& notices) {
   MotionHeader header;
   const Entry frames = read_entry(reader, "Frames: N");
   if (!is_keyword(frames.key, "Frames")) {
-    reader.fail(fmt::format("expected 'Frames: N', found '{}'", printable(frames.key + " " + frames.value)));
+    reader.fail(fmt::format("expected 'Frames: N', found '{}'", printable(trimmed(frames.line))));
   }
   const char* const end = frames.value.data() + frames.value.size();
   const auto [at, error] = std::from_chars(frames.value.data(), end, header.frames);
@@ -74,7 +73,7 @@ MotionHeader read_header(TextReader& reader, std::vector<Notice>& notices) {
 
   const Entry time = read_entry(reader, "Frame Time: SECONDS");
   if (!is_keyword(time.key, "FrameTime")) {
-    reader.fail(fmt::format("expected 'Frame Time: SECONDS', found '{}'", printable(time.key + " " + time.value)));
+    reader.fail(fmt::format("expected 'Frame Time: SECONDS', found '{}'", printable(trimmed(time.line))));
   }
   const std::optional<SnappedRate> rate = snap_frame_time(time.value);
   if (!rate) {
@@ -212,9 +211,9 @@ class FrameReader {
   [[noreturn]] void fail_short(std::int64_t whole, std::size_t numbers) {
     const std::string part =
         numbers == 0 ? "" : fmt::format(" and {} of {} numbers", numbers, hierarchy_.channel_count);
-    reader_.fail(fmt::format(
-        "the file ends after {} whole frames{}, but Frames: says {}{}; write 'Frames: {}' or restore the rest of it",
-        whole, part, frames_, odd_line_hint(), whole));
+    const std::string mend = whole == 0 ? "restore" : fmt::format("write 'Frames: {}' or restore", whole);
+    reader_.fail(fmt::format("the file ends after {} whole frames{}, but Frames: says {}{}; {} the rest of it", whole,
+                             part, frames_, odd_line_hint(), mend));
   }
 
   [[noreturn]] void fail_long() {
@@ -272,11 +271,7 @@ void settle_space(const Motion& motion, const ReadOptions& options, Layout& layo
     layout.unit = options.unit.value_or(guess.unit);
     const std::string up = fmt::format("up axis {}{}", layout.up == UpAxis::z ? "z" : "y",
                                        options.up || guess.up_certain ? "" : " (the body gives no clear answer)");
-    const std::string unit =
-        !guess.unit_plausible
-            ? fmt::format("unit cm, which makes the body {:.3g} m tall and may well be wrong,", guess.stature)
-            : fmt::format("unit {} (stature {:.2f} m{})", unit_name(layout.unit), guess.stature,
-                          guess.unit_certain ? "" : ", which is unusual");
+    const std::string unit = "unit " + unit_reason(guess);
     std::string text;
     if (!options.up && !options.unit) text = fmt::format("{} and {} guessed; --up and --unit override", up, unit);
     if (!options.up && options.unit) text = fmt::format("{} guessed; --up overrides", up);

@@ -1,0 +1,34 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "signweave/formats/bvh.h"
+
+using namespace signweave;
+
+/// Any bytes are either refused with an Error or read, written and read again as the same motion.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  bvh::File first;
+  try {
+    first = bvh::read_text("fuzz", text);
+  } catch (const Error&) {
+    return 0;
+  }
+  const std::string written = bvh::write_text(first.motion, first.layout);
+  bvh::ReadOptions options;
+  options.up = first.layout.up;
+  options.unit = first.layout.unit;
+  options.root_unit = first.layout.root_unit;
+  const bvh::File second = bvh::read_text("written", written, options);
+  const bool same = second.layout.channels == first.layout.channels &&
+                    second.motion.skeleton().joint_count() == first.motion.skeleton().joint_count() &&
+                    second.motion.frame_count() == first.motion.frame_count() &&
+                    second.motion.rate() == first.motion.rate() &&
+                    std::ranges::equal(second.motion.translations(), first.motion.translations());
+  if (!same) std::abort();
+  return 0;
+}

@@ -22,9 +22,9 @@ std::uint32_t frames_in(std::size_t pages, std::size_t frame_bytes) {
 
 /// The default p.
 ///
-/// By frame: as many frames as eight pages hold, 38 of 53 joints. A sign, half a second to two, then lies in a few
-/// packets, and what is read in vain at both ends is less than what is wanted; larger packets make that worse, and
-/// smaller ones cost more lookups than they save.
+/// By frame: as many as eight pages hold, 38 of 53 joints. A sign, half a second to two, then lies in a few packets.
+/// Measured (bench/store_read): packets of two to eight pages read alike; larger ones are slower, for more is fetched
+/// in vain at both ends, and smaller ones take more lookups, and more commits to write.
 ///
 /// By joint and frame: as many as one page holds, 253 (4 s at 60 Hz), two pages and 290 where most joints are
 /// translated: the smallest value that wastes no page, because this mode is for few joints over a short time.

@@ -1,0 +1,250 @@
+#include "signweave/query/find.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "signweave/query/corpus_for_tests.h"
+#include "signweave/query/parse.h"
+#include "signweave/query/plan.h"
+
+namespace signweave {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const SegmentTable& weather() {
+  static const SegmentTable table = weather_corpus().table();
+  return table;
+}
+
+std::string shown(const Segment& segment) {
+  return fmt::format("{} {} {}..{}", segment.recording, segment.name, segment.span.begin.count(),
+                     segment.span.end.count());
+}
+
+std::vector<std::string> answers(std::string_view text, const FindLimits& limits = {}) {
+  std::vector<std::string> result;
+  for (const Segment& segment : find(parse(text), weather(), limits)) result.push_back(shown(segment));
+  return result;
+}
+
+TEST(Find, AGlossGivesItsSigns) {
+  EXPECT_THAT(answers("gloss = \"VANNES\""), ElementsAre("cities VANNES 100..900", "meteo VANNES 2300..3000"));
+  EXPECT_THAT(answers("gloss = VANNES"), ElementsAre("cities VANNES 100..900", "meteo VANNES 2300..3000"));
+  EXPECT_THAT(answers("gloss = \"LORIENT\""), IsEmpty());
+}
+
+TEST(Find, LabelsMatchTrimmedAndInNfc) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Gloss").tier("Phase");
+  corpus.sign("Gloss", "E\xCC\x81T\xC3\x89 ", {0ms, 10ms});
+  const SegmentTable table = corpus.table();
+  EXPECT_EQ(find(parse("gloss = \" \xC3\x89T\xC3\x89\""), table).size(), 1U);
+  EXPECT_EQ(find(parse("gloss =~ /\xC3\x89TE\xCC\x81/"), table).size(), 1U);
+}
+
+TEST(Find, ARegularExpressionMatchesTheWholeLabel) {
+  EXPECT_THAT(answers("gloss =~ /NUAGE.*/"), ElementsAre("meteo NUAGES 1000..2000", "meteo NUAGES 1000..2100"));
+  EXPECT_THAT(answers("gloss =~ /NUAGE/"), IsEmpty());
+  EXPECT_THAT(answers("gloss =~ /vann../i"), ElementsAre("cities VANNES 100..900", "meteo VANNES 2300..3000"));
+}
+
+TEST(Find, ConditionsJoinedByAndHoldForOneSegment) {
+  EXPECT_THAT(answers("gloss = \"VANNES\" & recording = \"meteo\""), ElementsAre("meteo VANNES 2300..3000"));
+  EXPECT_THAT(answers("gloss != \"VANNES\" & recording != \"meteo\""), ElementsAre("cities BREST 1000..1500"));
+}
+
+TEST(Find, APhaseConditionMakesThePhasesTheAnswer) {
+  EXPECT_THAT(answers("gloss = \"VANNES\" & phase = stroke"),
+              ElementsAre("cities VANNES stroke 300..700", "meteo VANNES stroke 2400..2900"));
+  EXPECT_THAT(answers("phase = stroke & duration > 450ms"),
+              ElementsAre("meteo NUAGES stroke 1000..2100", "meteo VANNES stroke 2400..2900",
+                          "meteo PLUIE stroke 6000..6900", "meteo PLUIE stroke 6200..6700"));
+  EXPECT_THAT(answers("phase = hold"), ElementsAre("cities BREST hold 1200..1500"));
+  EXPECT_THAT(answers("phase =~ /re.*/ & recording = \"cities\""), ElementsAre("cities VANNES retraction 700..900"));
+}
+
+TEST(Find, ATierAloneGivesItsAnnotations) {
+  EXPECT_THAT(answers("tier(\"Mouthing\") =~ /.*u.*/"),
+              ElementsAre("meteo nuage 1100..1900", "meteo pluie 6050..6500"));
+  EXPECT_THAT(answers("tier(\"Gloss\") = \"BREST\""), ElementsAre("cities BREST 1000..1500"));
+  EXPECT_THAT(answers("tier(\"Mouthings\") = \"pluie\""), IsEmpty());
+}
+
+TEST(Find, ATierBesideAGlossMeansWhatOverlapsThere) {
+  EXPECT_THAT(answers("gloss = \"PLUIE\" & tier(\"Mouthing\") = \"pluie\" & hand = right"),
+              ElementsAre("meteo PLUIE 6000..6700"));
+  EXPECT_THAT(answers("gloss =~ /.*/ & recording = meteo & hand = right & !(tier(\"Mouthing\") =~ /.*/)"),
+              ElementsAre("meteo VANNES 2300..3000", "meteo MATIN 4200..4600", "meteo BROUILLARD 4900..5600",
+                          "meteo AUJOURD'HUI 7000..7400"));
+}
+
+TEST(Find, TimesAndRecordingsAloneGiveSigns) {
+  EXPECT_THAT(answers("begin >= 7s"), ElementsAre("meteo AUJOURD'HUI 7000..7400"));
+  EXPECT_THAT(answers("recording = \"cities\""), ElementsAre("cities VANNES 100..900", "cities BREST 1000..1500"));
+}
+
+TEST(Find, AlternativesMayRangeOverDifferentThings) {
+  EXPECT_THAT(answers("gloss = \"BREST\" | phase = hold | tier(\"Mouthing\") = \"pluie\""),
+              ElementsAre("cities BREST 1000..1500", "cities BREST hold 1200..1500", "meteo pluie 6050..6500"));
+  EXPECT_THAT(answers("(gloss = \"BREST\" | gloss = \"PLUIE\") & phase = stroke & hand != left"),
+              ElementsAre("cities BREST stroke 1000..1200", "meteo PLUIE stroke 6200..6700"));
+}
+
+TEST(Find, ParentsAndChildrenAreFollowed) {
+  EXPECT_THAT(answers("parent(gloss = \"BREST\")"),
+              ElementsAre("cities BREST stroke 1000..1200", "cities BREST hold 1200..1500"));
+  EXPECT_THAT(answers("gloss =~ /.*/ & parent(tier(\"Sentence\") =~ /.*rain/) & duration < 500ms"),
+              ElementsAre("meteo MATIN 4200..4600", "meteo AUJOURD'HUI 7000..7400"));
+  EXPECT_THAT(answers("child(phase = hold)"), ElementsAre("cities BREST 1000..1500"));
+  EXPECT_THAT(answers("phase = retraction & ancestor(tier(\"Sentence\") =~ /.*rain/)"),
+              ElementsAre("meteo BROUILLARD retraction 5200..5600"));
+  EXPECT_THAT(answers("descendant(gloss = \"MATIN\" & phase = stroke & begin > 4s)"),
+              ElementsAre("meteo Tomorrow, fog and rain 4000..9000", "meteo MATIN 4200..4600"));
+}
+
+TEST(Find, ASequenceOfNeighboursReachesFromFirstToLast) {
+  const std::vector<Segment> found = find(parse("gloss = \"MATIN\" -> gloss = \"NUAGES\""), weather());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(shown(found[0]), "meteo MATIN NUAGES 500..2000");
+  ASSERT_EQ(found[0].parts.size(), 2U);
+  EXPECT_EQ(found[0].parts[1].name, "NUAGES");
+  EXPECT_EQ(found[0].parts[1].span, (TimeSpan{1'000ms, 2'000ms}));
+  EXPECT_EQ(found[0].row, found[0].parts[0].row);
+  EXPECT_THAT(answers("gloss = \"MATIN\" -> gloss = \"VANNES\""), IsEmpty());
+  EXPECT_THAT(answers("gloss = MATIN -> gloss = NUAGES -> gloss = VANNES"),
+              ElementsAre("meteo MATIN NUAGES VANNES 500..3000"));
+}
+
+TEST(Find, AGapHasBoundsInMilliseconds) {
+  EXPECT_THAT(answers("gloss = MATIN ->[..500ms] gloss = BROUILLARD"),
+              ElementsAre("meteo MATIN BROUILLARD 4200..5600"));
+  EXPECT_THAT(answers("gloss = MATIN ->[..299ms] gloss = BROUILLARD"), IsEmpty());
+  EXPECT_THAT(answers("gloss = MATIN ->[300ms..300ms] gloss = BROUILLARD"),
+              ElementsAre("meteo MATIN BROUILLARD 4200..5600"));
+  EXPECT_THAT(answers("gloss = NUAGES & hand = right ->[2.9s..] gloss = PLUIE"),
+              ElementsAre("meteo NUAGES PLUIE 1000..6700"));
+}
+
+TEST(Find, PhasesFollowEachOtherOnTheirTier) {
+  EXPECT_THAT(
+      answers("phase = stroke -> phase = stroke"),
+      ElementsAre("meteo MATIN stroke NUAGES stroke 650..1400", "meteo NUAGES stroke NUAGES stroke 1000..1800",
+                  "meteo NUAGES stroke PLUIE stroke 1000..6900", "meteo MATIN stroke BROUILLARD stroke 4300..5200",
+                  "meteo PLUIE stroke AUJOURD'HUI stroke 6200..7400"))
+      << "inferred strokes follow each other, as their signs do";
+}
+
+TEST(Find, PhasesThatTwoSignsShareAreFoundForBoth) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Gloss").tier("Left").tier("Phase");
+  const std::vector<TestCorpus::PhaseToBe> phases = {{PhaseKind::preparation, 10ms}, {PhaseKind::stroke, 20ms}};
+  corpus.sign("Gloss", "A", {0ms, 20ms}, phases, Hand::right);
+  corpus.twin("Left", "B", Hand::left);
+  const SegmentTable table = corpus.table();
+  const auto names = [&](std::string_view text) {
+    std::vector<std::string> result;
+    for (const Segment& segment : find(parse(text), table)) result.push_back(segment.name);
+    return result;
+  };
+  EXPECT_THAT(names("gloss = B & phase = stroke"), ElementsAre("B stroke"));
+  EXPECT_THAT(names("phase = preparation -> phase = stroke"),
+              ElementsAre("A preparation A stroke", "B preparation B stroke"));
+  EXPECT_THAT(names("gloss = B & phase = preparation ->[..0ms] phase = stroke"), ElementsAre("B preparation B stroke"));
+  EXPECT_THAT(names("tier(\"Phase\") = s"), ElementsAre("A stroke")) << "one annotation, one answer";
+}
+
+TEST(Find, ARelationKeepsWhatHasAPartner) {
+  EXPECT_THAT(answers("gloss = \"PLUIE\" overlaps tier(\"Mouthing\") = \"pluie\""),
+              ElementsAre("meteo PLUIE 6000..6700", "meteo PLUIE 6000..6900"));
+  EXPECT_THAT(answers("gloss = \"PLUIE\" overlaps @ tier(\"Mouthing\") = \"pluie\""),
+              ElementsAre("meteo pluie 6050..6500"));
+  EXPECT_THAT(answers("tier(\"Mouthing\") =~ /.*/ during gloss =~ /NU.*/"), ElementsAre("meteo nuage 1100..1900"));
+  EXPECT_THAT(answers("gloss = PLUIE & hand = left starts gloss = PLUIE"), ElementsAre("meteo PLUIE 6000..6900"));
+  EXPECT_THAT(answers("gloss = PLUIE & !starts(hand = left)"), ElementsAre("meteo PLUIE 6000..6900"));
+}
+
+TEST(Find, AMarkMakesOnePartTheAnswer) {
+  const std::vector<Segment> found = find(parse("gloss = MATIN -> @ gloss =~ /.*/"), weather());
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(shown(found[0]), "meteo NUAGES 1000..2000");
+  EXPECT_EQ(found[0].parts.size(), 2U);
+  EXPECT_THAT(answers("@ gloss = MATIN ->[..10s] recording = meteo"),
+              ElementsAre("meteo MATIN 500..1000", "meteo MATIN 4200..4600"))
+      << "each answer once, however many partners it has";
+}
+
+TEST(Find, ALimitGivesTheFirstAnswers) {
+  EXPECT_THAT(answers("gloss =~ /.*/", {.limit = 3, .deadline = {}}),
+              ElementsAre("cities VANNES 100..900", "cities BREST 1000..1500", "meteo MATIN 500..1000"));
+  EXPECT_THAT(answers("gloss =~ /.*/", {.limit = 0, .deadline = {}}), IsEmpty());
+}
+
+TEST(Find, ACancelOrADeadlineStopsIt) {
+  const std::atomic<bool> cancel = true;
+  const auto code_of = [](const FindLimits& limits) {
+    try {
+      answers("gloss = VANNES", limits);
+    } catch (const Error& error) {
+      return error.code();
+    }
+    return ErrorCode::io;
+  };
+  EXPECT_EQ(code_of({.limit = {}, .deadline = {}, .cancel = &cancel}), ErrorCode::cancelled);
+  EXPECT_EQ(code_of({.limit = {}, .deadline = std::chrono::steady_clock::now()}), ErrorCode::cancelled);
+}
+
+TEST(Find, ADeadlineStopsAQueryThatWouldNeverEnd) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Gloss").tier("Phase");
+  for (int i = 0; i < 2'000; ++i) corpus.sign("Gloss", "A", {Milliseconds(10 * i), Milliseconds(10 * i + 10)});
+  const SegmentTable table = corpus.table();
+  const PhaseQuery query =
+      parse("gloss = A ->[0s..] gloss = A ->[0s..] gloss = A ->[0s..] gloss = A ->[0s..] gloss = B");
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW(
+      find(parse("gloss = A ->[0s..] gloss = A ->[0s..] gloss = A"), table, {.limit = 1, .deadline = begin + 50ms}),
+      Error);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 10s);
+  EXPECT_THAT(find(query, table), IsEmpty()) << "it starts from the rarest place";
+}
+
+TEST(Find, AnEmptyTableAnswersNothing) {
+  for (const char* text : {"gloss = A", "phase = stroke", "tier(\"X\") = \"a\"", "duration > 1ms", "parent(gloss = A)",
+                           "gloss =~ /.*/ -> gloss = A", "gloss = A overlaps gloss = B", "!(recording = \"r\")"}) {
+    EXPECT_THAT(find(parse(text), SegmentTable()), IsEmpty()) << text;
+  }
+}
+
+TEST(Hints, NameWhatIsNearToAnUnknownGlossTierOrRecording) {
+  const auto texts = [](std::string_view text) {
+    std::vector<std::string> result;
+    for (const Notice& notice : hints(parse(text), weather())) result.push_back(notice.text);
+    return result;
+  };
+  EXPECT_THAT(texts("gloss = \"VANES\""), ElementsAre("no sign has the gloss \"VANES\"; did you mean VANNES?"));
+  EXPECT_THAT(texts("!(tier(\"Mouthin\") = \"x\")"),
+              ElementsAre("no recording has a tier \"Mouthin\"; did you mean Mouthing?"));
+  EXPECT_THAT(texts("recording = \"metio\" -> parent(gloss = \"MATI\")"),
+              ElementsAre(HasSubstr("did you mean meteo?"), HasSubstr("did you mean MATIN?")));
+  EXPECT_THAT(texts("gloss =~ /VANN/"), ElementsAre(HasSubstr("/VANN/")));
+  EXPECT_THAT(texts("gloss = \"VANNES\" & tier(\"Mouthing\") = \"nothing\""), IsEmpty());
+}
+
+TEST(Explain, SaysWhichIndexIsUsed) {
+  const auto explained = [](std::string_view text) { return explain(parse(text), weather()); };
+  EXPECT_EQ(explained("gloss = VANNES & phase = stroke"),
+            "gloss = \"VANNES\" & phase = stroke\n"
+            "1. look up about 6 rows: the gloss index and the phases of its signs (gloss = \"VANNES\")\n"
+            "2. keep those with gloss = \"VANNES\" & phase = stroke\n");
+  EXPECT_THAT(explained("phase = stroke & duration > 300ms"), HasSubstr("the phase index (phase = stroke)"));
+  EXPECT_THAT(explained("duration > 300ms"), HasSubstr("all rows"));
+  EXPECT_THAT(explained("gloss =~ /.*/ -> gloss = BREST"), HasSubstr("1. look up about 1 rows: the gloss index"));
+  EXPECT_THAT(explained("duration > 1ms overlaps tier(\"Mouthing\") = \"pluie\""), HasSubstr("the label index"));
+}
+
+}  // namespace
+}  // namespace signweave

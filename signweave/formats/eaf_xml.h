@@ -28,6 +28,8 @@ class Xml {
   const std::string& name() const noexcept { return name_; }
   /// The text as UTF-8: the bytes themselves, or what they were converted to. Offsets of nodes point into it.
   std::string_view text() const noexcept { return text_; }
+  /// True where the bytes were not UTF-8.
+  bool converted() const noexcept { return !converted_.empty(); }
   /// From 1; 0 where the node has no place.
   std::size_t line_of(pugi::xml_node node) const;
 

@@ -11,7 +11,7 @@ endif()
 
 add_library(signweave_flags INTERFACE)
 target_compile_options(signweave_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wold-style-cast
-                       -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+                       -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
 if(SIGNWEAVE_SANITIZE)
   add_compile_options(-fsanitize=${SIGNWEAVE_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${SIGNWEAVE_SANITIZE})

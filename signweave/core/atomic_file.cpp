@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include <cerrno>
 #include <cstring>
+#include <memory>
 
 namespace signweave {
 
@@ -58,6 +60,22 @@ std::string read_file(const std::filesystem::path& path, std::size_t most) {
                 fmt::format("{}: larger than {} bytes, which is more than such a file can need", path.string(), most));
   }
   return text;
+}
+
+std::uint64_t file_checksum(const std::filesystem::path& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), &XXH3_freeState);
+  const auto fail = [&] {
+    const ErrorCode code = errno == ENOENT ? ErrorCode::not_found : ErrorCode::io;
+    throw Error(code, fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+  };
+  if (!file) fail();
+  XXH3_64bits_reset(state.get());
+  char block[1 << 16];
+  std::size_t got = 0;
+  while ((got = std::fread(block, 1, sizeof block, file.get())) > 0) XXH3_64bits_update(state.get(), block, got);
+  if (std::ferror(file.get()) != 0) fail();
+  return XXH3_64bits_digest(state.get());
 }
 
 }  // namespace signweave

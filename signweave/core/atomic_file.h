@@ -33,4 +33,7 @@ class AtomicFile {
 /// `most` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t most = std::size_t{1} << 32);
 
+/// Checksum of a file's bytes, read through a window. Throws as read_file does.
+std::uint64_t file_checksum(const std::filesystem::path& path);
+
 }  // namespace signweave

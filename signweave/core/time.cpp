@@ -60,17 +60,16 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   return result;
 }
 
-constexpr std::array kStandardRates = {
-    FrameRate{10, 1},       FrameRate{12, 1},       FrameRate{15, 1},       FrameRate{16, 1},
-    FrameRate{20, 1},       FrameRate{24, 1},       FrameRate{25, 1},       FrameRate{30, 1},
-    FrameRate{48, 1},       FrameRate{50, 1},       FrameRate{60, 1},       FrameRate{72, 1},
-    FrameRate{75, 1},       FrameRate{90, 1},       FrameRate{96, 1},       FrameRate{100, 1},
-    FrameRate{120, 1},      FrameRate{125, 1},      FrameRate{144, 1},      FrameRate{150, 1},
-    FrameRate{180, 1},      FrameRate{200, 1},      FrameRate{240, 1},      FrameRate{250, 1},
-    FrameRate{300, 1},      FrameRate{360, 1},      FrameRate{400, 1},      FrameRate{480, 1},
-    FrameRate{500, 1},      FrameRate{600, 1},      FrameRate{960, 1},      FrameRate{1000, 1},
-    FrameRate{24000, 1001}, FrameRate{30000, 1001}, FrameRate{48000, 1001}, FrameRate{60000, 1001},
-    FrameRate{120000, 1001}};
+constexpr std::array kWholeRates = {
+    FrameRate{10, 1},  FrameRate{12, 1},  FrameRate{15, 1},  FrameRate{16, 1},  FrameRate{20, 1},  FrameRate{24, 1},
+    FrameRate{25, 1},  FrameRate{30, 1},  FrameRate{48, 1},  FrameRate{50, 1},  FrameRate{60, 1},  FrameRate{72, 1},
+    FrameRate{75, 1},  FrameRate{90, 1},  FrameRate{96, 1},  FrameRate{100, 1}, FrameRate{120, 1}, FrameRate{125, 1},
+    FrameRate{144, 1}, FrameRate{150, 1}, FrameRate{180, 1}, FrameRate{200, 1}, FrameRate{240, 1}, FrameRate{250, 1},
+    FrameRate{300, 1}, FrameRate{360, 1}, FrameRate{400, 1}, FrameRate{480, 1}, FrameRate{500, 1}, FrameRate{600, 1},
+    FrameRate{960, 1}, FrameRate{1000, 1}};
+
+constexpr std::array kNtscRates = {FrameRate{24000, 1001}, FrameRate{30000, 1001}, FrameRate{48000, 1001},
+                                   FrameRate{60000, 1001}, FrameRate{120000, 1001}};
 
 /// NTSC rates as people write them.
 constexpr std::array kDecimalRates = {FrameRate{2997, 125}, FrameRate{2997, 100}, FrameRate{2997, 50}};
@@ -101,14 +100,17 @@ std::optional<SnappedRate> snap_frame_time(std::string_view text) {
   // Without the exact decimals the last printed place is unknown: take a double's own precision for it.
   const double half_place =
       decimal ? 0.5 * std::pow(10.0, -decimal->decimals) : seconds * std::numeric_limits<double>::epsilon();
-  // A rounded frame time covers an interval of rates. Several standard rates may lie in it ("0.02" is 48 as well as
-  // 50), so the nearest one is taken, and only where the interval is narrow enough to mean anything ("0.03" is no
-  // rate).
+  // A rounded frame time covers an interval of rates. Several standard rates may lie in it: "0.02" is 48 as well as 50,
+  // so the nearest one is taken; "0.0167" is 60 as well as 59.94, so whole rates come first. And only where the
+  // interval is narrow enough to mean anything: "0.03" is no rate.
   const double last_place = half_place * 1.02 + 1e-15;
-  std::optional<FrameRate> rate = nearest(kStandardRates, seconds, std::min(last_place, 0.025 * seconds));
+  const double wide = std::min(last_place, 0.025 * seconds);
+  const double narrow = std::min(last_place, 0.005 * seconds);
+  std::optional<FrameRate> rate = nearest(kWholeRates, seconds, wide);
+  if (!rate) rate = nearest(kNtscRates, seconds, wide);
   // Some programs cut digits off instead of rounding ("0.0166"), and some take "23.976" by its word.
-  if (!rate && decimal) rate = nearest(kStandardRates, seconds + half_place, std::min(last_place, 0.005 * seconds));
-  if (!rate) rate = nearest(kDecimalRates, seconds, std::min(last_place, 0.005 * seconds));
+  if (!rate && decimal) rate = nearest(kWholeRates, seconds + half_place, narrow);
+  if (!rate) rate = nearest(kDecimalRates, seconds, narrow);
   if (rate) return SnappedRate{*rate, rate->frame_time().count() != seconds};
 
   if (decimal && decimal->digits > 0 && decimal->decimals >= 0 && decimal->decimals <= 18) {
@@ -134,8 +136,8 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text) {
     if (!bottom || bottom->decimals != 0 || bottom->digits == 0 || top->decimals != 0) return std::nullopt;
     rate = reduced(top->digits, bottom->digits);
   } else {
-    for (const FrameRate& standard : kStandardRates) {  // "29.97" means 30000/1001
-      if (standard.denominator != 1 && std::abs(standard.hertz() - rate.hertz()) < 0.006) rate = standard;
+    for (const FrameRate& standard : kNtscRates) {  // "29.97" means 30000/1001
+      if (std::abs(standard.hertz() - rate.hertz()) < 0.006) rate = standard;
     }
   }
   if (rate.hertz() < 1e-4 || rate.hertz() > 1e6) return std::nullopt;

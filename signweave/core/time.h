@@ -52,10 +52,10 @@ struct SnappedRate {
   bool snapped = false;  ///< the text was rounded; the rate is the standard one that rounds to it
 };
 
-/// The frame rate that `text` ("0.008333", "3.3333e-2"; seconds a frame) stands for: the nearest standard rate (whole
-/// numbers of 1 to 1000 frames a second that are in use, the NTSC rates n·1000/1001 and their decimals such as 23.976)
-/// which, printed with as many digits, rounded or cut off, gives the same text; else exactly the decimal fraction
-/// printed. None where the text is no finite number of seconds in [1e-6, 1e4].
+/// The frame rate that `text` ("0.008333", "3.3333e-2"; seconds a frame) stands for: the standard rate which, printed
+/// with as many digits, rounded or cut off, gives the same text; else exactly the decimal fraction printed. Standard
+/// are the whole numbers of 1 to 1000 frames a second that are in use, then the NTSC rates n·1000/1001, then their
+/// decimals such as 23.976. None where the text is no finite number of seconds in [1e-6, 1e4].
 std::optional<SnappedRate> snap_frame_time(std::string_view text);
 
 /// A rate given by a user in frames a second: "100", "29.97", "30000/1001". None where it is no rate in [1e-4, 1e6].

@@ -39,12 +39,12 @@ struct Layout {
 };
 
 struct ReadOptions {
-  std::optional<UpAxis> up;         ///< guessed from the posed frames where not given
-  std::optional<double> unit;       ///< metres per file unit; guessed from the summed bone lengths where not given
-  std::optional<double> root_unit;  ///< as `unit` where not given
+  std::optional<UpAxis> up{};         ///< guessed from the posed frames where not given
+  std::optional<double> unit{};       ///< metres per file unit; guessed from the summed bone lengths where not given
+  std::optional<double> root_unit{};  ///< as `unit` where not given
   RootColumns root_columns = RootColumns::declared;
-  bool mirror = false;                            ///< the file's space is left-handed
-  std::function<void(double fraction)> progress;  ///< called now and then; may throw to cancel
+  bool mirror = false;                              ///< the file's space is left-handed
+  std::function<void(double fraction)> progress{};  ///< called now and then; may throw to cancel
 };
 
 /// A file as read: the motion in metres, Y up, right-handed, and what is needed to write it back.

@@ -25,6 +25,8 @@ constexpr std::array kUnits = {Unit{"m", 1.0}, Unit{"cm", 0.01}, Unit{"mm", 0.00
 constexpr double kUsualStature = 1.7;
 constexpr double kSmallest = 1.0;
 constexpr double kTallest = 2.3;
+constexpr double kCommonSmallest = 1.3;  // bones end at ankle and head joint in some skeletons
+constexpr double kCommonTallest = 2.1;
 constexpr std::int64_t kFramesSeen = 50;
 
 /// Joints whose names hold one of these parts, in any case.
@@ -152,7 +154,7 @@ Guess guess_space(const Motion& motion, std::optional<UpAxis> up) {
 
   const double by_bones = stature(skeleton, measures.bones, head, feet);
   const double length = by_bones > 0 ? by_bones : guess.up == UpAxis::z ? measures.extent.z() : measures.extent.y();
-  guess.unit_certain = false;
+  guess.unit_plausible = false;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Unit& unit : kUnits) {
     const double metres = length * unit.metres;
@@ -160,9 +162,10 @@ Guess guess_space(const Motion& motion, std::optional<UpAxis> up) {
     if (!(metres >= kSmallest && metres <= kTallest) || off >= nearest) continue;
     nearest = off;
     guess.unit = unit.metres;
-    guess.unit_certain = true;
+    guess.unit_plausible = true;
   }
   guess.stature = length * guess.unit;
+  guess.unit_certain = guess.unit_plausible && guess.stature > kCommonSmallest && guess.stature < kCommonTallest;
   return guess;
 }
 

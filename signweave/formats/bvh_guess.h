@@ -10,11 +10,12 @@ namespace signweave::bvh {
 
 struct Guess {
   UpAxis up = UpAxis::y;
-  double unit = 0.01;      ///< metres per file unit
-  bool up_certain = true;  ///< false where the body gives no clear answer
-  bool unit_certain = true;
-  double stature = 0;        ///< what the guess rests on: metres at `unit`, 0 where no head and feet were found
-  bool upside_down = false;  ///< the head is below the feet on the guessed axis
+  double unit = 0.01;          ///< metres per file unit
+  bool up_certain = true;      ///< false where the body gives no clear answer
+  bool unit_certain = true;    ///< false where another unit may well be meant
+  bool unit_plausible = true;  ///< false where none of the units gives a human body: cm stands in
+  double stature = 0;          ///< what the guess rests on: metres at `unit`, 0 where no head and feet were found
+  bool upside_down = false;    ///< the head is below the feet on the guessed axis
 };
 
 /// Guesses from a motion that is still in the file's units and axes (at least one frame).

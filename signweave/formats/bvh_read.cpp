@@ -17,8 +17,8 @@ namespace signweave::bvh {
 namespace {
 
 constexpr std::size_t kBytesPerReport = std::size_t{1} << 20;
-/// Poses a file may hold beyond 16 joints a channel: a few bytes must not become gigabytes of joints at rest.
-constexpr std::uint64_t kFreePoses = std::uint64_t{1} << 22;
+/// Joints times frames that a file with hardly any channels may hold: 64 MiB of poses.
+constexpr std::size_t kFreePoses = std::size_t{1} << 22;
 
 /// What stands between HIERARCHY and the numbers.
 struct MotionHeader {
@@ -143,7 +143,9 @@ class FrameReader {
   /// Each number takes two bytes at least, so a wrong count of frames never reserves more than the file can fill.
   std::int64_t frames_to_reserve() const {
     const std::size_t left = reader_.total_bytes() - std::min(reader_.total_bytes(), reader_.bytes_read());
-    return std::min(frames_, static_cast<std::int64_t>(left / (2 * hierarchy_.channel_count)) + 1);
+    std::size_t most = left / (2 * hierarchy_.channel_count) + 1;
+    if (is_sparse()) most = std::min(most, kFreePoses / hierarchy_.joints.size() + 1);
+    return std::min(frames_, static_cast<std::int64_t>(most));
   }
 
   void read(Motion& motion) {
@@ -188,9 +190,11 @@ class FrameReader {
     }
   }
 
+  /// So many joints without channels that a few numbers would become gigabytes of joints at rest.
+  bool is_sparse() const noexcept { return hierarchy_.joints.size() > 16 * hierarchy_.channel_count; }
+
   void check_size(std::int64_t frame) const {
-    const std::uint64_t poses = static_cast<std::uint64_t>(frame) * hierarchy_.joints.size();
-    if (poses > kFreePoses && hierarchy_.joints.size() > 16 * hierarchy_.channel_count) {
+    if (is_sparse() && static_cast<std::size_t>(frame) * hierarchy_.joints.size() > kFreePoses) {
       reader_.fail(fmt::format("{} joints have only {} channels; leave out the joints that do not move",
                                hierarchy_.joints.size(), hierarchy_.channel_count));
     }
@@ -269,8 +273,10 @@ void settle_space(const Motion& motion, const ReadOptions& options, Layout& layo
     const std::string up = fmt::format("up axis {}{}", layout.up == UpAxis::z ? "z" : "y",
                                        options.up || guess.up_certain ? "" : " (the body gives no clear answer)");
     const std::string unit =
-        guess.unit_certain ? fmt::format("unit {} (stature {:.2f} m)", unit_name(layout.unit), guess.stature)
-                           : fmt::format("unit cm, which makes the body {:.3g} m tall and may be wrong", guess.stature);
+        !guess.unit_plausible
+            ? fmt::format("unit cm, which makes the body {:.3g} m tall and may well be wrong,", guess.stature)
+            : fmt::format("unit {} (stature {:.2f} m{})", unit_name(layout.unit), guess.stature,
+                          guess.unit_certain ? "" : ", which is unusual");
     std::string text;
     if (!options.up && !options.unit) text = fmt::format("{} and {} guessed; --up and --unit override", up, unit);
     if (!options.up && options.unit) text = fmt::format("{} guessed; --up overrides", up);

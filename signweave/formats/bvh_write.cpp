@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t kFlushAt = std::size_t{1} << 16;
 constexpr std::size_t kDeepestIndent = 24;  ///< a chain of 60,000 joints would be all tabs otherwise
+constexpr int kAngleDecimals = 5;           ///< degrees; what follows is the rounding of float quaternions
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
 
@@ -39,25 +40,31 @@ void append_fixed(std::string& out, double value, int decimals) {
 /// A length in the file's unit: the shortest decimals that a reader takes back to the same bits of metres.
 void append_length(std::string& out, float metres, double unit) {
   const double value = static_cast<double>(metres) / unit;
+  if (value == 0) {
+    out += '0';
+    return;
+  }
+  // Nine significant digits name every float.
+  const int last = std::max(4, 8 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
   const std::size_t begin = out.size();
-  for (int decimals = 4; decimals < 9; ++decimals) {
+  for (int decimals = std::max(4, last - 5); decimals < last; ++decimals) {
     append_fixed(out, value, decimals);
     double read = 0;
     std::from_chars(out.data() + begin, out.data() + out.size(), read);
     if (to_metres(static_cast<float>(read), unit) == metres) return;
     out.resize(begin);
   }
-  append_fixed(out, value, 9);
+  append_fixed(out, value, last);
 }
 
-/// The shortest decimal of six places or more that reads back as this rate.
+/// The shortest decimal of six places or more that reads back as this rate, or comes nearest to it.
 std::string frame_time_text(FrameRate rate) {
   for (int decimals = 6; decimals < 17; ++decimals) {
     std::string text = fmt::format("{:.{}f}", rate.frame_time().count(), decimals);
     const std::optional<SnappedRate> read = snap_frame_time(text);
     if (read && read->rate == rate) return text;
   }
-  return fmt::format("{:.17g}", rate.frame_time().count());
+  return fmt::format("{:.15f}", rate.frame_time().count());
 }
 
 class Writer {
@@ -207,7 +214,7 @@ class Writer {
         if (!first) text_ += ' ';
         first = false;
         if (is_rotation(channel)) {
-          append_fixed(text_, angles[rotations++] * (180 / std::numbers::pi), 6);
+          append_fixed(text_, angles[rotations++] * (180 / std::numbers::pi), kAngleDecimals);
         } else {
           append_length(text_, position[axis_of(channel)], unit_of(joint));
         }

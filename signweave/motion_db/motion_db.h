@@ -14,6 +14,7 @@
 /// The motion database (the paper's raw database): motions cut into packets on a key-value store. It knows nothing of
 /// names or annotation. Which motions are visible is the caller's record (see database/), so a motion is written under
 /// a new generation number first, in bounded transactions, and becomes visible when the caller's one record names it.
+/// Its keys have 16 bytes and begin with 'm': the caller's own must not.
 namespace signweave::motion_db {
 
 /// What must be known to read, or to erase, a stored motion: the caller keeps it.
@@ -32,21 +33,23 @@ void encode(const StoredMotion& stored, ByteWriter& out);
 StoredMotion decode(ByteReader& in);
 
 /// The descriptor that `put` will write under, with a default p filled in: known before anything is written, so that a
-/// caller can note what to sweep after a crash.
+/// caller can note what to sweep after a crash. Throws Error{bad_input} for a motion without frames or joints,
+/// Error{unsupported} where a packet would be larger than an engine takes (4 GiB).
 StoredMotion describe(const Motion& motion, AccessMode mode, std::uint64_t generation);
 
 /// How many packets the motion has: the paper's 1, ceil(n/p), m, m * ceil(n/p). Skeleton and scalar tracks are records
 /// of their own and not counted.
 std::uint64_t packet_count(const StoredMotion& stored) noexcept;
 
-/// Writes skeleton, packets and tracks in transactions of bounded size. `progress` may throw to cancel.
+/// Writes skeleton, packets and tracks in transactions of bounded size. `stored` is what `describe` gave for this
+/// motion. `progress` is called between transactions and may throw to cancel; `erase` then removes what was written.
 void put(kv::KvStore& store, const StoredMotion& stored, const Motion& motion,
          const std::function<void(double fraction)>& progress = {});
 
 /// Erases everything that `put` wrote or began to write under this descriptor. Doing it twice is harmless.
 void erase(kv::KvStore& store, const StoredMotion& stored);
 
-/// What a read cost.
+/// What a read cost. `packets` counts packets only, `bytes` the records of scalar tracks too.
 struct ReadCost {
   std::uint64_t packets = 0;
   std::uint64_t bytes = 0;
@@ -56,9 +59,10 @@ struct ReadCost {
 std::shared_ptr<const Skeleton> read_skeleton(const kv::ReadTransaction& snapshot, const StoredMotion& stored);
 
 /// Some frames of some joints (empty: all), bit for bit as they were put, reading only the packets that hold them.
-/// The result has the whole skeleton; joints that were not asked for are at rest. Throws Error{corrupt} naming joints
-/// and frames where a packet is missing or its checksum is wrong. `skeleton` is what read_skeleton gave (so that
-/// motions share it).
+/// The result has the whole skeleton; joints that were not asked for are at rest, and scalar tracks come along only
+/// where all joints are asked for by an empty set. Throws Error{bad_input} for frames or joints that the motion does
+/// not have, Error{corrupt} naming joints and frames where a packet is missing or its checksum is wrong. `skeleton` is
+/// what read_skeleton gave (so that motions share it).
 Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
             const std::shared_ptr<const Skeleton>& skeleton, FrameRange frames, const JointSet& joints = {},
             ReadCost* cost = nullptr);

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,12 +31,14 @@ struct SegmentRow {
   PhaseKind phase = PhaseKind::other;  ///< of a phase row
   Hand hand = Hand::both;              ///< of a sign or phase row
   bool inferred = false;               ///< of a sign without annotated phases, and of its one stroke
+  bool extra = false;                  ///< stands for no annotation of its own: see `segments_of`
   std::uint32_t recording = 0;         ///< index into SegmentTable::recordings()
   std::uint32_t tier = 0;              ///< index into SegmentTable::tiers()
   std::uint32_t label = 0;             ///< index into SegmentTable::labels(): the match form of the label
   std::uint32_t text = 0;              ///< index into SegmentTable::labels(): the label verbatim
-  TimeSpan span;
+  TimeSpan span{};
   RowId parent = kNoRow;  ///< the row of the parent annotation; a phase's parent is its sign
+  friend bool operator==(const SegmentRow&, const SegmentRow&) = default;
 };
 
 /// The segments of one recording as they are stored beside its document: rows in a fixed order, parents as indexes into
@@ -48,10 +49,19 @@ struct SegmentChunk {
   std::vector<SegmentRow> rows;  ///< `recording` unused; `parent` relative to this list
 };
 
-/// Every annotation of a document once (a sign's and a phase's annotation as kind sign and phase), and the inferred
-/// strokes. Ordered by tier, then time; so rows of one tier are neighbours in time.
+/// Every annotation of a document once (a sign's and a phase's annotation as kind sign and phase), and after each
+/// tier's own rows its *extra* rows, which stand for no annotation of their own: the inferred strokes of the signs of
+/// that tier, and a phase that a second sign shares with the first. Ordered by tier, then own before extra, then time;
+/// so rows of one tier are neighbours in time.
+///
+/// A sign is found by its tier and annotation id, a phase by its annotation id; where they have none (a document not
+/// yet written) by span and label. A phase's parent is its sign, whatever the document says; every other row's parent
+/// is that of its annotation. Throws Error{bad_input} where a sign or phase is not in the document, or a time is no
+/// time.
 SegmentChunk segments_of(const AnnotationDocument& document, std::span<const Sign> signs);
 
+/// The layout is drawn in segment_chunk.cpp. `decode_segments` throws Error{corrupt} on bytes that `encode` cannot have
+/// written (indexes out of range, rows out of order), and Error{unsupported} on a later version.
 void encode(const SegmentChunk& chunk, ByteWriter& out);
 SegmentChunk decode_segments(ByteReader& in);
 
@@ -63,6 +73,8 @@ class SegmentTable {
     const SegmentChunk* chunk;  ///< borrowed during construction only
   };
   SegmentTable() = default;
+  /// Numbers the rows recording by recording, in the order of `sources`. Throws Error{unsupported} past 2^32 − 1 rows,
+  /// Error{already_exists} where a name comes twice.
   explicit SegmentTable(std::span<const Source> sources);
 
   std::span<const SegmentRow> rows() const noexcept { return rows_; }
@@ -81,11 +93,26 @@ class SegmentTable {
   std::span<const RowId> with_label(RowKind kind, std::uint32_t label) const noexcept;
   /// All phase rows of a phase kind, ascending.
   std::span<const RowId> phases(PhaseKind kind) const noexcept;
-  /// The rows of one tier of one recording: [first, last) of row ids, in time order.
+  /// The labels that rows of a kind have, ascending, each once.
+  std::span<const std::uint32_t> labels_of(RowKind kind) const noexcept;
+  /// [begin, end) of row ids.
   struct RowRange {
     RowId begin = 0;
     RowId end = 0;
+    std::size_t size() const noexcept { return end - begin; }
+    bool contains(RowId row) const noexcept { return begin <= row && row < end; }
+    friend bool operator==(RowRange, RowRange) = default;
   };
+  /// The rows of one tier of one recording.
+  struct TierRows {
+    std::uint32_t tier = kNone;
+    RowRange own;       ///< the annotations of the tier, in time order
+    RowRange extra;     ///< what stands for no annotation of its own (see `segments_of`), in time order
+    bool apart = true;  ///< no two of `own` overlap, nor two of `extra`, so their ends ascend too
+  };
+  /// The tiers of a recording that have rows, ascending by tier.
+  std::span<const TierRows> tiers_of(std::uint32_t recording) const noexcept;
+  /// The annotations of one tier of one recording, in time order; empty where it has none.
   RowRange tier_rows(std::uint32_t recording, std::uint32_t tier) const noexcept;
   RowRange recording_rows(std::uint32_t recording) const noexcept;
   /// The rows whose parent is `row`, in time order.
@@ -94,8 +121,10 @@ class SegmentTable {
   std::vector<std::string> glosses() const;
 
  private:
-  std::uint32_t intern(std::vector<std::string>& list, std::unordered_map<std::string, std::uint32_t>& index,
-                       const std::string& text);
+  void add(const Source& source);
+  void index_tiers();
+  void index_labels();
+  void index_children();
 
   std::vector<SegmentRow> rows_;
   std::vector<std::string> recordings_;
@@ -104,11 +133,12 @@ class SegmentTable {
   std::unordered_map<std::string, std::uint32_t> label_index_;
   std::unordered_map<std::string, std::uint32_t> tier_index_;
   std::unordered_map<std::string, std::uint32_t> recording_index_;
-  std::vector<RowRange> recording_rows_;                                   ///< [recording]
-  std::map<std::pair<std::uint32_t, std::uint32_t>, RowRange> tier_rows_;  ///< (recording, tier)
-  std::unordered_map<std::uint64_t, std::vector<RowId>> by_label_;         ///< kind << 32 | label
-  std::vector<std::vector<RowId>> by_phase_;                               ///< [PhaseKind]
-  std::vector<std::uint32_t> children_begin_;                              ///< [row], into child_list_
+  std::vector<RowRange> recording_rows_;                            ///< [recording]
+  std::vector<std::vector<TierRows>> tier_rows_;                    ///< [recording]
+  std::unordered_map<std::uint64_t, std::vector<RowId>> by_label_;  ///< kind << 32 | label
+  std::vector<std::vector<std::uint32_t>> labels_of_;               ///< [RowKind]
+  std::vector<std::vector<RowId>> by_phase_;                        ///< [PhaseKind]
+  std::vector<std::uint32_t> children_begin_;                       ///< [row], into child_list_
   std::vector<RowId> child_list_;
 };
 

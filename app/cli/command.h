@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signweave/core/error.h"
+
+namespace CLI {
+class App;
+}
+
+/// The command line. Results go to `out`, everything else to `err`; failure is thrown.
+namespace signweave::cli {
+
+/// Where a command speaks, and how.
+struct Io {
+  std::ostream& out;
+  std::ostream& err;
+  bool json = false;      ///< --json: one JSON document on `out`
+  bool terminal = false;  ///< `err` is a terminal: progress bars may be drawn
+  int status = 0;         ///< what the process will end with; a command sets 1 where some of its inputs were at fault
+};
+
+/// What a verb does once its words are parsed.
+using Run = std::function<void(Io&)>;
+
+/// One verb. `setup` adds its options to `verb` and returns what to run after parsing.
+struct Command {
+  std::string_view name;
+  std::string_view summary;  ///< one line for `signweave --help`
+  std::string_view example;  ///< shown by `signweave VERB --help`
+  Run (*setup)(CLI::App& verb);
+};
+
+/// Every verb, in the order of `--help`. A new verb is a row here and a file command_x.cpp.
+std::span<const Command> commands() noexcept;
+
+/// Parses and runs. Returns the exit status: 0 done (also for an empty answer), 1 some input or data is at fault, 2
+/// wrong usage. Never throws.
+int dispatch(const std::vector<std::string>& words, Io& io);
+
+/// "signweave: WHERE: text" on `err`.
+void print_notices(Io& io, const std::vector<Notice>& notices);
+
+Run create(CLI::App& verb);
+Run import(CLI::App& verb);
+Run remove(CLI::App& verb);
+Run info(CLI::App& verb);
+Run check(CLI::App& verb);
+Run query(CLI::App& verb);
+Run sign(CLI::App& verb);
+Run edit(CLI::App& verb);
+Run export_recording(CLI::App& verb);
+Run stats(CLI::App& verb);
+Run formats(CLI::App& verb);
+
+}  // namespace signweave::cli

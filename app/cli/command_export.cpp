@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "app/cli/command.h"
+#include "app/cli/output.h"
+#include "signweave/core/text.h"
+#include "signweave/database/database.h"
+
+namespace signweave::cli {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string recording;
+  std::vector<std::string> outputs;
+  std::optional<std::int64_t> from;
+  std::optional<std::int64_t> to;
+  std::string joints;
+};
+
+/// The joints named in "LeftHand,RightHand", with near matches for one that does not exist.
+JointSet joints_named(const std::string& names, const Skeleton& skeleton) {
+  JointSet joints;
+  std::vector<std::string> known;
+  for (const Joint& joint : skeleton.joints()) known.push_back(joint.name);
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const std::size_t end = std::min(names.find(',', begin), names.size());
+    const std::string name(trimmed(names.substr(begin, end - begin)));
+    begin = end + 1;
+    if (name.empty()) continue;
+    const auto joint = skeleton.find(name);
+    if (!joint)
+      throw Error(ErrorCode::not_found, fmt::format("no joint '{}'{}", printable(name), did_you_mean(name, known)));
+    joints.push_back(*joint);
+  }
+  std::sort(joints.begin(), joints.end());
+  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+  return joints;
+}
+
+/// The part of a document inside a span, its times moved so that the span begins at 0. Annotations that reach over an
+/// end are cut. A document of its own: nothing of the original file is carried over but the tiers.
+AnnotationDocument cut_document(const AnnotationDocument& document, TimeSpan span) {
+  AnnotationDocument cut = document;
+  cut.source.clear();
+  cut.linked_files.clear();
+  for (Tier& tier : cut.tiers) {
+    std::erase_if(tier.annotations, [&](const Annotation& a) { return !a.span.overlaps(span); });
+    for (Annotation& annotation : tier.annotations) {
+      annotation.span = {std::max(annotation.span.begin, span.begin) - span.begin,
+                         std::min(annotation.span.end, span.end) - span.begin};
+    }
+  }
+  return cut;
+}
+
+}  // namespace
+
+Run export_recording(CLI::App& verb) {
+  auto options = std::make_shared<Options>();
+  verb.add_option("DB", options->folder, "the database")->required();
+  verb.add_option("RECORDING", options->recording, "name of the recording")->required();
+  verb.add_option("-o,--output", options->outputs,
+                  "file to write: .bvh .eaf .json .csv .svg; may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->check([](const std::string& path) { return check_output(path); });
+  verb.add_option("--from", options->from, "annotation time in ms to begin at");
+  verb.add_option("--to", options->to, "annotation time in ms to end at");
+  verb.add_option("--joints", options->joints, "joint names, separated by commas; the others are left at rest");
+  return [options](Io& io) {
+    const Database database(options->folder, kv::Access::read_only);
+    const std::shared_ptr<const Contents> contents = database.contents();
+    const RecordingInfo& info = contents->at(options->recording);
+    const bool part = options->from || options->to;
+    std::optional<Motion> motion;
+    FrameRange frames{0, info.motion ? info.motion->frames : 0};
+    const TimeSpan all = info.motion ? span_of(frames, info.clock) : TimeSpan{Milliseconds(0), Milliseconds::max()};
+    const TimeSpan span{options->from ? Milliseconds(*options->from) : all.begin,
+                        options->to ? Milliseconds(*options->to) : all.end};
+    if (span.begin >= span.end) throw Error(ErrorCode::bad_input, "--from must be before --to");
+    const bool needs_motion = std::any_of(options->outputs.begin(), options->outputs.end(),
+                                          [](const std::string& path) { return !fold_case(path).ends_with(".eaf"); });
+    if (info.motion && needs_motion) {
+      if (part) frames = clamp(frames_of(span, info.clock), info.motion->frames);
+      if (frames.empty()) {
+        throw Error(ErrorCode::bad_input, fmt::format("nothing between --from and --to: the motion covers {}..{} ms",
+                                                      all.begin.count(), all.end.count()));
+      }
+      const JointSet joints =
+          options->joints.empty() ? JointSet{} : joints_named(options->joints, *database.skeleton(info.name));
+      motion = database.read(info.name, frames, joints);
+    }
+    std::optional<AnnotationDocument> document;
+    if (info.document != 0) document = database.document(info.name);
+    if (document && part) document = cut_document(*document, span);
+    for (const std::string& path : options->outputs) {
+      write_recording(path, motion ? &*motion : nullptr, info.layout, document ? &*document : nullptr, info.name);
+    }
+    if (io.json) {
+      io.out << nlohmann::json{{"recording", info.name}, {"files", options->outputs}, {"frames", frames.size()}}.dump(2)
+             << '\n';
+    }
+  };
+}
+
+}  // namespace signweave::cli

@@ -1,0 +1,205 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "app/cli/command.h"
+#include "app/cli/motion_options.h"
+#include "app/cli/progress.h"
+#include "app/cli/table.h"
+#include "signweave/core/text.h"
+#include "signweave/database/database.h"
+#include "signweave/formats/eaf.h"
+
+namespace signweave::cli {
+namespace {
+
+using nlohmann::json;
+
+std::string unit_name(double metres) {
+  if (metres == 1.0) return "m";
+  if (metres == 0.01) return "cm";
+  if (metres == 0.001) return "mm";
+  if (metres == 0.0254) return "in";
+  return fmt::format("{:.6g} m", metres);
+}
+
+json json_of(const std::vector<Notice>& notices) {
+  json list = json::array();
+  for (const Notice& notice : notices) list.push_back({{"where", notice.where}, {"text", notice.text}});
+  return list;
+}
+
+void print_pairs(Io& io, const json& fields) {
+  std::vector<std::vector<std::string>> rows = {{}};
+  for (const auto& [key, value] : fields.items()) {
+    if (value.is_array() || value.is_object()) continue;
+    rows.push_back({key, value.is_string() ? value.get<std::string>() : value.dump()});
+  }
+  io.out << format_table(rows).substr(1);
+}
+
+void info_of_bvh(const std::string& path, const MotionOptions& motion_options, Io& io) {
+  bvh::ReadOptions options = read_options(motion_options);
+  Progress progress(io, "reading");
+  options.progress = [&](double fraction) { progress.show(fraction); };
+  const bvh::File file = bvh::read(path, options);
+  const Skeleton& skeleton = file.motion.skeleton();
+  nlohmann::ordered_json fields = {{"file", path},
+                                   {"format", "BVH"},
+                                   {"frames", file.motion.frame_count()},
+                                   {"frames_per_second", to_string(file.motion.rate())},
+                                   {"seconds", fmt::format("{:.3f}", file.motion.duration().count())},
+                                   {"joints", skeleton.joint_count()},
+                                   {"tips", skeleton.tips().size()},
+                                   {"joints_with_translation", skeleton.translation_count()},
+                                   {"root", skeleton.joint(0).name},
+                                   {"up", file.layout.up == bvh::UpAxis::z ? "z" : "y"},
+                                   {"unit", unit_name(file.layout.unit)}};
+  if (io.json) {
+    json names = json::array();
+    for (const Joint& joint : skeleton.joints()) names.push_back(joint.name);
+    fields["joint_names"] = std::move(names);
+    fields["notices"] = json_of(file.notices);
+    io.out << fields.dump(2) << '\n';
+    return;
+  }
+  print_pairs(io, json(nlohmann::json::parse(fields.dump())));
+  print_notices(io, file.notices);
+}
+
+void info_of_eaf(const std::string& path, Io& io) {
+  const eaf::File file = eaf::read(path);
+  const AnnotationDocument& document = file.document;
+  const TierNames names = guess_tier_names(document);
+  const SignsFound found = signs_in(document, names);
+  const auto role_of = [&](const std::string& id) -> std::string {
+    for (const TierNames::SignTier& tier : names.sign_tiers) {
+      if (tier.id == id) return tier.hand == Hand::both ? "signs" : fmt::format("signs, {} hand", name_of(tier.hand));
+    }
+    return std::find(names.phase_tiers.begin(), names.phase_tiers.end(), id) != names.phase_tiers.end() ? "phases" : "";
+  };
+  std::vector<Notice> notices = file.notices;
+  notices.insert(notices.end(), found.notices.begin(), found.notices.end());
+  if (io.json) {
+    json tiers = json::array();
+    for (const Tier& tier : document.tiers) {
+      tiers.push_back({{"id", tier.id},
+                       {"type", tier.type},
+                       {"parent", tier.parent},
+                       {"annotations", tier.annotations.size()},
+                       {"role", role_of(tier.id)}});
+    }
+    io.out << json{{"file", path},
+                   {"format", "EAF " + document.format},
+                   {"tiers", std::move(tiers)},
+                   {"signs", found.signs.size()},
+                   {"notices", json_of(notices)}}
+                  .dump(2)
+           << '\n';
+    return;
+  }
+  std::size_t annotations = 0;
+  for (const Tier& tier : document.tiers) annotations += tier.annotations.size();
+  io.out << fmt::format("{}: EAF {}, {}, {}, {}\n", path, document.format, counted(document.tiers.size(), "tier"),
+                        counted(annotations, "annotation"), counted(found.signs.size(), "sign"));
+  std::vector<std::vector<std::string>> rows = {{"tier", "parent", "type", "annotations", "taken as"}};
+  for (const Tier& tier : document.tiers) {
+    rows.push_back({tier.id, tier.parent, tier.type, std::to_string(tier.annotations.size()), role_of(tier.id)});
+  }
+  io.out << format_table(rows);
+  print_notices(io, notices);
+}
+
+void info_of_database(const std::string& folder, Io& io) {
+  const Database database(folder, kv::Access::read_only);
+  const std::shared_ptr<const Contents> contents = database.contents();
+  const kv::EngineInfo engine = database.engine();
+  if (io.json) {
+    json recordings = json::array();
+    for (const RecordingInfo& info : contents->recordings) {
+      json one = {{"name", info.name},
+                  {"signer", info.signer},
+                  {"motion_file", info.motion_file},
+                  {"annotation_file", info.annotation_file},
+                  {"notices", json_of(info.notices)}};
+      if (info.motion) {
+        one["frames"] = info.motion->frames;
+        one["frames_per_second"] = info.motion->rate.hertz();
+        one["joints"] = info.motion->joints;
+        one["access_mode"] = to_string(info.motion->mode);
+        one["packets"] = motion_db::packet_count(*info.motion);
+      }
+      recordings.push_back(std::move(one));
+    }
+    io.out << json{{"engine", engine.name},
+                   {"engine_version", engine.version},
+                   {"entries", engine.entries},
+                   {"bytes_on_disk", engine.bytes_on_disk},
+                   {"access_mode", to_string(database.access_mode())},
+                   {"recordings", std::move(recordings)}}
+                  .dump(2)
+           << '\n';
+    return;
+  }
+  io.out << fmt::format("{}: {} {}, {}, {:.1f} MiB on disk, new motions {}\n", folder, engine.name, engine.version,
+                        counted(engine.entries, "record"), static_cast<double>(engine.bytes_on_disk) / 1048576.0,
+                        to_string(database.access_mode()));
+  std::vector<std::vector<std::string>> rows = {
+      {"recording", "signer", "frames", "per second", "seconds", "joints", "access mode", "packets", "signs"}};
+  for (std::size_t i = 0; i < contents->recordings.size(); ++i) {
+    const RecordingInfo& info = contents->recordings[i];
+    std::size_t signs = 0;
+    const SegmentTable::RowRange range = contents->segments.recording_rows(static_cast<std::uint32_t>(i));
+    for (RowId row = range.begin; row < range.end; ++row)
+      signs += contents->segments.row(row).kind == RowKind::sign ? 1 : 0;
+    std::vector<std::string> row = {info.name, info.signer};
+    if (info.motion) {
+      const motion_db::StoredMotion& motion = *info.motion;
+      row.insert(row.end(), {std::to_string(motion.frames), to_string(motion.rate),
+                             fmt::format("{:.2f}", static_cast<double>(motion.frames) / motion.rate.hertz()),
+                             std::to_string(motion.joints), to_string(motion.mode),
+                             std::to_string(motion_db::packet_count(motion))});
+    } else {
+      row.insert(row.end(), 6, "-");
+    }
+    row.push_back(info.document != 0 ? std::to_string(signs) : "-");
+    rows.push_back(std::move(row));
+  }
+  if (rows.size() > 1) io.out << format_table(rows);
+  for (const std::string& fault : contents->faults) io.err << "signweave: " << fault << '\n';
+  if (!contents->faults.empty()) io.status = 1;
+}
+
+}  // namespace
+
+Run info(CLI::App& verb) {
+  struct Options {
+    std::string path;
+    MotionOptions motion;
+  };
+  auto options = std::make_shared<Options>();
+  verb.add_option("PATH", options->path, "a database, a motion file (.bvh) or an annotation file (.eaf)")->required();
+  add_motion_options(verb, options->motion);
+  return [options](Io& io) {
+    const std::string ending = fold_case(std::filesystem::path(options->path).extension().string());
+    std::error_code ignored;
+    if (std::filesystem::is_directory(options->path, ignored)) {
+      info_of_database(options->path, io);
+    } else if (!std::filesystem::exists(options->path, ignored)) {
+      throw Error(ErrorCode::not_found, options->path + ": no such file or database");
+    } else if (ending == ".bvh") {
+      info_of_bvh(options->path, options->motion, io);
+    } else if (ending == ".eaf") {
+      info_of_eaf(options->path, io);
+    } else {
+      throw Error(ErrorCode::unsupported,
+                  options->path + ": of a kind that cannot be read; signweave formats lists those that can");
+    }
+  };
+}
+
+}  // namespace signweave::cli

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <ostream>
+#include <sstream>
+
+#include "app/cli/command.h"
+#include "signweave/core/text.h"
+#include "signweave/query/parse.h"
+
+namespace signweave::cli {
+namespace {
+
+constexpr Command kCommands[] = {
+    {"create", "make an empty database", "signweave create corpus.db --access-mode by_frame:64", create},
+    {"import", "store recordings: motion files and their annotation",
+     "signweave import corpus.db recordings/ --sign-tier 'Gloss RH:right'", import},
+    {"remove", "remove a recording", "signweave remove corpus.db meteo", remove},
+    {"info", "what a database or a file holds", "signweave info meteo.bvh", info},
+    {"check", "verify every stored byte", "signweave check corpus.db", check},
+    {"query", "find signs, phases and annotations", "signweave query corpus.db 'gloss = \"VANNES\" & phase = stroke'",
+     query},
+    {"sign", "make new signing from glosses", "signweave sign corpus.db 'VANNES MATIN PLUIE' -o out.bvh -o out.eaf",
+     sign},
+    {"edit", "change a recording's words", "signweave edit corpus.db meteo --replace BRETAGNE=VANNES -o out.bvh", edit},
+    {"export", "write a recording, or a part of it",
+     "signweave export corpus.db meteo -o part.bvh --from 1000 --to 4000", export_recording},
+    {"stats", "durations of the recorded transitions", "signweave stats corpus.db --recording meteo", stats},
+    {"formats", "the file formats, and what each can hold", "signweave formats", formats},
+};
+
+constexpr std::string_view kVersion = "0.1.0";
+
+/// One line for a wrong usage, with near matches for a verb or option that does not exist.
+std::string usage_fault(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
+  const CLI::App* verb = &app;
+  for (const CLI::App* used : app.get_subcommands()) verb = used;
+  std::vector<std::string> known;
+  std::string unknown;
+  if (verb == &app) {
+    for (const Command& command : kCommands) known.emplace_back(command.name);
+    if (words.empty()) return "no verb given; see signweave --help";
+    unknown = words[0];
+    return fmt::format("no verb '{}'{}; see signweave --help", printable(unknown), did_you_mean(unknown, known));
+  }
+  std::string text = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    for (const CLI::Option* option : verb->get_options()) {
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    }
+    for (const std::string& left : verb->remaining()) {
+      if (left.starts_with('-')) {
+        unknown = left;
+        break;
+      }
+    }
+    text = unknown.empty() ? fmt::format("'{}' is one word too many", printable(verb->remaining().at(0)))
+                           : fmt::format("no option '{}'{}", printable(unknown), did_you_mean(unknown, known));
+  }
+  return fmt::format("{}: {}; see signweave {} --help", verb->get_name(), text, verb->get_name());
+}
+
+}  // namespace
+
+std::span<const Command> commands() noexcept {
+  return kCommands;
+}
+
+void print_notices(Io& io, const std::vector<Notice>& notices) {
+  for (const Notice& notice : notices) {
+    io.err << "signweave: " << notice.where << (notice.where.empty() ? "" : ": ") << notice.text << '\n';
+  }
+}
+
+int dispatch(const std::vector<std::string>& words, Io& io) {
+  CLI::App app("signweave: a database of captured signing, found by meaning and movement, signed anew", "signweave");
+  app.set_version_flag("--version", std::string(kVersion));
+  app.require_subcommand(1);
+  Run chosen;
+  for (const Command& command : kCommands) {
+    CLI::App* verb = app.add_subcommand(std::string(command.name), std::string(command.summary));
+    verb->add_flag("--json", io.json, "results as one JSON document");
+    verb->footer("Example:\n  " + std::string(command.example));
+    Run run = command.setup(*verb);
+    verb->callback([&chosen, run = std::move(run)] { chosen = run; });
+  }
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const CLI::Success& help) {  // --help, --version
+    std::ostringstream text;
+    app.exit(help, text, text);
+    io.out << text.str();
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    io.err << "signweave: " << usage_fault(app, error, words) << '\n';
+    return 2;
+  }
+  try {
+    chosen(io);
+    return io.status;
+  } catch (const CLI::ParseError& error) {  // what only the command itself can tell of its words
+    io.err << "signweave: " << usage_fault(app, error, words) << '\n';
+    return 2;
+  } catch (const QueryError& error) {
+    io.err << "signweave: " << error.what() << '\n' << error.caret << '\n';
+  } catch (const Error& error) {
+    io.err << "signweave: " << error.what() << '\n';
+  } catch (const std::bad_alloc&) {
+    io.err << "signweave: not enough memory\n";
+  } catch (const std::exception& error) {
+    io.err << "signweave: " << error.what() << '\n';
+  }
+  return 1;
+}
+
+}  // namespace signweave::cli

@@ -1,0 +1,215 @@
+#include "app/cli/output.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "signweave/core/atomic_file.h"
+#include "signweave/core/text.h"
+#include "signweave/formats/contact_sheet.h"
+#include "signweave/formats/eaf.h"
+#include "signweave/formats/positions_csv.h"
+#include "signweave/synthesis/provenance.h"
+
+namespace signweave::cli {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+std::string ending_of(const std::string& path) {
+  return fold_case(fs::path(path).extension().string());
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+json json_of(const Motion& motion) {
+  json joints = json::array();
+  for (const Joint& joint : motion.skeleton().joints()) {
+    joints.push_back({{"name", joint.name},
+                      {"parent", joint.parent},
+                      {"offset", {joint.offset.x(), joint.offset.y(), joint.offset.z()}},
+                      {"translated", joint.translated}});
+  }
+  json rotations = json::array();
+  json translations = json::array();
+  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+    const PoseView pose = motion.pose(frame);
+    json row = json::array();
+    for (const Eigen::Quaternionf& q : pose.rotations) row.insert(row.end(), {q.x(), q.y(), q.z(), q.w()});
+    rotations.push_back(std::move(row));
+    row = json::array();
+    for (const Eigen::Vector3f& t : pose.translations) row.insert(row.end(), {t.x(), t.y(), t.z()});
+    translations.push_back(std::move(row));
+  }
+  return {{"frames_per_second", motion.rate().hertz()},
+          {"frames", motion.frame_count()},
+          {"joints", std::move(joints)},
+          {"rotations_xyzw", std::move(rotations)},
+          {"translations_m", std::move(translations)}};
+}
+
+json span_json(TimeSpan span) {
+  return {{"begin_ms", span.begin.count()}, {"end_ms", span.end.count()}};
+}
+
+json frames_json(FrameRange frames) {
+  return {{"begin", frames.begin}, {"end", frames.end}};
+}
+
+/// What a motion written without its own layout looks like.
+bvh::Layout layout_for(const std::optional<bvh::Layout>& layout, const Skeleton& skeleton) {
+  return layout && bvh::fits(*layout, skeleton) ? *layout : bvh::default_layout(skeleton);
+}
+
+/// One cell of a contact sheet per stroke and per junction: what a person wants to look at.
+ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string& title) {
+  ContactSheetOptions options;
+  options.title = title;
+  struct Cell {
+    std::int64_t frame;
+    std::string caption;
+  };
+  std::vector<Cell> cells;
+  const double hertz = synthesis.motion.rate().hertz();
+  const auto frame_of = [&](Milliseconds time) {
+    return std::clamp<std::int64_t>(std::llround(Seconds(time).count() * hertz), 0, synthesis.motion.frame_count() - 1);
+  };
+  for (const PlacedSign& placed : synthesis.signs) {
+    const auto stroke = placed.sign.stroke_span();
+    if (!stroke) continue;
+    const auto add = [&](double part, const char* mark) {
+      const Milliseconds at =
+          stroke->begin + Milliseconds(std::llround(static_cast<double>(stroke->duration().count()) * part));
+      cells.push_back({frame_of(at), placed.sign.gloss + mark});
+    };
+    add(0.1, " ·");
+    add(0.5, " ··");
+    add(0.9, " ···");
+  }
+  for (const Junction& junction : synthesis.junctions) {
+    cells.push_back({(junction.frames.begin + junction.frames.end) / 2, junction.from + " → " + junction.to});
+  }
+  std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.frame < b.frame; });
+  // A long result is thinned to what still can be looked at.
+  constexpr std::size_t kMostCells = 96;
+  const std::size_t step = (cells.size() + kMostCells - 1) / kMostCells;
+  for (std::size_t i = 0; i < cells.size(); i += std::max<std::size_t>(step, 1)) {
+    options.frames.push_back(cells[i].frame);
+    options.captions.push_back(cells[i].caption);
+  }
+  return options;
+}
+
+}  // namespace
+
+std::string check_output(const std::string& path) {
+  const std::string ending = ending_of(path);
+  for (const char* known : {".bvh", ".eaf", ".json", ".csv", ".svg"}) {
+    if (ending == known) return {};
+  }
+  return "'" + printable(path) + "' does not end in .bvh, .eaf, .json, .csv or .svg";
+}
+
+json describe(const Synthesis& synthesis) {
+  json signs = json::array();
+  for (const PlacedSign& placed : synthesis.signs) {
+    json phases = json::array();
+    for (const Phase& phase : placed.sign.phases) {
+      json one = span_json(phase.span);
+      one["kind"] = name_of(phase.kind);
+      phases.push_back(std::move(one));
+    }
+    json sign = span_json(placed.sign.span);
+    sign["gloss"] = placed.sign.gloss;
+    sign["recording"] = synthesis.stretches[placed.stretch].recording;
+    sign["recorded"] = span_json(placed.recorded);
+    sign["phases"] = std::move(phases);
+    signs.push_back(std::move(sign));
+  }
+  json stretches = json::array();
+  for (const Placed& placed : synthesis.stretches) {
+    stretches.push_back({{"recording", placed.recording},
+                         {"frames", frames_json(placed.output)},
+                         {"kept_frames", frames_json(placed.core)},
+                         {"first_recorded_frame", placed.first_frame},
+                         {"recorded_frames_per_frame", placed.step}});
+  }
+  json junctions = json::array();
+  for (const Junction& junction : synthesis.junctions) {
+    junctions.push_back({{"from", junction.from},
+                         {"to", junction.to},
+                         {"method", junction.method},
+                         {"frames", frames_json(junction.frames)},
+                         {"retraction_frames", junction.cut.retraction_frames},
+                         {"preparation_frames", junction.cut.preparation_frames},
+                         {"blend_frames", junction.cut.blend_frames}});
+  }
+  return {{"frames", synthesis.motion.frame_count()},
+          {"frames_per_second", synthesis.motion.rate().hertz()},
+          {"signs", std::move(signs)},
+          {"stretches", std::move(stretches)},
+          {"junctions", std::move(junctions)}};
+}
+
+void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made,
+                     const std::optional<bvh::Layout>& layout, const std::string& title) {
+  const Synthesis& result = made.result;
+  std::string motion_file;
+  for (const std::string& path : paths) {
+    if (ending_of(path) == ".bvh") motion_file = fs::path(path).filename().string();
+  }
+  for (const std::string& path : paths) {
+    const std::string ending = ending_of(path);
+    if (ending == ".eaf") {
+      eaf::write(path, annotation_of(result, motion_file));
+    } else if (ending == ".json") {
+      json document = describe(result);
+      json sources = json::array();
+      for (const FrameSource& source : result.sources) {
+        // Each output frame: its recording's stretch and frame, or the junction that made it.
+        if (source.stretch != FrameSource::kNone) {
+          sources.push_back({{"stretch", source.stretch}, {"frame", source.frame}});
+        } else {
+          sources.push_back({{"junction", source.junction}});
+        }
+      }
+      document["sources"] = std::move(sources);
+      document["motion"] = json_of(result.motion);
+      write_text(path, document.dump() + '\n');
+    } else if (ending == ".svg") {
+      write_text(path, contact_sheet(result.motion, sheet_options(result, title)));
+    } else {
+      write_recording(path, &result.motion, layout, nullptr, title);
+    }
+  }
+}
+
+void write_recording(const std::string& path, const Motion* motion, const std::optional<bvh::Layout>& layout,
+                     const AnnotationDocument* document, const std::string& title) {
+  const std::string ending = ending_of(path);
+  if (ending == ".eaf") {
+    if (document == nullptr) throw Error(ErrorCode::not_found, path + ": the recording has no annotation to write");
+    eaf::write(path, *document);
+    return;
+  }
+  if (motion == nullptr) throw Error(ErrorCode::not_found, path + ": the recording has no motion to write");
+  if (ending == ".bvh") {
+    bvh::write(path, *motion, layout_for(layout, motion->skeleton()));
+  } else if (ending == ".csv") {
+    write_positions_csv(path, *motion);
+  } else if (ending == ".svg") {
+    ContactSheetOptions options;
+    options.title = title;
+    write_text(path, contact_sheet(*motion, options));
+  } else {
+    write_text(path, json_of(*motion).dump() + '\n');
+  }
+}
+
+}  // namespace signweave::cli

@@ -1,0 +1,147 @@
+#include "app/cli/synthesis_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "app/cli/output.h"
+#include "app/cli/table.h"
+#include "signweave/core/text.h"
+
+namespace signweave::cli {
+namespace {
+
+std::optional<Milliseconds> parse_duration(const std::string& text) {
+  int ms = 0;
+  const char* end = text.data() + text.size();
+  if (std::from_chars(text.data(), end, ms).ptr != end || text.empty() || ms < 0 || ms > 60'000) return std::nullopt;
+  return Milliseconds(ms);
+}
+
+double ms_of(Seconds seconds) {
+  return seconds.count() * 1000.0;
+}
+
+void explain(const Database& database, const Synthesized& made, Io& io) {
+  const std::shared_ptr<const Contents> contents = database.contents();
+  std::vector<std::vector<std::string>> rows = {
+      {"place", "", "gloss", "token", "recording", "at ms", "target", "join"}};
+  for (std::size_t place = 0; place < made.choices.size(); ++place) {
+    const Choice& choice = made.choices[place];
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
+      const Candidate& candidate = choice.candidates[i];
+      const RecordingInfo& info = contents->recordings[candidate.recording];
+      const bool chosen = made.selection.chosen[place] == i;
+      std::string name = candidate.signs.empty() ? "(piece)" : candidate.gloss();
+      if (candidate.signs.size() > 1) name += ".." + candidate.signs.back().gloss;
+      rows.push_back({std::to_string(place + 1), chosen ? "*" : "", name,
+                      candidate.token > 0 ? std::to_string(candidate.token) : "", info.name,
+                      std::to_string(span_of(candidate.whole, info.clock).begin.count()),
+                      fmt::format("{:.3f}", candidate.cost),
+                      chosen ? fmt::format("{:.3f}", made.selection.join_costs[place]) : ""});
+    }
+  }
+  io.out << format_table(rows);
+  rows = {{"junction", "from", "to", "method", "ms", "m_i", "m_j", "p"}};
+  const FrameClock clock{made.result.motion.rate().frame_time(), Seconds(0)};
+  for (std::size_t i = 0; i < made.result.junctions.size(); ++i) {
+    const Junction& junction = made.result.junctions[i];
+    rows.push_back({std::to_string(i + 1), junction.from, junction.to, junction.method,
+                    std::to_string(span_of(junction.frames, clock).duration().count()),
+                    std::to_string(junction.cut.retraction_frames), std::to_string(junction.cut.preparation_frames),
+                    std::to_string(junction.cut.blend_frames)});
+  }
+  if (rows.size() > 1) io.out << '\n' << format_table(rows);
+}
+
+nlohmann::json timings_of(const Timings& timings) {
+  return {{"semantic_query_ms", ms_of(timings.semantic_query)},
+          {"selection_ms", ms_of(timings.selection)},
+          {"retrieval_ms", ms_of(timings.retrieval)},
+          {"concatenation_ms", ms_of(timings.concatenation)},
+          {"total_ms", ms_of(timings.total)}};
+}
+
+}  // namespace
+
+void add_synthesis_options(CLI::App& verb, SynthesisWords& words) {
+  std::string methods = "how transitions are made:";
+  std::vector<std::string> names;
+  for (const TransitionMethod& method : transition_methods()) {
+    names.emplace_back(method.name);
+    methods += fmt::format("\n  {}: {}", method.name, method.description);
+  }
+  words.method = names.front();
+  verb.add_option("-o,--output", words.outputs, "file to write: .bvh .eaf .json .csv .svg; may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->check([](const std::string& path) { return check_output(path); });
+  verb.add_option("--transition", words.method, methods)->check(CLI::IsMember(names))->capture_default_str();
+  verb.add_option("--duration", words.duration, "of each transition: corpus (its mean) or milliseconds")
+      ->check([](const std::string& text) {
+        return text == "corpus" || parse_duration(text)
+                   ? std::string()
+                   : "'" + printable(text) + "' is neither corpus nor 0 to 60000 ms";
+      })
+      ->capture_default_str();
+  verb.add_option("--tempo", words.tempo, "0.25 to 4; above 1 is faster")
+      ->check(CLI::Range(0.25, 4.0))
+      ->capture_default_str();
+  verb.add_option("--rate", words.rate, "frames a second of the result; the highest of its sources where not given")
+      ->check([](const std::string& text) {
+        const auto rate = parse_frame_rate(text);
+        return rate && rate->hertz() >= 1 && rate->hertz() <= 2000
+                   ? std::string()
+                   : "'" + printable(text) + "' is no rate of 1 to 2000 frames a second";
+      });
+  verb.add_option("--align", words.align,
+                  "bring signers to one place: auto (other recordings than the first), ground (all), none")
+      ->check(CLI::IsMember({"auto", "ground", "none"}))
+      ->capture_default_str();
+  verb.add_flag("--explain", words.explain, "show candidates, costs and junctions");
+  verb.add_flag("--timings", words.timings, "show how long each step took");
+}
+
+SynthesisOptions synthesis_options(const SynthesisWords& words) {
+  SynthesisOptions options;
+  options.method = find_transition_method(words.method);
+  options.duration.fixed = parse_duration(words.duration);
+  options.tempo = words.tempo;
+  if (!words.rate.empty()) options.rate = parse_frame_rate(words.rate);
+  options.alignment = words.align == "ground" ? Alignment::ground
+                      : words.align == "none" ? Alignment::none
+                                              : Alignment::automatic;
+  return options;
+}
+
+void deliver(const Database& database, const Synthesized& made, const SynthesisWords& words, const std::string& title,
+             Io& io) {
+  const std::shared_ptr<const Contents> contents = database.contents();
+  write_synthesis(words.outputs, made, contents->at(made.layout_from).layout, title);
+  print_notices(io, made.result.notices);
+  const Synthesis& result = made.result;
+  if (io.json) {
+    nlohmann::json report = describe(result);
+    report["files"] = words.outputs;
+    report["timings"] = timings_of(made.timings);
+    io.out << report.dump(2) << '\n';
+    return;
+  }
+  if (words.explain) explain(database, made, io);
+  io.out << fmt::format("{}, {}, {:.2f} s at {} frames a second\n", counted(result.signs.size(), "sign"),
+                        counted(result.junctions.size(), "junction"), result.motion.duration().count(),
+                        to_string(result.motion.rate()));
+  if (words.timings) {
+    const Timings& t = made.timings;
+    io.out << format_table(
+        {{"semantic query ms", "selection ms", "retrieval ms", "concatenation ms", "total ms", "frames"},
+         {fmt::format("{:.3f}", ms_of(t.semantic_query)), fmt::format("{:.3f}", ms_of(t.selection)),
+          fmt::format("{:.3f}", ms_of(t.retrieval)), fmt::format("{:.3f}", ms_of(t.concatenation)),
+          fmt::format("{:.3f}", ms_of(t.total)), std::to_string(result.motion.frame_count())}});
+  }
+}
+
+}  // namespace signweave::cli

@@ -1,0 +1,182 @@
+#include "signweave/database/catalogue.h"
+
+#include <fmt/format.h>
+
+#include "signweave/kv/sealed.h"
+
+namespace signweave::catalogue {
+namespace {
+
+constexpr std::uint8_t kVersion = 1;
+
+Bytes key_of(char what) {
+  ByteWriter key;
+  key.number(what);
+  return key.take();
+}
+
+Bytes slot_key(std::uint32_t slot) {
+  ByteWriter key;
+  key.number('R');
+  key.number(slot);
+  return key.take();
+}
+
+ByteReader open_record(const kv::ReadTransaction& snapshot, ByteSpan key, const std::string& where) {
+  const auto record = snapshot.get(key);
+  if (!record) ByteReader({}, where).fail("it is missing");
+  ByteReader reader(kv::unsealed(*record, where), where);
+  const auto version = reader.number<std::uint8_t>();
+  if (version != kVersion) {
+    throw Error(
+        ErrorCode::unsupported,
+        fmt::format("{}: written by another version of signweave (record version {}, this one reads {}); use that "
+                    "version, or import the recordings again",
+                    where, version, kVersion));
+  }
+  return reader;
+}
+
+ByteWriter new_record() {
+  ByteWriter writer;
+  writer.number(kVersion);
+  return writer;
+}
+
+void encode(const FrameClock& clock, ByteWriter& out) {
+  out.number(clock.frame_time.count());
+  out.number(clock.origin.count());
+}
+
+FrameClock decode_clock(ByteReader& in) {
+  FrameClock clock;
+  clock.frame_time = Seconds(in.number<double>());
+  clock.origin = Seconds(in.number<double>());
+  return clock;
+}
+
+void encode(const TierNames& names, ByteWriter& out) {
+  out.number(static_cast<std::uint32_t>(names.sign_tiers.size()));
+  for (const TierNames::SignTier& tier : names.sign_tiers) {
+    out.text(tier.id);
+    out.number(tier.hand);
+    out.text(tier.signer);
+  }
+  out.number(static_cast<std::uint32_t>(names.phase_tiers.size()));
+  for (const std::string& tier : names.phase_tiers) out.text(tier);
+  out.number(static_cast<std::uint32_t>(names.phase_labels.size()));
+  for (const auto& [label, kind] : names.phase_labels) {
+    out.text(label);
+    out.number(kind);
+  }
+}
+
+TierNames decode_tier_names(ByteReader& in) {
+  TierNames names;
+  for (std::size_t n = in.count(9); n > 0; --n) {
+    TierNames::SignTier tier;
+    tier.id = in.text();
+    tier.hand = in.number<Hand>();
+    tier.signer = in.text();
+    names.sign_tiers.push_back(std::move(tier));
+  }
+  for (std::size_t n = in.count(4); n > 0; --n) names.phase_tiers.push_back(in.text());
+  for (std::size_t n = in.count(5); n > 0; --n) {
+    std::string label = in.text();
+    names.phase_labels.emplace(std::move(label), in.number<PhaseKind>());
+  }
+  return names;
+}
+
+}  // namespace
+
+Head read_head(const kv::ReadTransaction& snapshot) {
+  ByteReader in = open_record(snapshot, key_of('C'), "catalogue");
+  Head head;
+  head.changes = in.number<std::uint64_t>();
+  head.next_generation = in.number<std::uint64_t>();
+  head.recordings = in.number<std::uint32_t>();
+  head.access_mode.kind = in.number<AccessMode::Kind>();
+  head.access_mode.frames_per_packet = in.number<std::uint32_t>();
+  in.finish();
+  return head;
+}
+
+void write_head(kv::WriteTransaction& transaction, const Head& head) {
+  ByteWriter out = new_record();
+  out.number(head.changes);
+  out.number(head.next_generation);
+  out.number(head.recordings);
+  out.number(head.access_mode.kind);
+  out.number(head.access_mode.frames_per_packet);
+  transaction.put(key_of('C'), kv::sealed(out.bytes()));
+}
+
+RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t slot) {
+  ByteReader in = open_record(snapshot, slot_key(slot), fmt::format("catalogue entry {}", slot));
+  RecordingInfo info;
+  info.name = in.text();
+  info.signer = in.text();
+  info.clock = decode_clock(in);
+  if (in.number<std::uint8_t>() != 0) info.motion = motion_db::decode(in);
+  if (in.number<std::uint8_t>() != 0) info.layout = bvh::decode_layout(in);
+  info.document = in.number<std::uint64_t>();
+  info.tiers = decode_tier_names(in);
+  info.motion_file = in.text();
+  info.annotation_file = in.text();
+  info.motion_fingerprint = in.number<std::uint64_t>();
+  info.annotation_fingerprint = in.number<std::uint64_t>();
+  for (std::size_t n = in.count(8); n > 0; --n) {
+    Notice notice;
+    notice.where = in.text();
+    notice.text = in.text();
+    info.notices.push_back(std::move(notice));
+  }
+  in.finish();
+  return info;
+}
+
+void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, const RecordingInfo& info) {
+  ByteWriter out = new_record();
+  out.text(info.name);
+  out.text(info.signer);
+  encode(info.clock, out);
+  out.number(static_cast<std::uint8_t>(info.motion ? 1 : 0));
+  if (info.motion) motion_db::encode(*info.motion, out);
+  out.number(static_cast<std::uint8_t>(info.layout ? 1 : 0));
+  if (info.layout) bvh::encode(*info.layout, out);
+  out.number(info.document);
+  encode(info.tiers, out);
+  out.text(info.motion_file);
+  out.text(info.annotation_file);
+  out.number(info.motion_fingerprint);
+  out.number(info.annotation_fingerprint);
+  out.number(static_cast<std::uint32_t>(info.notices.size()));
+  for (const Notice& notice : info.notices) {
+    out.text(notice.where);
+    out.text(notice.text);
+  }
+  transaction.put(slot_key(slot), kv::sealed(out.bytes()));
+}
+
+void erase_recording(kv::WriteTransaction& transaction, std::uint32_t slot) {
+  transaction.erase(slot_key(slot));
+}
+
+SweepList read_sweep_list(const kv::ReadTransaction& snapshot) {
+  if (!snapshot.get(key_of('P'))) return {};
+  ByteReader in = open_record(snapshot, key_of('P'), "sweep list");
+  SweepList list;
+  for (std::size_t n = in.count(8); n > 0; --n) list.push_back(motion_db::decode(in));
+  in.finish();
+  return list;
+}
+
+void write_sweep_list(kv::WriteTransaction& transaction, const SweepList& list) {
+  ByteWriter out = new_record();
+  out.number(static_cast<std::uint32_t>(list.size()));
+  for (const motion_db::StoredMotion& motion : list) motion_db::encode(motion, out);
+  transaction.put(key_of('P'), kv::sealed(out.bytes()));
+}
+
+}  // namespace signweave::catalogue

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "signweave/database/recording.h"
+#include "signweave/kv/kv_store.h"
+
+/// The records that say what is in a database. Internal to `database`.
+///
+/// Keys: 'C' the head; 'R' + u32 slot one recording; 'P' the sweep list. Each is sealed with its checksum and begins
+/// with a version byte. Recordings fill slots 0 … count − 1; a removed one is replaced by the last, so listing needs no
+/// scan and adding costs the same in a small and a large database.
+namespace signweave::catalogue {
+
+struct Head {
+  std::uint64_t changes = 0;          ///< counts commits: a reader whose number is another must look again
+  std::uint64_t next_generation = 1;  ///< generations are never used twice
+  std::uint32_t recordings = 0;
+  AccessMode access_mode;  ///< for motions to come
+};
+
+/// What a crash may have left behind, or what is to be erased once nothing names it.
+using SweepList = std::vector<motion_db::StoredMotion>;
+
+Head read_head(const kv::ReadTransaction& snapshot);
+void write_head(kv::WriteTransaction& transaction, const Head& head);
+
+RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t slot);
+void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, const RecordingInfo& info);
+void erase_recording(kv::WriteTransaction& transaction, std::uint32_t slot);
+
+SweepList read_sweep_list(const kv::ReadTransaction& snapshot);
+void write_sweep_list(kv::WriteTransaction& transaction, const SweepList& list);
+
+}  // namespace signweave::catalogue

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "signweave/annotation/sign.h"
+#include "signweave/core/error.h"
+#include "signweave/core/time.h"
+#include "signweave/database/database.h"
+#include "signweave/formats/bvh.h"
+
+namespace signweave {
+
+/// Files that make one recording.
+struct ImportJob {
+  std::string name;  ///< of the recording: the stem of its files, with the folder's name in front where stems collide
+  std::optional<std::filesystem::path> motion;
+  std::optional<std::filesystem::path> annotation;
+  std::string signer;
+  std::optional<Seconds> offset;  ///< annotation time of frame 0, from a table of pairs
+};
+
+struct Pairing {
+  std::vector<ImportJob> jobs;  ///< by name
+  std::vector<Notice> notices;  ///< files without a partner, files passed over
+};
+
+/// Finds out which files belong together. Folders are walked; files pair by the table of pairs, by stem in one folder,
+/// by a stem that is unique, and by the files that an EAF links; one EAF may serve several motions.
+/// Throws Error{not_found} for an input that is not there, Error{unsupported} for a file of a kind that cannot be read,
+/// Error{bad_input} for a bad table.
+///
+/// The table is CSV with the columns motion, annotation, signer, offset (ms); the last two may be missing, either of
+/// the first two may be empty; paths are relative to the table's folder. A first row "motion,annotation,…" is a
+/// heading.
+Pairing pair_files(const std::vector<std::filesystem::path>& inputs,
+                   const std::optional<std::filesystem::path>& pairs_table = {});
+
+/// "Frame 120 is at 4,010 ms of the annotation."
+struct SyncPoint {
+  double frame = 0;
+  Seconds time{0};
+};
+
+struct ImportOptions {
+  bvh::ReadOptions motion;
+  std::vector<TierNames::SignTier> sign_tiers;    ///< empty: guessed
+  std::vector<std::string> phase_tiers;           ///< empty: guessed
+  std::map<std::string, PhaseKind> phase_labels;  ///< see TierNames
+  std::optional<Seconds> offset;  ///< annotation time of frame 0; else from the EAF's TIME_ORIGIN; else 0
+  std::vector<SyncPoint> sync;    ///< none, or two: sets origin and rate of the clock
+  bool replace_motion = false;    ///< take a motion file that changed since it was imported
+};
+
+enum class ImportOutcome { added, unchanged, annotation_replaced, motion_replaced };
+
+struct ImportReport {
+  ImportOutcome outcome = ImportOutcome::unchanged;
+  std::int64_t frames = 0;  ///< of the motion as it now is; 0: none
+  std::size_t signs = 0;    ///< found in the annotation; 0 where it was not read again
+  std::vector<Notice> notices;
+};
+
+/// Imports one recording: nothing where nothing changed; a changed annotation replaces the annotation alone; a changed
+/// motion is Error{conflict} unless replace_motion. A fault leaves the recording as it was.
+ImportReport import_recording(Database& database, const ImportJob& job, const ImportOptions& options,
+                              const Database::Progress& progress = {});
+
+/// Reads a table of phase labels: lines "LABEL = KIND", KIND one of preparation, stroke, retraction, hold; # comments.
+std::map<std::string, PhaseKind> read_phase_labels(const std::filesystem::path& path);
+
+}  // namespace signweave

@@ -1,0 +1,285 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "signweave/core/atomic_file.h"
+#include "signweave/core/text.h"
+#include "signweave/database/import.h"
+#include "signweave/formats/eaf.h"
+
+namespace signweave {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Kind { motion, annotation, other };
+
+Kind kind_of(const fs::path& path) {
+  const std::string ending = fold_case(path.extension().string());
+  if (ending == ".bvh") return Kind::motion;
+  if (ending == ".eaf") return Kind::annotation;
+  return Kind::other;
+}
+
+[[noreturn]] void refuse_kind(const fs::path& path) {
+  throw Error(ErrorCode::unsupported,
+              fmt::format("{}: neither a motion file (.bvh) nor an annotation file (.eaf)", path.string()));
+}
+
+struct Files {
+  std::vector<fs::path> motions;
+  std::vector<fs::path> annotations;
+};
+
+void take(const fs::path& path, Files& files) {
+  (kind_of(path) == Kind::motion ? files.motions : files.annotations).push_back(path);
+}
+
+Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
+  Files files;
+  for (const fs::path& input : inputs) {
+    std::error_code fault;
+    const fs::file_status status = fs::status(input, fault);
+    if (!fs::exists(status)) throw Error(ErrorCode::not_found, input.string() + ": no such file or folder");
+    if (!fs::is_directory(status)) {
+      if (kind_of(input) == Kind::other) refuse_kind(input);
+      take(input, files);
+      continue;
+    }
+    std::size_t others = 0;
+    fs::recursive_directory_iterator entry(input, fs::directory_options::skip_permission_denied, fault);
+    for (; !fault && entry != fs::recursive_directory_iterator(); entry.increment(fault)) {
+      if (!entry->is_regular_file(fault)) continue;
+      if (kind_of(entry->path()) == Kind::other) {
+        ++others;
+      } else {
+        take(entry->path(), files);
+      }
+    }
+    if (fault) throw Error(ErrorCode::io, fmt::format("{}: cannot be walked: {}", input.string(), fault.message()));
+    if (others > 0) notices.push_back({input.string(), fmt::format("{} files of other kinds passed over", others)});
+  }
+  for (std::vector<fs::path>* list : {&files.motions, &files.annotations}) {
+    std::sort(list->begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  return files;
+}
+
+/// Rows of a CSV file (RFC 4180: quotes double inside quotes, a field may hold line ends).
+struct Row {
+  std::size_t line = 1;
+  std::vector<std::string> fields;
+};
+
+std::vector<Row> parse_csv(std::string_view text, const std::string& name) {
+  std::vector<Row> rows;
+  std::size_t line = 1;
+  std::size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  while (i < text.size()) {
+    Row row{line, {""}};
+    bool quoted = false;
+    for (; i < text.size(); ++i) {
+      const char c = text[i];
+      if (c == '\n') ++line;
+      if (quoted) {
+        if (c != '"') {
+          row.fields.back() += c;
+        } else if (i + 1 < text.size() && text[i + 1] == '"') {
+          row.fields.back() += '"';
+          ++i;
+        } else {
+          quoted = false;
+        }
+      } else if (c == '"' && row.fields.back().empty()) {
+        quoted = true;
+      } else if (c == ',') {
+        row.fields.emplace_back();
+      } else if (c == '\n') {
+        ++i;
+        break;
+      } else if (c != '\r') {
+        row.fields.back() += c;
+      }
+    }
+    if (quoted) {
+      throw Error(ErrorCode::bad_input, fmt::format("{}:{}: a quote is opened and never closed", name, row.line));
+    }
+    if (row.fields.size() > 1 || !trimmed(row.fields[0]).empty()) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<ImportJob> read_pairs(const fs::path& table) {
+  std::vector<ImportJob> jobs;
+  for (const Row& row : parse_csv(read_file(table, std::size_t{1} << 28), table.string())) {
+    const auto field = [&](std::size_t i) {
+      return i < row.fields.size() ? std::string(trimmed(row.fields[i])) : std::string();
+    };
+    if (jobs.empty() && fold_case(field(0)) == "motion") continue;
+    const auto fail = [&](const std::string& what) {
+      throw Error(ErrorCode::bad_input, fmt::format("{}:{}: {}", table.string(), row.line, what));
+    };
+    if (row.fields.size() > 4) fail("more than the four columns motion, annotation, signer, offset");
+    ImportJob job;
+    job.signer = field(2);
+    const auto path_of = [&](const std::string& text, Kind kind) -> std::optional<fs::path> {
+      if (text.empty()) return std::nullopt;
+      const fs::path path = fs::path(text).is_absolute() ? fs::path(text) : table.parent_path() / text;
+      std::error_code ignored;
+      if (!fs::exists(path, ignored)) fail(fmt::format("no file '{}'", text));
+      if (kind_of(path) != kind) {
+        fail(fmt::format("'{}' is no {} file", text, kind == Kind::motion ? "motion" : "annotation"));
+      }
+      return path;
+    };
+    job.motion = path_of(field(0), Kind::motion);
+    job.annotation = path_of(field(1), Kind::annotation);
+    if (!job.motion && !job.annotation) fail("a row needs a motion or an annotation");
+    if (const std::string offset = field(3); !offset.empty()) {
+      double ms = 0;
+      const auto [end, error] = std::from_chars(offset.data(), offset.data() + offset.size(), ms);
+      if (error != std::errc() || end != offset.data() + offset.size()) {
+        fail(fmt::format("the offset '{}' is no number of milliseconds", printable(offset)));
+      }
+      job.offset = Seconds(ms / 1000.0);
+    }
+    jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+/// The last part of a path or URL, either kind of slash, with %20 and the like decoded.
+std::string file_name_of(std::string_view url) {
+  std::string name(url.substr(url.find_last_of("/\\") == url.npos ? 0 : url.find_last_of("/\\") + 1));
+  std::string decoded;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    unsigned value = 0;
+    if (name[i] == '%' && i + 2 < name.size() &&
+        std::from_chars(name.data() + i + 1, name.data() + i + 3, value, 16).ptr == name.data() + i + 3) {
+      decoded += static_cast<char>(value);
+      i += 2;
+    } else {
+      decoded += name[i];
+    }
+  }
+  return decoded;
+}
+
+/// Names of the motion files that an annotation file links. A file that cannot be read links none here: importing it
+/// reports why.
+std::set<std::string> linked_motions(const fs::path& annotation) {
+  std::set<std::string> names;
+  try {
+    for (const LinkedFile& linked : eaf::read(annotation).document.linked_files) {
+      for (const std::string& url : {linked.url, linked.relative_url}) {
+        if (kind_of(file_name_of(url)) == Kind::motion) names.insert(file_name_of(url));
+      }
+    }
+  } catch (const Error&) {
+  }
+  return names;
+}
+
+fs::path stem_path(const ImportJob& job) {
+  const fs::path& file = job.motion ? *job.motion : *job.annotation;
+  return file.parent_path() / file.stem();
+}
+
+/// Stems as names; where two would be the same, as many folders in front as it takes.
+void name_jobs(std::vector<ImportJob>& jobs) {
+  std::vector<std::size_t> depth(jobs.size(), 0);
+  for (;;) {
+    std::map<std::string, std::vector<std::size_t>> by_name;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      std::error_code ignored;
+      fs::path path = fs::absolute(stem_path(jobs[i]), ignored).lexically_normal();
+      fs::path name = path.filename();
+      for (std::size_t up = 0; up < depth[i] && path.has_parent_path(); ++up) {
+        path = path.parent_path();
+        if (path.filename().empty()) break;
+        name = path.filename() / name;
+      }
+      jobs[i].name = name.generic_string();
+      by_name[jobs[i].name].push_back(i);
+    }
+    bool again = false;
+    for (const auto& [name, same] : by_name) {
+      if (same.size() == 1 || depth[same[0]] > 64) continue;
+      for (const std::size_t i : same) ++depth[i];
+      again = true;
+    }
+    if (!again) return;
+  }
+}
+
+}  // namespace
+
+Pairing pair_files(const std::vector<fs::path>& inputs, const std::optional<fs::path>& pairs_table) {
+  Pairing result;
+  Files files = walk(inputs, result.notices);
+  std::vector<ImportJob> jobs;
+  std::set<fs::path> used;
+  const auto same_file = [](const fs::path& path) {
+    std::error_code ignored;
+    return fs::weakly_canonical(path, ignored);
+  };
+  if (pairs_table) {
+    jobs = read_pairs(*pairs_table);
+    for (const ImportJob& job : jobs) {
+      if (job.motion) used.insert(same_file(*job.motion));
+      if (job.annotation) used.insert(same_file(*job.annotation));
+    }
+  }
+  const auto forget_used = [&](std::vector<fs::path>& list) {
+    std::erase_if(list, [&](const fs::path& path) { return used.contains(same_file(path)); });
+  };
+  forget_used(files.motions);
+  forget_used(files.annotations);
+
+  std::map<fs::path, std::set<std::string>> links;  // of annotation files; read only where a motion has no partner
+  std::set<fs::path> paired;
+  for (const fs::path& motion : files.motions) {
+    ImportJob job;
+    job.motion = motion;
+    std::vector<fs::path> same_stem;
+    for (const fs::path& annotation : files.annotations) {
+      if (annotation.stem() != motion.stem()) continue;
+      if (annotation.parent_path() == motion.parent_path()) job.annotation = annotation;
+      same_stem.push_back(annotation);
+    }
+    if (!job.annotation && same_stem.size() == 1) {
+      const auto rivals = std::count_if(files.motions.begin(), files.motions.end(),
+                                        [&](const fs::path& other) { return other.stem() == motion.stem(); });
+      if (rivals == 1) job.annotation = same_stem[0];
+    }
+    if (!job.annotation) {
+      for (const fs::path& annotation : files.annotations) {
+        if (!links.contains(annotation)) links[annotation] = linked_motions(annotation);
+        if (links[annotation].contains(motion.filename().string())) job.annotation = annotation;
+      }
+    }
+    if (job.annotation) paired.insert(*job.annotation);
+    jobs.push_back(std::move(job));
+  }
+  for (const fs::path& annotation : files.annotations) {
+    if (paired.contains(annotation)) continue;
+    ImportJob job;
+    job.annotation = annotation;
+    jobs.push_back(std::move(job));
+  }
+  name_jobs(jobs);
+  std::sort(jobs.begin(), jobs.end(), [](const ImportJob& a, const ImportJob& b) { return a.name < b.name; });
+  for (std::size_t i = 1; i < jobs.size(); ++i) {
+    if (jobs[i].name == jobs[i - 1].name) {
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("two recordings would be called '{}'; rename a file", jobs[i].name));
+    }
+  }
+  result.jobs = std::move(jobs);
+  return result;
+}
+
+}  // namespace signweave

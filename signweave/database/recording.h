@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "signweave/annotation/document.h"
+#include "signweave/annotation/sign.h"
+#include "signweave/core/error.h"
+#include "signweave/core/time.h"
+#include "signweave/formats/bvh.h"
+#include "signweave/motion/motion.h"
+#include "signweave/motion_db/access_mode.h"
+#include "signweave/motion_db/motion_db.h"
+
+namespace signweave {
+
+/// The motion half of a recording, to be stored.
+struct MotionPart {
+  Motion motion;
+  std::optional<bvh::Layout> layout;  ///< how its file looked, for writing it back; none where it was no BVH file
+  std::string file;                   ///< the file's name without its folder, for reports; may be empty
+  std::uint64_t fingerprint = 0;      ///< of the file's bytes and the options it was read with; 0: not known
+};
+
+/// The annotation half.
+struct AnnotationPart {
+  AnnotationDocument document;  ///< `source` is what is stored, verbatim; written as EAF where it is empty
+  TierNames tiers;              ///< which of its tiers hold signs and phases
+  std::string file;
+  std::uint64_t fingerprint = 0;
+};
+
+/// One capture: motion, annotation document, and the clock that ties them. Either half may be missing.
+struct Recording {
+  std::string name;    ///< unique in a database, UTF-8, not empty
+  std::string signer;  ///< may be empty
+  std::optional<MotionPart> motion;
+  std::optional<AnnotationPart> annotation;
+  FrameClock clock;             ///< meaningful where there is a motion
+  std::vector<Notice> notices;  ///< what reading it reported; kept with the recording
+};
+
+/// What a database knows of a recording without reading its motion or document.
+struct RecordingInfo {
+  std::string name;
+  std::string signer;
+  FrameClock clock;
+  std::optional<motion_db::StoredMotion> motion;
+  std::optional<bvh::Layout> layout;
+  std::uint64_t document = 0;  ///< generation of the stored document; 0: none
+  TierNames tiers;
+  std::string motion_file;
+  std::string annotation_file;
+  std::uint64_t motion_fingerprint = 0;
+  std::uint64_t annotation_fingerprint = 0;
+  std::vector<Notice> notices;
+};
+
+}  // namespace signweave

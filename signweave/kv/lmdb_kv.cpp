@@ -1,0 +1,179 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <deque>
+#include <limits>
+
+#include "signweave/kv/engine.h"
+#include "signweave/kv/lmdb_environment.h"
+
+// A store is LMDB's own two files, data.mdb and lock.mdb, with everything in its unnamed database.
+
+namespace signweave::kv {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Environment = std::shared_ptr<LmdbEnvironment>;
+
+/// LMDB takes keys of 1 to mdb_env_get_maxkeysize() bytes.
+MDB_val key_of(const LmdbEnvironment& environment, ByteSpan key) {
+  const auto longest = static_cast<std::size_t>(::mdb_env_get_maxkeysize(environment.get()));
+  if (key.empty() || key.size() > longest) {
+    throw Error(ErrorCode::bad_input, environment.folder().string() + ": a key of " + std::to_string(key.size()) +
+                                          " bytes; keys have 1 to " + std::to_string(longest) + ", use a shorter name");
+  }
+  return {key.size(), const_cast<std::byte*>(key.data())};  // LMDB only reads it
+}
+
+std::optional<ByteSpan> get_value(const LmdbEnvironment& environment, MDB_txn* transaction, ByteSpan key) {
+  assert(transaction && "the transaction is over");
+  MDB_val name = key_of(environment, key);
+  MDB_val value{};
+  const int code = ::mdb_get(transaction, environment.database(), &name, &value);
+  if (code == MDB_NOTFOUND) return std::nullopt;
+  if (code != MDB_SUCCESS) environment.fail("reading", code);
+  return ByteSpan(static_cast<const std::byte*>(value.mv_data), value.mv_size);
+}
+
+class LmdbRead final : public ReadTransaction {
+ public:
+  explicit LmdbRead(Environment environment)
+      : environment_(std::move(environment)), transaction_(environment_->begin_read()) {}
+  ~LmdbRead() override { ::mdb_txn_abort(transaction_); }
+
+  std::optional<ByteSpan> get(ByteSpan key) const override { return get_value(*environment_, transaction_, key); }
+
+ private:
+  Environment environment_;
+  MDB_txn* transaction_;
+};
+
+class LmdbWrite final : public WriteTransaction {
+ public:
+  explicit LmdbWrite(Environment environment)
+      : environment_(std::move(environment)), transaction_(environment_->begin_write()) {}
+  ~LmdbWrite() override {
+    if (!transaction_) return;
+    ::mdb_txn_abort(transaction_);
+    environment_->end_write();
+  }
+
+  std::optional<ByteSpan> get(ByteSpan key) const override {
+    const std::optional<ByteSpan> value = get_value(*environment_, transaction_, key);
+    if (!value) return std::nullopt;
+    // LMDB's own view lasts until the next put; what we lend lasts until the end of the transaction.
+    return ByteSpan(lent_.emplace_back(value->begin(), value->end()));
+  }
+
+  void put(ByteSpan key, ByteSpan value) override {
+    assert(transaction_ && "the transaction is over");
+    if (value.size() > std::numeric_limits<std::uint32_t>::max()) {
+      throw Error(ErrorCode::unsupported, environment_->folder().string() + ": a value of " +
+                                              std::to_string(value.size()) +
+                                              " bytes; LMDB takes less than 4 GiB, store it in smaller parts");
+    }
+    MDB_val name = key_of(*environment_, key);
+    MDB_val bytes{value.size(), const_cast<std::byte*>(value.data())};  // LMDB only reads it
+    const int code = ::mdb_put(transaction_, environment_->database(), &name, &bytes, 0);
+    if (code != MDB_SUCCESS) environment_->fail("writing", code);
+  }
+
+  bool erase(ByteSpan key) override {
+    assert(transaction_ && "the transaction is over");
+    MDB_val name = key_of(*environment_, key);
+    const int code = ::mdb_del(transaction_, environment_->database(), &name, nullptr);
+    if (code == MDB_NOTFOUND) return false;
+    if (code != MDB_SUCCESS) environment_->fail("erasing", code);
+    return true;
+  }
+
+  void commit() override {
+    assert(transaction_ && "the transaction is over");
+    const int code = ::mdb_txn_commit(transaction_);  // whatever it returns, the transaction is gone
+    transaction_ = nullptr;
+    environment_->end_write();
+    if (code != MDB_SUCCESS) environment_->fail("committing", code);
+  }
+
+ private:
+  Environment environment_;
+  MDB_txn* transaction_;
+  mutable std::deque<Bytes> lent_;
+};
+
+class LmdbStore final : public KvStore {
+ public:
+  LmdbStore(Environment environment, Access access) : environment_(std::move(environment)), access_(access) {}
+
+  std::unique_ptr<ReadTransaction> read() const override { return std::make_unique<LmdbRead>(environment_); }
+
+  std::unique_ptr<WriteTransaction> write() override {
+    if (access_ == Access::read_only) {
+      throw Error(ErrorCode::unsupported,
+                  environment_->folder().string() + ": the store was opened for reading only; open it for writing");
+    }
+    return std::make_unique<LmdbWrite>(environment_);
+  }
+
+  EngineInfo info() const override {
+    MDB_stat tree{};
+    const int code = ::mdb_env_stat(environment_->get(), &tree);
+    if (code != MDB_SUCCESS) environment_->fail("reading", code);
+    int file = -1;
+    ::mdb_env_get_fd(environment_->get(), &file);
+    struct stat status {};
+    if (::fstat(file, &status) != 0) environment_->fail("reading", errno);
+    int major = 0, minor = 0, patch = 0;
+    ::mdb_version(&major, &minor, &patch);
+    return {.name = "lmdb",
+            .version = std::to_string(major) + '.' + std::to_string(minor) + '.' + std::to_string(patch),
+            .entries = tree.ms_entries,
+            .bytes_on_disk = static_cast<std::uint64_t>(status.st_size)};
+  }
+
+  std::size_t longest_key() const noexcept override {
+    return static_cast<std::size_t>(::mdb_env_get_maxkeysize(environment_->get()));
+  }
+
+ private:
+  Environment environment_;
+  Access access_;
+};
+
+/// Makes the names in a folder survive a power cut.
+void sync_folder(const fs::path& folder) {
+  const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (handle < 0) return;
+  ::fsync(handle);
+  ::close(handle);
+}
+
+}  // namespace
+
+bool lmdb_recognises(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_regular_file(folder / "data.mdb", error);
+}
+
+void lmdb_create(const fs::path& folder) {
+  MDB_env* env = nullptr;
+  int code = ::mdb_env_create(&env);
+  if (code != MDB_SUCCESS) fail_lmdb(folder, "making the store", code);
+  code = ::mdb_env_open(env, folder.c_str(), 0, 0664);  // writes the two meta pages
+  if (code == MDB_SUCCESS) code = ::mdb_env_sync(env, 1);
+  ::mdb_env_close(env);
+  if (code != MDB_SUCCESS) fail_lmdb(folder, "making the store", code);
+  sync_folder(folder);
+  sync_folder(fs::absolute(folder).parent_path());
+}
+
+std::unique_ptr<KvStore> lmdb_open(const fs::path& folder, Access access) {
+  return std::make_unique<LmdbStore>(LmdbEnvironment::acquire(folder, access), access);
+}
+
+}  // namespace signweave::kv

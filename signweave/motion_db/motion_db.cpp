@@ -1,0 +1,94 @@
+#include "signweave/motion_db/motion_db.h"
+
+#include <cassert>
+
+#include "signweave/motion_db/packet.h"
+
+namespace signweave::motion_db {
+
+namespace {
+
+// One transaction is kept this small, because an engine holds it in memory whole, a commit blocks other writers, and
+// Berkeley DB's lock table has 1,000 locks.
+constexpr std::size_t kMostPuts = 512;
+constexpr std::size_t kMostBytes = std::size_t{16} << 20;
+
+/// Changes in transactions of bounded size.
+class BoundedChange {
+ public:
+  BoundedChange(kv::KvStore& store, std::uint64_t records, std::function<void(double)> progress)
+      : store_(store), records_(records), progress_(std::move(progress)) {}
+
+  void put(ByteSpan key, ByteSpan value) {
+    transaction().put(key, value);
+    changed_ = true;
+    stepped(value.size());
+  }
+  void erase(ByteSpan key) {
+    changed_ |= transaction().erase(key);
+    stepped(0);
+  }
+  void flush() {
+    if (transaction_ && changed_) transaction_->commit();
+    transaction_.reset();  // before `progress`, which must not wait while other writers wait for us
+    changed_ = false;
+    steps_ = 0;
+    bytes_ = 0;
+    if (progress_) progress_(static_cast<double>(done_) / static_cast<double>(records_));
+  }
+
+ private:
+  kv::WriteTransaction& transaction() {
+    if (!transaction_) transaction_ = store_.write();
+    return *transaction_;
+  }
+  void stepped(std::size_t bytes) {
+    ++done_;
+    bytes_ += bytes;
+    if (++steps_ >= kMostPuts || bytes_ >= kMostBytes) flush();
+  }
+
+  kv::KvStore& store_;
+  std::uint64_t records_;
+  std::function<void(double)> progress_;
+  std::unique_ptr<kv::WriteTransaction> transaction_;
+  std::uint64_t done_ = 0;
+  std::size_t steps_ = 0;
+  std::size_t bytes_ = 0;
+  bool changed_ = false;
+};
+
+std::uint64_t record_count(const StoredMotion& stored) {
+  const auto blocks = static_cast<std::uint64_t>((stored.frames + kTrackFrames - 1) / kTrackFrames);
+  return 1 + packet_count(stored) + stored.tracks.size() * blocks;
+}
+
+}  // namespace
+
+void put(kv::KvStore& store, const StoredMotion& stored, const Motion& motion,
+         const std::function<void(double fraction)>& progress) {
+  assert(stored == describe(motion, stored.mode, stored.generation));
+  const std::uint64_t generation = stored.generation;
+  const FrameRange all{0, stored.frames};
+  BoundedChange change(store, record_count(stored), progress);
+  change.put(key_of(generation, Record{}), encode_skeleton(generation, motion.skeleton()));
+  for_each_packet(stored, all, {}, [&](const Record& packet) {
+    change.put(key_of(generation, packet), encode_packet(generation, motion, packet));
+  });
+  for_each_track_record(stored, all, [&](const Record& record) {
+    change.put(key_of(generation, record), encode_track(generation, motion.tracks()[record.part], record));
+  });
+  change.flush();
+}
+
+void erase(kv::KvStore& store, const StoredMotion& stored) {
+  const FrameRange all{0, stored.frames};
+  BoundedChange change(store, record_count(stored), {});
+  const auto erase_record = [&](const Record& record) { change.erase(key_of(stored.generation, record)); };
+  erase_record(Record{});
+  for_each_packet(stored, all, {}, erase_record);
+  for_each_track_record(stored, all, erase_record);
+  change.flush();
+}
+
+}  // namespace signweave::motion_db

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "signweave/core/bytes.h"
+#include "signweave/motion/motion.h"
+#include "signweave/motion_db/motion_db.h"
+
+/// Inside this module only: the records that a stored motion consists of, and their bytes (docs/store.md has a worked
+/// example).
+namespace signweave::motion_db {
+
+/// What a record holds. Stored on disk: never renumber.
+enum class RecordKind : std::uint8_t {
+  skeleton = 0,  ///< one a motion
+  packet = 1,    ///< rotations and translations of one joint or of all, over some frames
+  track = 2,     ///< one scalar track over some frames
+};
+
+/// Stands for every joint where a joint's index is stored: a skeleton has at most 65,535 joints.
+inline constexpr std::uint16_t kAllJoints = 0xFFFF;
+
+/// Bytes in front of every record's payload.
+inline constexpr std::size_t kHeaderSize = 32;
+
+/// The pages of the engines. A value of a whole page does not fit beside the engine's own header of 16 bytes, so
+/// values are made to have at most n · kPageSize − kPageLoss bytes.
+inline constexpr std::size_t kPageSize = 4096;
+inline constexpr std::size_t kPageLoss = 16;
+
+/// Frames in one record of a scalar track: header and values fill one page (4,080 bytes).
+inline constexpr std::uint32_t kTrackFrames = (kPageSize - kPageLoss - kHeaderSize) / sizeof(float);
+
+/// One record of a motion: which it is, and what it covers.
+struct Record {
+  RecordKind kind = RecordKind::skeleton;
+  std::uint16_t part = 0;   ///< a packet's joint or kAllJoints; a track's number; 0 for the skeleton
+  std::uint32_t block = 0;  ///< how many records of the same part lie before it
+  FrameRange frames;        ///< empty for the skeleton
+};
+
+/// How many rotations and translations each frame of a packet holds.
+struct Width {
+  std::uint16_t rotations = 0;
+  std::uint16_t translations = 0;
+
+  std::size_t frame_bytes() const noexcept { return rotations * std::size_t{16} + translations * std::size_t{12}; }
+  friend bool operator==(Width, Width) = default;
+};
+
+/// The key of a record: 16 bytes.
+Bytes key_of(std::uint64_t generation, const Record& record);
+
+bool cut_by_joint(AccessMode mode) noexcept;
+/// The frames of each packet but the last: p, or all of them.
+std::int64_t packet_frames(const StoredMotion& stored) noexcept;
+Width width_of(const Skeleton& skeleton, const Record& packet) noexcept;
+/// Bytes of a packet's or track's value.
+std::size_t value_size(const Record& record, Width width) noexcept;
+
+/// Throws Error{unsupported} where a packet would be larger than an engine's largest value (4 GiB).
+void check_packet_size(const StoredMotion& stored);
+
+/// Calls `visit` for each packet that holds one of the frames of one of the joints (empty: all), in the order in which
+/// they are written: by block of frames, then by joint.
+void for_each_packet(const StoredMotion& stored, FrameRange frames, const JointSet& joints,
+                     const std::function<void(const Record&)>& visit);
+/// Likewise for the records of all scalar tracks, by track, then by block.
+void for_each_track_record(const StoredMotion& stored, FrameRange frames,
+                           const std::function<void(const Record&)>& visit);
+
+/// The value of a record. (A skeleton's record is Record{}.)
+Bytes encode_skeleton(std::uint64_t generation, const Skeleton& skeleton);
+Bytes encode_packet(std::uint64_t generation, const Motion& motion, const Record& packet);
+Bytes encode_track(std::uint64_t generation, const ScalarTrack& track, const Record& record);
+
+/// What is wrong with a stored value, or null. A value without fault has the right size, is the record that was asked
+/// for, and has the right checksum. Without `width`, a packet of one joint may have a translation or not.
+const char* fault_of(ByteSpan value, std::uint64_t generation, const Record& record, std::optional<Width> width);
+
+/// The skeleton in a value without fault. Throws Error{corrupt}.
+Skeleton decode_skeleton(ByteSpan value, const std::string& where);
+
+/// "stored motion 7, joint 3 (LeftHand), frames [64, 128)": for errors. `skeleton` may be null.
+std::string name_of(const StoredMotion& stored, const Record& record, const Skeleton* skeleton);
+
+}  // namespace signweave::motion_db

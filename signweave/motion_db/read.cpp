@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <cstring>
+
+#include "signweave/motion_db/motion_db.h"
+#include "signweave/motion_db/packet.h"
+
+namespace signweave::motion_db {
+
+namespace {
+
+/// A record that a read needs, borrowed from the snapshot.
+struct Found {
+  Record record;
+  ByteSpan value;
+};
+
+[[noreturn]] void fail(const StoredMotion& stored, const Record& record, const Skeleton* skeleton, const char* fault) {
+  throw Error(ErrorCode::corrupt, name_of(stored, record, skeleton) + ": " + fault +
+                                      "; import the recording again or restore the database from a copy");
+}
+
+/// Refuses what the motion does not have: frames and joints come from a user.
+void check_asked(const StoredMotion& stored, const Skeleton& skeleton, FrameRange frames, const JointSet& joints) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(ErrorCode::bad_input, "stored motion " + std::to_string(stored.generation) + ": " + what);
+  };
+  if (skeleton.joint_count() != stored.joints || skeleton.translation_count() != stored.translations) {
+    refuse("read with the skeleton of another motion; use the one that read_skeleton gives");
+  }
+  if (frames.begin < 0 || frames.end < frames.begin || frames.end > stored.frames) {
+    refuse("frames [" + std::to_string(frames.begin) + ", " + std::to_string(frames.end) +
+           ") were asked for; ask for some of [0, " + std::to_string(stored.frames) + ")");
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (joints[i] < 0 || joints[i] >= static_cast<JointIndex>(stored.joints) || (i > 0 && joints[i] <= joints[i - 1])) {
+      refuse("a joint set must name joints 0 to " + std::to_string(stored.joints - 1) + ", ascending");
+    }
+  }
+}
+
+/// Copies the frames that a sound packet and `asked` share.
+void copy_frames(const Found& packet, const Skeleton& skeleton, FrameRange asked, const JointSet& joints,
+                 Motion& result) {
+  const Width width = width_of(skeleton, packet.record);
+  const FrameRange has = packet.record.frames;
+  const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
+  const auto from = static_cast<std::size_t>(shared.begin - has.begin);
+  const auto to = static_cast<std::size_t>(shared.begin - asked.begin);
+  const auto count = static_cast<std::size_t>(shared.size());
+  const std::byte* const rotations = packet.value.data() + kHeaderSize;
+  const std::byte* const translations = rotations + static_cast<std::size_t>(has.size()) * width.rotations * 16;
+  const MutablePoseView first = result.pose(0);  // of arrays that hold all frames
+  auto* const out_rotations = reinterpret_cast<std::byte*>(first.rotations.data());
+  auto* const out_translations = reinterpret_cast<std::byte*>(first.translations.data());
+  const std::size_t joint_count = skeleton.joint_count();
+  const std::size_t translation_count = skeleton.translation_count();
+
+  if (packet.record.part == kAllJoints && joints.empty()) {
+    std::memcpy(out_rotations + to * joint_count * 16, rotations + from * joint_count * 16, count * joint_count * 16);
+    if (translation_count > 0) {
+      std::memcpy(out_translations + to * translation_count * 12, translations + from * translation_count * 12,
+                  count * translation_count * 12);
+    }
+    return;
+  }
+  const auto copy_joint = [&](JointIndex joint, std::size_t at) {
+    const auto index = static_cast<std::size_t>(joint);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::memcpy(out_rotations + ((to + i) * joint_count + index) * 16,
+                  rotations + ((from + i) * width.rotations + at) * 16, 16);
+    }
+    const std::optional<std::size_t> moved = skeleton.translation_of(joint);
+    if (!moved) return;
+    const std::size_t moved_at = packet.record.part == kAllJoints ? *moved : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::memcpy(out_translations + ((to + i) * translation_count + *moved) * 12,
+                  translations + ((from + i) * width.translations + moved_at) * 12, 12);
+    }
+  };
+  if (packet.record.part != kAllJoints) {
+    copy_joint(packet.record.part, 0);
+  } else {
+    for (const JointIndex joint : joints) copy_joint(joint, static_cast<std::size_t>(joint));
+  }
+}
+
+/// The values of some frames of all tracks; sizes were checked when the records were found.
+std::vector<ScalarTrack> tracks_of(const StoredMotion& stored, FrameRange asked, std::span<const Found> records) {
+  std::vector<ScalarTrack> tracks;
+  for (const std::string& name : stored.tracks) {
+    tracks.push_back({name, std::vector<float>(static_cast<std::size_t>(asked.size()))});
+  }
+  for (const Found& found : records) {
+    if (const char* fault = fault_of(found.value, stored.generation, found.record, Width{})) {
+      fail(stored, found.record, nullptr, fault);
+    }
+    const FrameRange has = found.record.frames;
+    const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
+    std::memcpy(tracks[found.record.part].values.data() + (shared.begin - asked.begin),
+                found.value.data() + kHeaderSize + static_cast<std::size_t>(shared.begin - has.begin) * sizeof(float),
+                static_cast<std::size_t>(shared.size()) * sizeof(float));
+  }
+  return tracks;
+}
+
+}  // namespace
+
+std::shared_ptr<const Skeleton> read_skeleton(const kv::ReadTransaction& snapshot, const StoredMotion& stored) {
+  const std::optional<ByteSpan> value = snapshot.get(key_of(stored.generation, Record{}));
+  if (!value) fail(stored, Record{}, nullptr, "it is missing");
+  if (const char* fault = fault_of(*value, stored.generation, Record{}, Width{})) {
+    fail(stored, Record{}, nullptr, fault);
+  }
+  auto skeleton = std::make_shared<const Skeleton>(decode_skeleton(*value, name_of(stored, Record{}, nullptr)));
+  if (skeleton->joint_count() != stored.joints || skeleton->translation_count() != stored.translations) {
+    fail(stored, Record{}, nullptr, "it has other joints than the motion");
+  }
+  return skeleton;
+}
+
+Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
+            const std::shared_ptr<const Skeleton>& skeleton, FrameRange frames, const JointSet& joints,
+            ReadCost* cost) {
+  check_asked(stored, *skeleton, frames, joints);
+  // First find everything, with its size, so that a damaged descriptor cannot ask for memory that no record backs.
+  ReadCost spent;
+  const auto find = [&](const Record& record, Width width) {
+    const std::optional<ByteSpan> value = snapshot.get(key_of(stored.generation, record));
+    if (!value) fail(stored, record, skeleton.get(), "it is missing");
+    if (value->size() != value_size(record, width)) fail(stored, record, skeleton.get(), "its size is wrong");
+    spent.bytes += value->size();
+    return Found{record, *value};
+  };
+  std::vector<Found> packets;
+  for_each_packet(stored, frames, joints,
+                  [&](const Record& record) { packets.push_back(find(record, width_of(*skeleton, record))); });
+  spent.packets = packets.size();
+  std::vector<Found> track_records;
+  if (joints.empty()) {
+    for_each_track_record(stored, frames,
+                          [&](const Record& record) { track_records.push_back(find(record, Width{})); });
+  }
+
+  Motion result(skeleton, stored.rate, frames.size());
+  for (const Found& packet : packets) {
+    if (const char* fault =
+            fault_of(packet.value, stored.generation, packet.record, width_of(*skeleton, packet.record))) {
+      fail(stored, packet.record, skeleton.get(), fault);
+    }
+    copy_frames(packet, *skeleton, frames, joints, result);
+  }
+  if (joints.empty()) {
+    for (ScalarTrack& track : tracks_of(stored, frames, track_records)) result.add_track(std::move(track));
+  }
+  if (cost) *cost = spent;
+  return result;
+}
+
+std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored) {
+  std::vector<std::string> faults;
+  std::shared_ptr<const Skeleton> skeleton;
+  try {
+    skeleton = read_skeleton(snapshot, stored);
+  } catch (const Error& error) {
+    faults.emplace_back(error.what());
+  }
+  const auto check_record = [&](const Record& record, std::optional<Width> width) {
+    const std::optional<ByteSpan> value = snapshot.get(key_of(stored.generation, record));
+    const char* const fault = value ? fault_of(*value, stored.generation, record, width) : "it is missing";
+    if (fault) faults.push_back(name_of(stored, record, skeleton.get()) + ": " + fault);
+  };
+  for_each_packet(stored, {0, stored.frames}, {}, [&](const Record& record) {
+    std::optional<Width> width;
+    if (record.part == kAllJoints) {
+      width = {static_cast<std::uint16_t>(stored.joints), static_cast<std::uint16_t>(stored.translations)};
+    } else if (skeleton) {
+      width = width_of(*skeleton, record);
+    }
+    check_record(record, width);
+  });
+  for_each_track_record(stored, {0, stored.frames}, [&](const Record& record) { check_record(record, Width{}); });
+  return faults;
+}
+
+}  // namespace signweave::motion_db

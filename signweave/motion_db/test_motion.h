@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstring>
+#include <random>
+
+#include "signweave/kv/kv_store.h"
+#include "signweave/kv/test_folder.h"
+#include "signweave/motion/motion.h"
+
+namespace signweave::motion_db {
+
+/// For tests: a motion whose every number differs, with values that careless copying would change.
+inline Motion test_motion(std::int64_t frames, int joints = 5, unsigned seed = 1, int tracks = 0) {
+  std::vector<Joint> list;
+  for (int i = 0; i < joints; ++i) {
+    list.push_back({.name = "Joint " + std::to_string(i),
+                    .parent = i == 0 ? kNoJoint : (i - 1) / 2,
+                    .offset = Eigen::Vector3f(0.1f, 0.2f, static_cast<float>(i)),
+                    .translated = i % 3 == 0});
+  }
+  auto skeleton = std::make_shared<const Skeleton>(
+      std::move(list), std::vector<Tip>{{.joint = joints - 1, .offset = Eigen::Vector3f(0, 1, 0)}});
+  Motion motion(std::move(skeleton), FrameRate{30'000, 1'001}, frames);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> number(-2.0f, 2.0f);
+  constexpr float kOdd[] = {-0.0f, 1e-40f, 3.4e38f};
+  const auto next = [&] { return random() % 16 == 0 ? kOdd[random() % 3] : number(random); };
+  for (std::int64_t frame = 0; frame < frames; ++frame) {
+    for (Eigen::Quaternionf& rotation : motion.pose(frame).rotations) {
+      for (float& value : rotation.coeffs()) value = next();
+    }
+    for (Eigen::Vector3f& translation : motion.pose(frame).translations) {
+      for (float& value : translation) value = next();
+    }
+  }
+  for (int i = 0; i < tracks; ++i) {
+    ScalarTrack track{.name = "face " + std::to_string(i), .values = {}};
+    for (std::int64_t frame = 0; frame < frames; ++frame) track.values.push_back(next());
+    motion.add_track(std::move(track));
+  }
+  return motion;
+}
+
+/// True where two motions are the same to the bit, -0.0 and 0.0 told apart.
+inline bool same_bits(const Motion& a, const Motion& b) {
+  const auto same = [](auto left, auto right) {
+    return left.size() == right.size() &&
+           (left.empty() || std::memcmp(left.data(), right.data(), left.size_bytes()) == 0);
+  };
+  bool equal = a.skeleton() == b.skeleton() && a.rate() == b.rate() && a.frame_count() == b.frame_count() &&
+               same(a.rotations(), b.rotations()) && same(a.translations(), b.translations()) &&
+               a.tracks().size() == b.tracks().size();
+  for (std::size_t i = 0; equal && i < a.tracks().size(); ++i) {
+    equal = a.tracks()[i].name == b.tracks()[i].name &&
+            same(std::span(a.tracks()[i].values), std::span(b.tracks()[i].values));
+  }
+  return equal;
+}
+
+/// What `read` must give, taken from the motion in memory.
+inline Motion expected(const Motion& motion, FrameRange frames, const JointSet& joints) {
+  if (joints.empty()) return motion.slice(frames);
+  Motion part(motion.shared_skeleton(), motion.rate(), frames.size());
+  for (std::int64_t frame = 0; frame < frames.size(); ++frame) {
+    for (const JointIndex joint : joints) {
+      const auto at = static_cast<std::size_t>(joint);
+      part.pose(frame).rotations[at] = motion.pose(frames.begin + frame).rotations[at];
+      if (const auto moved = motion.skeleton().translation_of(joint)) {
+        part.pose(frame).translations[*moved] = motion.pose(frames.begin + frame).translations[*moved];
+      }
+    }
+  }
+  return part;
+}
+
+inline constexpr AccessMode::Kind kAllKinds[] = {AccessMode::Kind::full, AccessMode::Kind::by_frame,
+                                                 AccessMode::Kind::by_joint, AccessMode::Kind::by_joint_and_frame};
+
+/// A store in a folder of its own.
+struct TestStore {
+  explicit TestStore(const std::string& engine = kv::engines().front()) {
+    kv::create(folder.path() / "db", engine);
+    store = kv::open(folder.path() / "db", kv::Access::read_write);
+  }
+  kv::KvStore& operator*() const { return *store; }
+  kv::KvStore* operator->() const { return store.get(); }
+
+  kv::TestFolder folder;
+  std::unique_ptr<kv::KvStore> store;
+};
+
+}  // namespace signweave::motion_db

@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "signweave/core/text.h"
+#include "signweave/query/find.h"
+#include "signweave/query/regex.h"
+
+namespace signweave {
+namespace {
+
+class Hinter {
+ public:
+  explicit Hinter(const SegmentTable& table) : table_(table) {}
+
+  void look_at(const Expression& expression) {
+    if (expression.kind == Expression::Kind::condition) look_at(expression.condition);
+    for (const Expression& operand : expression.operands) look_at(operand);
+  }
+
+  std::vector<Notice> take() { return std::move(notices_); }
+
+ private:
+  void look_at(const Condition& condition) {
+    if (condition.field == Field::gloss) {
+      if (glosses_.empty()) glosses_ = table_.glosses();
+      look_for(condition, glosses_, "no sign has the gloss");
+    } else if (condition.field == Field::recording) {
+      look_for(condition, table_.recordings(), "no recording is called");
+    } else if (condition.field == Field::tier && !contains(condition.tier, table_.tiers())) {
+      add(fmt::format("no recording has a tier \"{}\"{}", printable(condition.tier),
+                      did_you_mean(condition.tier, table_.tiers())));
+    }
+  }
+
+  void look_for(const Condition& condition, std::span<const std::string> known, std::string_view none) {
+    if (const Regex* regex = std::get_if<Regex>(&condition.value)) {
+      const std::unique_ptr<RE2> compiled = compile(*regex);
+      const auto fits = [&](const std::string& name) { return RE2::FullMatch(match_form(name), *compiled); };
+      if (std::any_of(known.begin(), known.end(), fits)) return;
+      return add(fmt::format("{} /{}/: it has to match the whole of it", none, printable(regex->pattern)));
+    }
+    const std::string& name = std::get<std::string>(condition.value);
+    if (!contains(name, known)) add(fmt::format("{} \"{}\"{}", none, printable(name), did_you_mean(name, known)));
+  }
+
+  static bool contains(const std::string& name, std::span<const std::string> known) {
+    const std::string wanted = match_form(name);
+    return std::any_of(known.begin(), known.end(), [&](const std::string& one) { return match_form(one) == wanted; });
+  }
+
+  void add(const std::string& text) {
+    const Notice notice{"query", text};
+    if (std::find(notices_.begin(), notices_.end(), notice) == notices_.end()) notices_.push_back(notice);
+  }
+
+  const SegmentTable& table_;
+  std::vector<std::string> glosses_;
+  std::vector<Notice> notices_;
+};
+
+}  // namespace
+
+std::vector<Notice> hints(const PhaseQuery& query, const SegmentTable& table) {
+  Hinter hinter(table);
+  for (const Element& element : query.elements) {
+    hinter.look_at(element.term.expression);
+    for (const Relation& relation : element.relations) hinter.look_at(relation.term.expression);
+  }
+  return hinter.take();
+}
+
+}  // namespace signweave

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "signweave/core/error.h"
+
+namespace signweave {
+
+/// One token of a query.
+struct QueryToken {
+  enum class Kind {
+    end,       ///< of the query
+    word,      ///< gloss, stroke, 300ms, LE-TEMPS-PREVU
+    text,      ///< "…", `text` with its escapes resolved
+    regex,     ///< /…/flags
+    variable,  ///< $X
+    symbol,    ///< ( ) [ & | ! @ -> = != =~ < <= > >=
+  };
+  Kind kind = Kind::end;
+  std::size_t begin = 0;  ///< byte offset
+  std::string text;       ///< of a symbol: itself; of a regex: the pattern
+  std::string flags;      ///< of a regex
+};
+
+/// Cuts a query into tokens, with one token of look-ahead. Throws QueryError.
+class QueryLexer {
+ public:
+  /// Borrows `text`, which must outlive the lexer.
+  explicit QueryLexer(std::string_view text);
+
+  const QueryToken& peek() const noexcept { return next_; }
+  QueryToken take();
+  bool next_is(std::string_view symbol) const noexcept;
+  /// Takes the next token where it is this symbol.
+  bool accept(std::string_view symbol);
+  void expect(std::string_view symbol, std::string_view hint);
+  /// The bytes up to the next ']', which is taken too; to be called where the next token is "[".
+  std::string_view bracketed();
+  /// The token as it is named in an error: "'&'", "the end of the query".
+  static std::string shown(const QueryToken& token);
+
+  [[noreturn]] void fail(std::size_t offset, const std::string& what, ErrorCode code = ErrorCode::bad_input) const;
+  /// Where a view into the text begins.
+  std::size_t offset_of(std::string_view part) const noexcept {
+    return static_cast<std::size_t>(part.data() - text_.data());
+  }
+
+ private:
+  QueryToken read();
+  QueryToken read_text();
+  QueryToken read_regex();
+  QueryToken read_word();
+  void skip_blanks() noexcept;
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  QueryToken next_;
+};
+
+}  // namespace signweave

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <re2/re2.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "signweave/query/phase_query.h"
+#include "signweave/query/scopes.h"
+#include "signweave/query/watch.h"
+#include "signweave/semantic_db/segment_table.h"
+
+namespace signweave {
+
+/// A condition made ready for one table: names turned into the table's numbers.
+struct BoundCondition {
+  const Condition* source = nullptr;
+  Field field = Field::gloss;
+  Compare compare = Compare::equal;
+  Scopes scope = Scopes::plain();
+  std::uint32_t label = SegmentTable::kNone;  ///< of = and != on gloss and tier; kNone where the table lacks it
+  std::unique_ptr<RE2> regex;                 ///< of =~ on gloss and tier
+  std::vector<std::uint8_t> known;            ///< [label] of the regex: 0 not tried yet, 1 no, 2 yes
+  std::vector<std::uint32_t> tiers;           ///< of tier: those of that name
+  std::vector<bool> recordings;               ///< [recording] of recording: whether it fits
+  unsigned set = 0;                           ///< of phase and hand: bit n for the enumerator n
+  Milliseconds time{0};
+};
+
+class Matcher;
+
+/// An expression made ready for one table.
+struct BoundExpression {
+  Expression::Kind kind = Expression::Kind::condition;
+  BoundCondition condition;
+  Scopes top = Scopes::none();  ///< of a negation
+  Link link = Link::parent;
+  std::unique_ptr<Matcher> linked;  ///< of a link
+  std::vector<BoundExpression> operands;
+};
+
+/// Tells for each row of a table whether an expression holds for it. Regular expressions are tried once per distinct
+/// label. Borrows expression, table and watch, which must outlive it. For one thread.
+class Matcher {
+ public:
+  /// What a row must be where the expression speaks of times and recordings only.
+  enum class Plain { sign, any };
+
+  Matcher(const Expression& expression, const SegmentTable& table, Watch& watch, Plain plain = Plain::sign);
+
+  /// Whether the expression holds for the row, and the row is of the sort that the expression ranges over.
+  bool accepts(RowId row);
+
+  Scopes scopes() const noexcept { return scopes_; }
+  BoundExpression& root() noexcept { return root_; }
+  const SegmentTable& table() const noexcept { return *table_; }
+  /// For each tier that the expression names, in order, the tiers of the table with that name.
+  const std::vector<std::vector<std::uint32_t>>& tiers() const noexcept { return tiers_; }
+  /// Whether a label fits a gloss or tier condition.
+  bool fits(BoundCondition& condition, std::uint32_t label);
+
+ private:
+  BoundExpression bind(const Expression& expression);
+  BoundCondition bind(const Condition& condition);
+  Scopes holds(BoundExpression& expression, RowId row);
+  bool holds(BoundCondition& condition, RowId row);
+  bool holds_on_tier(BoundCondition& condition, RowId row);
+  bool holds_for_linked(Link link, Matcher& linked, RowId row);
+  Scopes scopes_of_row(RowId row) const noexcept;
+
+  const SegmentTable* table_;
+  Watch* watch_;
+  Plain plain_;
+  std::vector<std::string> tier_names_;
+  std::vector<std::vector<std::uint32_t>> tiers_;
+  Scopes scopes_;
+  BoundExpression root_;
+};
+
+}  // namespace signweave

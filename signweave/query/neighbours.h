@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "signweave/query/phase_query.h"
+#include "signweave/semantic_db/segment_table.h"
+
+namespace signweave {
+
+// Steps from one row of a segment table to others, by time. All are binary searches on the tiers of one recording
+// (linear in the tier only where a faulty document has annotations that overlap on one tier).
+
+/// The row that follows directly: of a sign the next sign of its tier (annotations that are no signs, for their label
+/// is empty, are passed over); of any other annotation the next one of its tier; of an inferred stroke that of the next
+/// sign, if that is inferred too. None where there is none, or it is of another sort.
+RowId next_row(const SegmentTable& table, RowId row);
+/// The row whose `next_row` is `row`, or none.
+RowId previous_row(const SegmentTable& table, RowId row);
+
+/// The rows of the same tier (inferred strokes among themselves) after `row` whose begin is `gap` away from its end,
+/// ascending. `gap` has a bound.
+std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Gap& gap);
+/// The rows before `row` from which it is `gap` away, ascending.
+std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Gap& gap);
+
+/// The first row of a range, in which no two overlap, that ends at `time` or later.
+RowId first_ending_at_or_after(std::span<const SegmentRow> rows, SegmentTable::RowRange range,
+                               Milliseconds time) noexcept;
+
+/// Whether two spans stand in a relation (`Link::overlaps` and the ones after it).
+bool related(TimeSpan one, Link link, TimeSpan other) noexcept;
+
+/// Calls `use(row)` for the rows of one range of a tier that share time or a bound with `span`. Stops where `use`
+/// returns false, and then returns false.
+template <typename Use>
+bool for_rows_around(const SegmentTable& table, const SegmentTable::TierRows& tier, SegmentTable::RowRange range,
+                     TimeSpan span, Use&& use) {
+  const std::span<const SegmentRow> rows = table.rows();
+  RowId row = tier.apart ? first_ending_at_or_after(rows, range, span.begin) : range.begin;
+  for (; row < range.end && rows[row].span.begin <= span.end; ++row) {
+    if (rows[row].span.end >= span.begin && !use(row)) return false;
+  }
+  return true;
+}
+
+/// The same for every row of a recording: every row for which `related` may hold.
+template <typename Use>
+void for_rows_around(const SegmentTable& table, std::uint32_t recording, TimeSpan span, Use&& use) {
+  for (const SegmentTable::TierRows& tier : table.tiers_of(recording)) {
+    if (!for_rows_around(table, tier, tier.own, span, use)) return;
+    if (!for_rows_around(table, tier, tier.extra, span, use)) return;
+  }
+}
+
+}  // namespace signweave

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "signweave/annotation/sign.h"
+#include "signweave/core/time.h"
+
+namespace signweave {
+
+// The syntax tree of a query on signs, phases and annotations (the paper's PhaseQuery, section 4.2). Plain data; what
+// it means is in docs/query.md, what reads it in parse.h, what answers it in find.h. A new kind of condition is one
+// enumerator here, one row in parse.cpp and one case in matcher.cpp.
+
+/// What a condition looks at.
+enum class Field {
+  gloss,      ///< label of a sign; of a phase: of its sign
+  phase,      ///< PhaseKind of a phase
+  hand,       ///< of a sign or phase
+  recording,  ///< name of the recording
+  tier,       ///< label on the tier `Condition::tier`: of the segment itself, or of one that overlaps it there
+  duration,
+  begin,  ///< annotation time
+  end,
+};
+
+enum class Compare { equal, not_equal, matches, less, less_equal, greater, greater_equal };
+
+/// A regular expression (RE2) that must match the whole label.
+struct Regex {
+  std::string pattern;
+  bool ignore_case = false;
+  friend bool operator==(const Regex&, const Regex&) = default;
+};
+
+/// FIELD COMPARE VALUE. The parser sees to it that they fit: texts and regular expressions for gloss, recording, tier;
+/// a PhaseKind (or a regular expression over their names) for phase; a Hand for hand; milliseconds for the times.
+struct Condition {
+  Field field = Field::gloss;
+  std::string tier;  ///< of Field::tier only
+  Compare compare = Compare::equal;
+  std::variant<std::string, Regex, PhaseKind, Hand, Milliseconds> value;
+  friend bool operator==(const Condition&, const Condition&) = default;
+};
+
+/// From one segment to others: along the parents of annotations, or by time within one recording.
+enum class Link {
+  parent,      ///< the parent annotation; of a phase: its sign
+  child,       ///< an annotation whose parent the segment is
+  ancestor,    ///< parent, its parent, …
+  descendant,  ///< child, its child, …
+  overlaps,    ///< they share some time
+  during,      ///< the segment lies within the other; bounds may be equal
+  starts,      ///< both begin at the same millisecond
+  ends,        ///< both end at the same millisecond
+  equals,      ///< same begin and end
+};
+
+/// A condition on one segment, composed.
+struct Expression {
+  enum class Kind {
+    condition,  ///< `condition`
+    all,        ///< two or more operands, `&`
+    any,        ///< two or more operands, `|`
+    negation,   ///< one operand, `!`
+    link,       ///< one operand: `link`(operand)
+  };
+  Kind kind = Kind::condition;
+  Condition condition;
+  Link link = Link::parent;
+  std::vector<Expression> operands;
+  friend bool operator==(const Expression&, const Expression&) = default;
+};
+
+/// An expression whose segment is a part of the answer.
+struct Term {
+  Expression expression;
+  bool marked = false;  ///< `@`: this segment alone is the answer
+  friend bool operator==(const Term&, const Term&) = default;
+};
+
+/// LINK TERM after an element, by time: overlaps, during, starts, ends or equals.
+struct Relation {
+  Link link = Link::overlaps;
+  Term term;
+  friend bool operator==(const Relation&, const Relation&) = default;
+};
+
+/// One place of a sequence: a segment and what it must stand in relation to.
+struct Element {
+  Term term;
+  std::vector<Relation> relations;
+  friend bool operator==(const Element&, const Element&) = default;
+};
+
+/// What lies between two elements. Without bounds: they are neighbours on their tier. With a bound: the time from the
+/// end of the first to the begin of the second, on the same tier, lies in [least, most].
+struct Gap {
+  std::optional<Milliseconds> least;
+  std::optional<Milliseconds> most;
+
+  bool direct() const noexcept { return !least && !most; }
+  friend bool operator==(const Gap&, const Gap&) = default;
+};
+
+/// A whole query: one element, or a sequence of them. At most one term is marked.
+struct PhaseQuery {
+  std::vector<Element> elements;  ///< at least one
+  std::vector<Gap> gaps;          ///< one fewer
+  friend bool operator==(const PhaseQuery&, const PhaseQuery&) = default;
+};
+
+/// The query as text that parses to an equal tree.
+std::string to_string(const PhaseQuery& query);
+std::string to_string(const Expression& expression);
+std::string to_string(const Condition& condition);
+/// "->", "->[..500ms]", "->[100ms..500ms]".
+std::string to_string(const Gap& gap);
+
+/// The words of the language. Each is the one place where its spelling stands.
+std::string_view word_of(Field field) noexcept;
+std::string_view word_of(Compare compare) noexcept;
+std::string_view word_of(Link link) noexcept;
+std::string_view word_of(PhaseKind kind) noexcept;
+std::string_view word_of(Hand hand) noexcept;
+
+}  // namespace signweave

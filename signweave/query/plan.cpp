@@ -1,0 +1,270 @@
+#include "signweave/query/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace signweave {
+namespace {
+
+/// A sign has about so many phases.
+constexpr std::size_t kPhasesPerSign = 3;
+
+/// Chooses indexes for the answers of one scope.
+class AccessFinder {
+ public:
+  AccessFinder(Matcher& matcher, Scopes scope) : matcher_(matcher), table_(matcher.table()), scope_(scope) {}
+
+  Access find() {
+    std::optional<Access> found = of(matcher_.root());
+    return found ? std::move(*found) : all_in_scope();
+  }
+
+ private:
+  /// None where no index helps.
+  std::optional<Access> of(BoundExpression& expression) {
+    switch (expression.kind) {
+      case Expression::Kind::condition:
+        // A condition of a more special scope gives no answer of this one.
+        if ((expression.condition.scope & scope_) != scope_) return Access();
+        return of(expression.condition);
+      case Expression::Kind::negation:
+        if ((expression.top & scope_) != scope_) return Access();
+        return std::nullopt;
+      case Expression::Kind::all:
+        return of_all(expression);
+      case Expression::Kind::any:
+        return of_any(expression);
+      case Expression::Kind::link:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Access> of_all(BoundExpression& expression) {
+    std::optional<Access> best;
+    for (BoundExpression& operand : expression.operands) {
+      std::optional<Access> other = of(operand);
+      if (other && (!best || other->rows < best->rows)) best = std::move(other);
+    }
+    return best;
+  }
+
+  std::optional<Access> of_any(BoundExpression& expression) {
+    Access sum;
+    for (BoundExpression& operand : expression.operands) {
+      std::optional<Access> other = of(operand);
+      if (!other) return std::nullopt;
+      sum.lists.insert(sum.lists.end(), other->lists.begin(), other->lists.end());
+      sum.signs.insert(sum.signs.end(), other->signs.begin(), other->signs.end());
+      sum.ranges.insert(sum.ranges.end(), other->ranges.begin(), other->ranges.end());
+      sum.through.insert(sum.through.end(), other->through.begin(), other->through.end());
+      sum.rows += other->rows;
+    }
+    return sum;
+  }
+
+  std::optional<Access> of(BoundCondition& condition) {
+    if (condition.field != Field::phase && condition.compare == Compare::not_equal) return std::nullopt;
+    Access access;
+    switch (condition.field) {
+      case Field::gloss:
+        add_gloss(condition, access);
+        break;
+      case Field::phase:
+        for (unsigned kind = 0; kind < 5; ++kind) {
+          if ((condition.set >> kind & 1U) != 0) add(table_.phases(static_cast<PhaseKind>(kind)), access.lists, access);
+        }
+        access.through.push_back(fmt::format("the phase index ({})", to_string(*condition.source)));
+        break;
+      case Field::tier:
+        // Only where the answers lie on that tier; elsewhere the condition is about what overlaps them.
+        if (condition.scope != scope_ || condition.regex) return std::nullopt;
+        for (const RowKind kind : {RowKind::annotation, RowKind::sign, RowKind::phase}) {
+          add(table_.with_label(kind, condition.label), access.lists, access);
+        }
+        access.through.push_back(fmt::format("the label index ({})", to_string(*condition.source)));
+        break;
+      case Field::recording:
+        for (std::uint32_t i = 0; i < condition.recordings.size(); ++i) {
+          if (condition.recordings[i]) add(table_.recording_rows(i), access);
+        }
+        access.through.push_back(fmt::format("all rows of the recordings with {}", to_string(*condition.source)));
+        break;
+      case Field::hand:
+      case Field::duration:
+      case Field::begin:
+      case Field::end:
+        return std::nullopt;
+    }
+    return access;
+  }
+
+  void add_gloss(BoundCondition& condition, Access& access) {
+    std::vector<std::span<const RowId>>& target = scope_ == Scopes::phases() ? access.signs : access.lists;
+    if (condition.regex) {
+      for (const std::uint32_t label : table_.labels_of(RowKind::sign)) {
+        if (matcher_.fits(condition, label)) add(table_.with_label(RowKind::sign, label), target, access);
+      }
+    } else {
+      add(table_.with_label(RowKind::sign, condition.label), target, access);
+    }
+    const bool phases = scope_ == Scopes::phases();
+    if (phases) access.rows *= kPhasesPerSign;
+    access.through.push_back(fmt::format("the gloss index{} ({})", phases ? " and the phases of its signs" : "",
+                                         to_string(*condition.source)));
+  }
+
+  static void add(std::span<const RowId> rows, std::vector<std::span<const RowId>>& lists, Access& access) {
+    if (rows.empty()) return;
+    lists.push_back(rows);
+    access.rows += rows.size();
+  }
+
+  static void add(SegmentTable::RowRange range, Access& access) {
+    if (range.size() == 0) return;
+    access.ranges.push_back(range);
+    access.rows += range.size();
+  }
+
+  Access all_in_scope() {
+    Access access;
+    if (scope_ == Scopes::phases()) {
+      for (unsigned kind = 0; kind < 5; ++kind) {
+        add(table_.phases(static_cast<PhaseKind>(kind)), access.lists, access);
+      }
+      access.through.emplace_back("all phases");
+      return access;
+    }
+    for (unsigned place = 0; place < matcher_.tiers().size(); ++place) {
+      if (scope_ != Scopes::tier(place)) continue;
+      for (std::uint32_t recording = 0; recording < table_.recordings().size(); ++recording) {
+        for (const std::uint32_t tier : matcher_.tiers()[place]) add(table_.tier_rows(recording, tier), access);
+      }
+      access.through.emplace_back("all annotations of the tier");
+      return access;
+    }
+    add({0, static_cast<RowId>(table_.rows().size())}, access);
+    access.through.emplace_back("all rows");
+    return access;
+  }
+
+  Matcher& matcher_;
+  const SegmentTable& table_;
+  Scopes scope_;
+};
+
+std::vector<Access> accesses_of(Matcher& matcher) {
+  std::vector<Access> result;
+  const auto add = [&](Scopes scope) {
+    if (matcher.scopes().has(scope)) result.push_back(AccessFinder(matcher, scope).find());
+  };
+  add(Scopes::phases());
+  add(Scopes::signs());
+  for (unsigned place = 0; place < matcher.tiers().size(); ++place) add(Scopes::tier(place));
+  add(Scopes::linked());
+  add(Scopes::plain());
+  return result;
+}
+
+std::size_t rows_of(std::span<const Access> accesses) noexcept {
+  std::size_t result = 0;
+  for (const Access& access : accesses) result += access.rows;
+  return result;
+}
+
+std::string follow(const PhaseQuery& query, std::size_t from, std::size_t to) {
+  const Gap& gap = query.gaps[std::min(from, to)];
+  const std::string_view where = to > from ? "after" : "before";
+  const std::string how = gap.direct() ? fmt::format("the row directly {}", where)
+                                       : fmt::format("the rows {} within {}", where, to_string(gap));
+  return fmt::format("{}: keep those with {}", how, to_string(query.elements[to].term.expression));
+}
+
+}  // namespace
+
+BoundQuery bind(const PhaseQuery& query, const SegmentTable& table, Watch& watch) {
+  BoundQuery result;
+  result.gaps = query.gaps;
+  for (const Element& element : query.elements) {
+    result.elements.push_back({Matcher(element.term.expression, table, watch), element.term.marked, {}});
+    for (const Relation& relation : element.relations) {
+      result.elements.back().relations.push_back(
+          {relation.link, Matcher(relation.term.expression, table, watch), relation.term.marked});
+    }
+  }
+  return result;
+}
+
+Plan plan(BoundQuery& query) {
+  // Looking around a partner for the element costs about as much as testing so many rows.
+  constexpr std::size_t kAround = 8;
+  std::optional<Plan> best;
+  const auto offer = [&](Plan offered) {
+    if (!best || offered.rows < best->rows) best = std::move(offered);
+  };
+  for (std::size_t e = 0; e < query.elements.size(); ++e) {
+    BoundQuery::BoundElement& element = query.elements[e];
+    std::vector<Access> accesses = accesses_of(element.matcher);
+    const std::size_t rows = rows_of(accesses);
+    offer({e, std::nullopt, std::move(accesses), rows});
+    for (std::size_t r = 0; r < element.relations.size(); ++r) {
+      std::vector<Access> around = accesses_of(element.relations[r].matcher);
+      const std::size_t partners = rows_of(around);
+      offer({e, r, std::move(around), partners * kAround});
+    }
+  }
+  return std::move(*best);
+}
+
+std::vector<RowId> candidates(std::span<const Access> accesses, const SegmentTable& table) {
+  std::vector<RowId> result;
+  result.reserve(rows_of(accesses));
+  for (const Access& access : accesses) {
+    for (const std::span<const RowId> list : access.lists) result.insert(result.end(), list.begin(), list.end());
+    for (const std::span<const RowId> list : access.signs) {
+      for (const RowId sign : list) {
+        for (const RowId child : table.children(sign)) {
+          if (table.row(child).kind == RowKind::phase) result.push_back(child);
+        }
+      }
+    }
+    for (const SegmentTable::RowRange range : access.ranges) {
+      for (RowId row = range.begin; row < range.end; ++row) result.push_back(row);
+    }
+  }
+  if (!std::is_sorted(result.begin(), result.end())) std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+std::string explain(const PhaseQuery& query, const SegmentTable& table) {
+  Watch watch{FindLimits()};
+  BoundQuery bound = bind(query, table, watch);
+  const Plan chosen = plan(bound);
+  std::vector<std::string> steps;
+  for (const Access& access : chosen.accesses) {
+    if (access.through.empty()) continue;
+    steps.push_back(fmt::format("look up about {} rows: {}", access.rows, fmt::join(access.through, " and ")));
+  }
+  const Element& start = query.elements[chosen.element];
+  if (chosen.relation) {
+    const Relation& relation = start.relations[*chosen.relation];
+    steps.push_back(fmt::format("keep those with {}", to_string(relation.term.expression)));
+    steps.push_back("take the rows around each of them");
+  }
+  steps.push_back(fmt::format("keep those with {}", to_string(start.term.expression)));
+  for (std::size_t e = chosen.element + 1; e < query.elements.size(); ++e) steps.push_back(follow(query, e - 1, e));
+  for (std::size_t e = chosen.element; e > 0; --e) steps.push_back(follow(query, e, e - 1));
+  for (const Element& element : query.elements) {
+    for (const Relation& relation : element.relations) {
+      steps.push_back(fmt::format("find the partner: {} {} {}", to_string(element.term.expression),
+                                  word_of(relation.link), to_string(relation.term.expression)));
+    }
+  }
+  std::string result = to_string(query) + '\n';
+  for (std::size_t i = 0; i < steps.size(); ++i) result += fmt::format("{}. {}\n", i + 1, steps[i]);
+  return result;
+}
+
+}  // namespace signweave

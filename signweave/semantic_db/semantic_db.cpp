@@ -1,0 +1,72 @@
+#include "signweave/semantic_db/semantic_db.h"
+
+#include "signweave/kv/sealed.h"
+
+namespace signweave::semantic_db {
+namespace {
+
+// Key: one letter for what the record is ('D' document, 'S' segments), then the generation.
+Bytes key_of(char what, std::uint64_t generation) {
+  ByteWriter key;
+  key.number(what);
+  key.number(generation);
+  return key.take();
+}
+
+Bytes read_record(const kv::ReadTransaction& snapshot, char what, std::uint64_t generation, const std::string& where) {
+  const auto record = snapshot.get(key_of(what, generation));
+  if (!record) ByteReader({}, where).fail("it is missing");
+  const ByteSpan content = kv::unsealed(*record, where);
+  return {content.begin(), content.end()};
+}
+
+}  // namespace
+
+void put(kv::WriteTransaction& transaction, std::uint64_t generation, std::string_view document,
+         const SegmentChunk& segments) {
+  transaction.put(key_of('D', generation), kv::sealed(bytes_of(document)));
+  ByteWriter writer;
+  encode(segments, writer);
+  transaction.put(key_of('S', generation), kv::sealed(writer.bytes()));
+}
+
+void erase(kv::WriteTransaction& transaction, std::uint64_t generation) {
+  transaction.erase(key_of('D', generation));
+  transaction.erase(key_of('S', generation));
+}
+
+std::string read_document(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where) {
+  const Bytes content = read_record(snapshot, 'D', generation, where + ": annotation document");
+  return std::string(text_of(content));
+}
+
+SegmentChunk read_segments(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where) {
+  const Bytes content = read_record(snapshot, 'S', generation, where + ": segments");
+  ByteReader reader(content, where + ": segments");
+  SegmentChunk chunk = decode_segments(reader);
+  reader.finish();
+  return chunk;
+}
+
+}  // namespace signweave::semantic_db
+
+namespace signweave {
+
+Sign sign_at(const SegmentTable& table, RowId row) {
+  const SegmentRow& from = table.row(row);
+  Sign sign{.gloss = table.labels()[from.text],
+            .span = from.span,
+            .phases = {},
+            .hand = from.hand,
+            .signer = {},
+            .tier = table.tiers()[from.tier],
+            .annotation = {},
+            .inferred = from.inferred};
+  for (const RowId child : table.children(row)) {
+    const SegmentRow& phase = table.row(child);
+    if (phase.kind == RowKind::phase) sign.phases.push_back({phase.phase, phase.span, table.labels()[phase.text], {}});
+  }
+  return sign;
+}
+
+}  // namespace signweave

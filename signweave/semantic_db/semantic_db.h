@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "signweave/kv/kv_store.h"
+#include "signweave/semantic_db/segment_table.h"
+
+/// The semantic database (the paper, section 4.1): annotation documents and the segments in them, on a key-value store.
+/// It knows no file format: a document is kept as the bytes that came. Which documents are visible is the caller's
+/// record, under a generation number that is never used twice.
+namespace signweave::semantic_db {
+
+/// Stores a document and its segments under a generation, as part of the caller's transaction.
+void put(kv::WriteTransaction& transaction, std::uint64_t generation, std::string_view document,
+         const SegmentChunk& segments);
+
+/// Erases both. Doing it twice is harmless.
+void erase(kv::WriteTransaction& transaction, std::uint64_t generation);
+
+/// The bytes as they were put. Throws Error{corrupt} where the record is missing or its checksum is wrong; `where`
+/// names the recording in that error.
+std::string read_document(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where);
+
+/// The segments as they were put; throws likewise.
+SegmentChunk read_segments(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where);
+
+}  // namespace signweave::semantic_db
+
+namespace signweave {
+
+/// A sign row and its phases as the Sign that they were made of (without its annotation ids and signer).
+Sign sign_at(const SegmentTable& table, RowId row);
+
+}  // namespace signweave

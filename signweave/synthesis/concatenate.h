@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "signweave/annotation/sign.h"
+#include "signweave/core/error.h"
+#include "signweave/core/time.h"
+#include "signweave/motion/motion.h"
+#include "signweave/synthesis/transition.h"
+
+namespace signweave {
+
+/// A stretch of a recording with its frames, ready to be joined.
+struct Stretch {
+  std::string recording;
+  Motion motion;            ///< the frames `whole` (and no others) of the recording
+  FrameRange whole;         ///< which frames of the recording these are
+  FrameRange core;          ///< the frames of the recording that are kept as they are; inside `whole`, not empty
+  FrameClock clock;         ///< of the recording
+  std::vector<Sign> signs;  ///< in the recording's annotation time
+  Milliseconds pause_before{0};
+};
+
+/// Where an output frame comes from.
+struct FrameSource {
+  static constexpr std::int32_t kNone = -1;
+  std::int32_t stretch = kNone;   ///< index of the stretch whose recording it shows, or kNone
+  std::int32_t junction = kNone;  ///< index of the junction whose transition it belongs to, or kNone
+  double frame = 0;               ///< where `stretch` is given: the (fractional) frame of the recording
+};
+
+/// One place where two stretches were joined.
+struct Junction {
+  std::string from;  ///< gloss of the last sign before, or the recording's name
+  std::string to;
+  FrameRange frames;  ///< output frames between the two strokes
+  TransitionCut cut;
+  std::string method;
+};
+
+/// Where a stretch lies in the result.
+struct Placed {
+  std::string recording;
+  FrameRange output;       ///< output frames of its core, with its preparation if it is first, its retraction if last
+  FrameRange core;         ///< output frames of its core
+  double first_frame = 0;  ///< frame of the recording at core.begin
+  double step = 1;         ///< frames of the recording per output frame
+};
+
+/// A sign as it lies in the result.
+struct PlacedSign {
+  Sign sign;  ///< times are output time; its phases fill it
+  std::size_t stretch = 0;
+  TimeSpan recorded;  ///< where it was in its recording
+};
+
+/// What was made, and of what.
+struct Synthesis {
+  Motion motion;
+  std::vector<FrameSource> sources;  ///< [output frame]
+  std::vector<Placed> stretches;
+  std::vector<Junction> junctions;  ///< [stretch − 1]
+  std::vector<PlacedSign> signs;    ///< in time order
+  std::vector<Notice> notices;
+};
+
+/// How stretches from other recordings are brought to where the signer of the first stands.
+enum class Alignment {
+  automatic,  ///< `ground` for stretches of other recordings than the first, none for its own
+  ground,     ///< every stretch: shift on the ground and turn about the vertical
+  none,       ///< all sources come from one session
+};
+
+struct ConcatenateOptions {
+  const TransitionMethod* method = nullptr;  ///< null: the default
+  Milliseconds duration{0};                  ///< of each transition at tempo 1, without pauses
+  double tempo = 1;                          ///< above 1 is faster; positive
+  FrameRate rate{0, 1};                      ///< of the output; 0: the highest of the sources
+  Alignment alignment = Alignment::automatic;
+};
+
+/// Joins stretches (the paper's Algorithm 1 between each two of them). Every core is kept as captured: at the source's
+/// own rate and tempo 1 its rotations have the source's bits, up to the quaternion's sign and the root's alignment;
+/// else they are the source interpolated at the stated frame. Alignment always goes to where the first stretch's signer
+/// stands, so nothing drifts. The result has the first stretch's skeleton.
+///
+/// Throws Error{bad_input} where skeletons differ in more than offsets (naming the joint), or nothing is to be joined.
+Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOptions& options);
+
+}  // namespace signweave

@@ -1,0 +1,215 @@
+#include "signweave/synthesis/concatenate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "signweave/core/error.h"
+#include "signweave/motion/blend.h"
+#include "signweave/synthesis/test_motion.h"
+
+namespace signweave {
+namespace {
+
+using testing_motion::angle;
+using testing_motion::small_skeleton;
+using testing_motion::stretch;
+
+/// Every rule below holds for each method.
+class Concatenate : public testing::TestWithParam<const TransitionMethod*> {
+ protected:
+  ConcatenateOptions options(Milliseconds duration = 500ms) const {
+    return {.method = GetParam(), .duration = duration};
+  }
+};
+
+bool same_up_to_sign(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
+  return a.coeffs() == b.coeffs() || a.coeffs() == -b.coeffs();
+}
+
+TEST_P(Concatenate, StrokesKeepTheirBits) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20),
+                                          stretch("C", 1.7f, 15, 50, 40)};
+  const Synthesis made = concatenate(stretches, options());
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const Placed& placed = made.stretches[i];
+    ASSERT_EQ(placed.core.size(), stretches[i].core.size());
+    for (std::int64_t k = 0; k < placed.core.size(); ++k) {
+      const PoseView kept = made.motion.pose(placed.core.begin + k);
+      const PoseView captured = stretches[i].motion.pose(stretches[i].core.begin - stretches[i].whole.begin + k);
+      for (std::size_t joint = 1; joint < kept.rotations.size(); ++joint) {  // the root is aligned
+        EXPECT_TRUE(same_up_to_sign(kept.rotations[joint], captured.rotations[joint])) << i << ' ' << k << ' ' << joint;
+      }
+    }
+  }
+}
+
+TEST_P(Concatenate, TransitionsLastAsLongAsAsked) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20)};
+  for (const Milliseconds duration : {10ms, 200ms, 735ms, 3'000ms}) {
+    const Synthesis made = concatenate(stretches, options(duration));
+    ASSERT_EQ(made.junctions.size(), 1u);
+    EXPECT_EQ(made.junctions[0].frames.size(), duration.count() / 10);
+    EXPECT_EQ(made.junctions[0].frames.begin, made.stretches[0].core.end);
+    EXPECT_EQ(made.junctions[0].frames.end, made.stretches[1].core.begin);
+  }
+}
+
+TEST_P(Concatenate, APauseLengthensTheTransition) {
+  std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20)};
+  stretches[1].pause_before = 350ms;
+  EXPECT_EQ(concatenate(stretches, options()).junctions[0].frames.size(), 85);
+}
+
+TEST_P(Concatenate, EveryFrameKnowsWhereItComesFrom) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20, {50, 1})};
+  const Synthesis made = concatenate(stretches, options());
+  ASSERT_EQ(made.sources.size(), static_cast<std::size_t>(made.motion.frame_count()));
+  Pose captured(made.motion.skeleton());
+  std::size_t made_frames = 0;
+  for (std::size_t frame = 0; frame < made.sources.size(); ++frame) {
+    const FrameSource& source = made.sources[frame];
+    if (source.stretch == FrameSource::kNone) {
+      ++made_frames;
+      EXPECT_EQ(source.junction, 0);
+      continue;
+    }
+    const Stretch& from = stretches[static_cast<std::size_t>(source.stretch)];
+    EXPECT_GE(source.frame, static_cast<double>(from.whole.begin));
+    EXPECT_LT(source.frame, static_cast<double>(from.whole.end));
+    sample(from.motion, source.frame - static_cast<double>(from.whole.begin), captured.view());
+    const PoseView kept = made.motion.pose(static_cast<std::int64_t>(frame));
+    for (std::size_t joint = 1; joint < kept.rotations.size(); ++joint) {
+      EXPECT_TRUE(same_up_to_sign(kept.rotations[joint], captured.rotations[joint])) << frame << ' ' << joint;
+    }
+  }
+  EXPECT_GT(made_frames, 0u);
+}
+
+TEST_P(Concatenate, NothingJumps) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20),
+                                          stretch("C", 1.7f, 0, 50, 0)};
+  const Synthesis made = concatenate(stretches, options(735ms));
+  for (std::int64_t frame = 1; frame < made.motion.frame_count(); ++frame) {
+    const PoseView before = made.motion.pose(frame - 1);
+    const PoseView now = made.motion.pose(frame);
+    for (std::size_t joint = 0; joint < now.rotations.size(); ++joint) {
+      EXPECT_LT(angle(before.rotations[joint], now.rotations[joint]), 0.12) << frame << ' ' << joint;
+      EXPECT_GE(before.rotations[joint].dot(now.rotations[joint]), 0.0f);
+    }
+    EXPECT_LT((now.translations[0] - before.translations[0]).norm(), 0.02f) << frame;
+  }
+}
+
+TEST_P(Concatenate, MissingPhasesAreNoFault) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 0, 40, 0), stretch("B", 0.8f, 0, 1, 0),
+                                          stretch("C", 1.1f, 0, 5, 0)};
+  const Synthesis made = concatenate(stretches, options());
+  EXPECT_EQ(made.motion.frame_count(), 40 + 50 + 1 + 50 + 5);
+  EXPECT_EQ(made.junctions[0].cut.retraction_frames, 0);
+}
+
+TEST_P(Concatenate, TheHighestRateWins) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 10, 30, 10, {30, 1}),
+                                          stretch("B", 0.8f, 40, 120, 40, {120, 1})};
+  const Synthesis made = concatenate(stretches, options());
+  EXPECT_EQ(made.motion.rate(), (FrameRate{120, 1}));
+  EXPECT_EQ(made.stretches[0].core.size(), 120);  // one second
+  EXPECT_EQ(made.stretches[1].core.size(), 120);
+  EXPECT_DOUBLE_EQ(made.stretches[0].step, 0.25);
+  ConcatenateOptions slower = options();
+  slower.rate = {60, 1};
+  EXPECT_EQ(concatenate(stretches, slower).stretches[1].core.size(), 60);
+}
+
+TEST_P(Concatenate, TempoScalesSignsAndTransitions) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 30, 20)};
+  ConcatenateOptions twice = options(600ms);
+  twice.tempo = 2;
+  const Synthesis made = concatenate(stretches, twice);
+  EXPECT_EQ(made.stretches[0].core.size(), 20);
+  EXPECT_EQ(made.junctions[0].frames.size(), 30);
+}
+
+TEST_P(Concatenate, ManySignsDoNotDrift) {
+  std::vector<Stretch> stretches;
+  for (int i = 0; i < 1'000; ++i) {
+    stretches.push_back(stretch("R" + std::to_string(i % 7), 0.1f + 0.37f * static_cast<float>(i % 7), 5, 8, 5));
+  }
+  const Synthesis made = concatenate(stretches, options(100ms));
+  const Standing home = standing_over(made.motion, made.stretches[0].core);
+  for (const Placed& placed : {made.stretches[1], made.stretches[500], made.stretches.back()}) {
+    const Standing there = standing_over(made.motion, placed.core);
+    EXPECT_LT((there.position - home.position).norm(), 1e-4f);
+    EXPECT_NEAR(there.heading, home.heading, 1e-3f);
+  }
+}
+
+TEST_P(Concatenate, AlignmentCanBeLeftOut) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20)};
+  ConcatenateOptions none = options();
+  none.alignment = Alignment::none;
+  const Synthesis made = concatenate(stretches, none);
+  const PoseView kept = made.motion.pose(made.stretches[1].core.begin);
+  const PoseView captured = stretches[1].motion.pose(30);
+  EXPECT_TRUE(same_up_to_sign(kept.rotations[0], captured.rotations[0]));
+  EXPECT_EQ(kept.translations[0], captured.translations[0]);
+}
+
+TEST_P(Concatenate, OffsetsMayDifferAndTheFirstAreTaken) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25, {100, 1}, small_skeleton(0.3f)),
+                                          stretch("B", 0.8f, 30, 33, 20, {100, 1}, small_skeleton(0.35f))};
+  const Synthesis made = concatenate(stretches, options());
+  EXPECT_FLOAT_EQ(made.motion.skeleton().joint(2).offset.x(), 0.3f);
+}
+
+TEST_P(Concatenate, OtherJointsAreRefusedByName) {
+  const auto other = std::make_shared<const Skeleton>(std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, true},
+                                                                         {"Spine", 0, {0, 0.3f, 0}, false},
+                                                                         {"LeftArm", 1, {0.3f, 0, 0}, false},
+                                                                         {"Hand", 2, {0.3f, 0, 0}, false}},
+                                                      std::vector<Tip>{});
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25),
+                                          stretch("B", 0.8f, 30, 33, 20, {100, 1}, other)};
+  try {
+    concatenate(stretches, options());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("'Arm' in one and 'LeftArm' in the other"));
+  }
+}
+
+TEST_P(Concatenate, SignsAreFilledByTheirPhases) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20),
+                                          stretch("C", 1.7f, 0, 50, 0)};
+  const Synthesis made = concatenate(stretches, options());
+  ASSERT_EQ(made.signs.size(), 3u);
+  for (std::size_t i = 0; i < made.signs.size(); ++i) {
+    const Sign& sign = made.signs[i].sign;
+    ASSERT_FALSE(sign.phases.empty());
+    EXPECT_EQ(sign.phases.front().span.begin, sign.span.begin);
+    EXPECT_EQ(sign.phases.back().span.end, sign.span.end);
+    for (std::size_t p = 1; p < sign.phases.size(); ++p)
+      EXPECT_EQ(sign.phases[p - 1].span.end, sign.phases[p].span.begin);
+    EXPECT_EQ(sign.stroke_span(), span_of(made.stretches[i].core, {Seconds(0.01), Seconds(0)}));
+    if (i > 0) {
+      EXPECT_EQ(made.signs[i - 1].sign.span.end, sign.span.begin);
+    }
+  }
+  EXPECT_EQ(made.signs[0].recorded, stretches[0].signs[0].span);
+}
+
+TEST(ConcatenateFaults, NothingToJoin) {
+  EXPECT_THROW(concatenate({}, {}), Error);
+}
+
+std::vector<const TransitionMethod*> every_method() {
+  std::vector<const TransitionMethod*> methods;
+  for (const TransitionMethod& method : transition_methods()) methods.push_back(&method);
+  return methods;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryMethod, Concatenate, testing::ValuesIn(every_method()),
+                         [](const auto& tested) { return std::string(tested.param->name); });
+
+}  // namespace
+}  // namespace signweave

@@ -1,0 +1,168 @@
+#include "signweave/synthesis/edit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "signweave/core/error.h"
+#include "signweave/core/text.h"
+#include "signweave/semantic_db/semantic_db.h"
+
+namespace signweave {
+namespace {
+
+/// The signs of the recording's main sign tier (the one with most signs), in time order.
+std::vector<Sign> main_signs(const Contents& contents, std::size_t recording) {
+  std::map<std::string, std::vector<Sign>> tiers;
+  const SegmentTable::RowRange rows = contents.segments.recording_rows(static_cast<std::uint32_t>(recording));
+  for (RowId row = rows.begin; row < rows.end; ++row) {
+    if (contents.segments.row(row).kind != RowKind::sign) continue;
+    Sign sign = sign_at(contents.segments, row);
+    tiers[sign.tier].push_back(std::move(sign));
+  }
+  std::vector<Sign> signs;
+  for (auto& [tier, list] : tiers) {
+    if (list.size() > signs.size()) signs = std::move(list);
+  }
+  std::sort(signs.begin(), signs.end(), [](const Sign& a, const Sign& b) { return a.span.begin < b.span.begin; });
+  return signs;
+}
+
+std::size_t find_sign(const std::vector<Sign>& signs, const GlossRef& wanted, const std::string& recording) {
+  const std::string form = match_form(wanted.gloss);
+  std::vector<std::size_t> found;
+  std::vector<std::string> glosses;
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    if (match_form(signs[i].gloss) == form) found.push_back(i);
+    glosses.push_back(signs[i].gloss);
+  }
+  if (found.empty()) {
+    throw Error(ErrorCode::not_found, fmt::format("no sign '{}' in recording '{}'{}", printable(wanted.gloss),
+                                                  recording, did_you_mean(wanted.gloss, glosses)));
+  }
+  if (wanted.token == 0 && found.size() > 1) {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("'{0}' occurs {1} times in recording '{2}'; say which: {0}#1 to {0}#{1}",
+                            printable(wanted.gloss), found.size(), recording));
+  }
+  if (wanted.token > found.size()) {
+    throw Error(ErrorCode::not_found, fmt::format("no token {} of '{}' in recording '{}', which has {}", wanted.token,
+                                                  printable(wanted.gloss), recording, found.size()));
+  }
+  return found[wanted.token == 0 ? 0 : wanted.token - 1];
+}
+
+/// A run [first, last] of the recording's own signs, or a replacement.
+struct Item {
+  std::size_t first = 0;
+  std::size_t last = 0;
+  const GlossRef* replacement = nullptr;
+};
+
+std::vector<Item> items_for(const std::vector<Sign>& signs, const Edit& edit, const std::string& recording) {
+  std::vector<Item> items;
+  if (!edit.swaps.empty()) {
+    const auto run_of = [&](const SignRun& run) {
+      const Item item{find_sign(signs, run.first, recording), find_sign(signs, run.last, recording)};
+      if (item.last < item.first) {
+        throw Error(ErrorCode::bad_input, fmt::format("{}..{}: the second comes before the first in recording '{}'",
+                                                      to_string(run.first), to_string(run.last), recording));
+      }
+      return item;
+    };
+    Item a = run_of(edit.swaps[0].first);
+    Item b = run_of(edit.swaps[0].second);
+    if (b.first < a.first) std::swap(a, b);
+    if (b.first <= a.last) throw Error(ErrorCode::bad_input, "the two runs to swap share signs");
+    if (a.first > 0) items.push_back({0, a.first - 1});
+    items.push_back(b);
+    if (a.last + 1 < b.first) items.push_back({a.last + 1, b.first - 1});
+    items.push_back(a);
+    if (b.last + 1 < signs.size()) items.push_back({b.last + 1, signs.size() - 1});
+    return items;
+  }
+  std::map<std::size_t, const GlossRef*> replaced;
+  for (const Replacement& replacement : edit.replacements) {
+    const std::size_t at = find_sign(signs, replacement.from, recording);
+    if (!replaced.emplace(at, &replacement.to).second) {
+      throw Error(ErrorCode::bad_input, fmt::format("'{}' is to be replaced twice", to_string(replacement.from)));
+    }
+  }
+  std::size_t next = 0;
+  for (const auto& [at, to] : replaced) {
+    if (next < at) items.push_back({next, at - 1});
+    items.push_back({at, at, to});
+    next = at + 1;
+  }
+  if (next < signs.size()) items.push_back({next, signs.size() - 1});
+  return items;
+}
+
+}  // namespace
+
+Replacement parse_replacement(std::string_view text) {
+  const std::size_t sign = find_unquoted(text, "=");
+  if (sign == text.npos) {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("--replace '{}': expected GLOSS=GLOSS, such as BRETAGNE=VANNES#2", printable(text)));
+  }
+  return {parse_gloss_ref(text.substr(0, sign), "--replace"), parse_gloss_ref(text.substr(sign + 1), "--replace")};
+}
+
+std::pair<SignRun, SignRun> parse_swap(std::string_view text) {
+  const std::size_t comma = find_unquoted(text, ",");
+  if (comma == text.npos) {
+    throw Error(ErrorCode::bad_input, fmt::format("--swap '{}': expected FROM..TO,FROM..TO, such as "
+                                                  "BRETAGNE..PLUIE,VENDREDI..BROUILLARD",
+                                                  printable(text)));
+  }
+  const auto run_of = [](std::string_view run) {
+    const std::size_t dots = find_unquoted(run, "..");
+    if (dots == run.npos) {
+      const GlossRef only = parse_gloss_ref(run, "--swap");
+      return SignRun{only, only};
+    }
+    return SignRun{parse_gloss_ref(run.substr(0, dots), "--swap"), parse_gloss_ref(run.substr(dots + 2), "--swap")};
+  };
+  return {run_of(text.substr(0, comma)), run_of(text.substr(comma + 1))};
+}
+
+std::vector<Choice> choices_for(const Contents& contents, std::string_view recording, const Edit& edit) {
+  const RecordingInfo& info = contents.at(recording);
+  const auto index = static_cast<std::size_t>(&info - contents.recordings.data());
+  if (!info.motion) throw Error(ErrorCode::not_found, fmt::format("recording '{}' has no motion", info.name));
+  const std::vector<Sign> signs = main_signs(contents, index);
+  if (signs.empty()) throw Error(ErrorCode::not_found, fmt::format("recording '{}' has no signs to edit", info.name));
+
+  std::vector<Choice> choices;
+  const std::vector<Item> items = items_for(signs, edit, info.name);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Item& item = items[i];
+    Choice choice;
+    if (item.replacement != nullptr) {
+      choice.candidates = candidates_for(contents, Place{.gloss = *item.replacement, .recording = {}, .span = {}});
+    } else {
+      std::vector<Sign> run(signs.begin() + static_cast<std::ptrdiff_t>(item.first),
+                            signs.begin() + static_cast<std::ptrdiff_t>(item.last) + 1);
+      const std::string from = run.front().gloss;
+      const std::string to = run.back().gloss;
+      std::optional<Candidate> candidate = candidate_of_run(contents, index, std::move(run));
+      if (!candidate) {
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("'{}' to '{}' in recording '{}' cannot be kept: a sign at an end of it "
+                                "has no stroke inside the motion",
+                                from, to, info.name));
+      }
+      // What lies before the first sign and after the last stays as captured.
+      if (i == 0 && item.first == 0) candidate->whole.begin = 0;
+      if (i + 1 == items.size() && item.last + 1 == signs.size()) candidate->whole.end = info.motion->frames;
+      choice.candidates.push_back(std::move(*candidate));
+    }
+    choices.push_back(std::move(choice));
+  }
+  return choices;
+}
+
+}  // namespace signweave

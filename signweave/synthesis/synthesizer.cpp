@@ -1,0 +1,104 @@
+#include "signweave/synthesis/synthesizer.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "signweave/core/error.h"
+
+namespace signweave {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// One selected candidate, or several that were neighbours in a recording and stay together.
+std::vector<Candidate> merge_neighbours(const Contents& contents, const std::vector<Choice>& choices,
+                                        const Selection& selection, std::vector<Milliseconds>& pauses) {
+  std::vector<Candidate> merged;
+  for (std::size_t place = 0; place < choices.size(); ++place) {
+    const Candidate& next = choices[place].candidates[selection.chosen[place]];
+    const Milliseconds pause = choices[place].pause_before;
+    if (!merged.empty() && pause == Milliseconds(0) && are_neighbours(contents, merged.back(), next)) {
+      Candidate& last = merged.back();
+      last.signs.insert(last.signs.end(), next.signs.begin(), next.signs.end());
+      last.core.end = next.core.end;
+      last.whole.end = next.whole.end;
+    } else {
+      merged.push_back(next);
+      pauses.push_back(pause);
+    }
+  }
+  return merged;
+}
+
+Synthesized run(const Database& database, const Contents& contents, std::vector<Choice> choices,
+                const SynthesisOptions& options, Clock::time_point start) {
+  if (!(options.tempo >= 0.25 && options.tempo <= 4.0)) {
+    throw Error(ErrorCode::bad_input, fmt::format("tempo {} is outside 0.25 to 4", options.tempo));
+  }
+  const Milliseconds duration = transition_duration(options.duration, contents.transitions);
+  if (duration < Milliseconds(0) || duration > Milliseconds(60'000)) {
+    throw Error(ErrorCode::bad_input, fmt::format("a transition of {} ms is outside 0 to 60000", duration.count()));
+  }
+  Synthesized made;
+  made.choices = std::move(choices);
+  const auto queried = Clock::now();
+  made.selection = select(database, contents, made.choices);
+  std::vector<Milliseconds> pauses;
+  std::vector<Candidate> candidates = merge_neighbours(contents, made.choices, made.selection, pauses);
+  const auto selected = Clock::now();
+
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    Candidate& candidate = candidates[i];
+    const RecordingInfo& info = contents.recordings[candidate.recording];
+    stretches.push_back({.recording = info.name,
+                         .motion = database.read(info.name, candidate.whole),
+                         .whole = candidate.whole,
+                         .core = candidate.core,
+                         .clock = info.clock,
+                         .signs = std::move(candidate.signs),
+                         .pause_before = pauses[i]});
+  }
+  const auto retrieved = Clock::now();
+
+  made.result = concatenate(stretches, {.method = options.method,
+                                        .duration = duration,
+                                        .tempo = options.tempo,
+                                        .rate = options.rate.value_or(FrameRate{0, 1}),
+                                        .alignment = options.alignment});
+  made.layout_from = stretches.front().recording;
+  if (!options.duration.fixed && contents.transitions.count == 0 && !made.result.junctions.empty()) {
+    made.result.notices.push_back(
+        {"",
+         fmt::format("no transition in this database to measure: {} ms taken; --duration sets it", duration.count())});
+  }
+  const auto done = Clock::now();
+  made.timings = {.semantic_query = queried - start,
+                  .selection = selected - queried,
+                  .retrieval = retrieved - selected,
+                  .concatenation = done - retrieved,
+                  .total = done - start};
+  return made;
+}
+
+}  // namespace
+
+Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options) {
+  const std::shared_ptr<const Contents> contents = database.contents();
+  const auto start = Clock::now();
+  std::vector<Choice> choices;
+  for (const Place& place : utterance.places) {
+    choices.push_back({candidates_for(*contents, place), place.pause_before});
+  }
+  return run(database, *contents, std::move(choices), options, start);
+}
+
+Synthesized synthesize(const Database& database, std::string_view recording, const Edit& edit,
+                       const SynthesisOptions& options) {
+  const std::shared_ptr<const Contents> contents = database.contents();
+  const auto start = Clock::now();
+  return run(database, *contents, choices_for(*contents, recording, edit), options, start);
+}
+
+}  // namespace signweave

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "signweave/core/time.h"
+#include "signweave/database/database.h"
+#include "signweave/synthesis/concatenate.h"
+#include "signweave/synthesis/edit.h"
+#include "signweave/synthesis/select.h"
+#include "signweave/synthesis/utterance.h"
+
+namespace signweave {
+
+struct SynthesisOptions {
+  const TransitionMethod* method = nullptr;  ///< null: the default
+  DurationModel duration;
+  double tempo = 1;               ///< 0.25 to 4
+  std::optional<FrameRate> rate;  ///< the highest of the sources where not given
+  Alignment alignment = Alignment::automatic;
+};
+
+/// How long each step took: the columns of the paper's Table 1.
+struct Timings {
+  Seconds semantic_query{0};
+  Seconds selection{0};
+  Seconds retrieval{0};
+  Seconds concatenation{0};
+  Seconds total{0};
+};
+
+/// A synthesis and how it came about.
+struct Synthesized {
+  Synthesis result;
+  std::vector<Choice> choices;  ///< what there was to choose from
+  Selection selection;
+  Timings timings;
+  /// The recording that the first stretch came from: its file layout serves for writing BVH.
+  std::string layout_from;
+};
+
+/// Signs an utterance: the few lines that call the rest. Throws Error{not_found} for a gloss that the database lacks
+/// (with near matches), Error{bad_input} for skeletons that cannot be joined or options out of range.
+Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options = {});
+
+/// Edits a recording.
+Synthesized synthesize(const Database& database, std::string_view recording, const Edit& edit,
+                       const SynthesisOptions& options = {});
+
+}  // namespace signweave

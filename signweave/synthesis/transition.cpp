@@ -1,0 +1,137 @@
+#include "signweave/synthesis/transition.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "signweave/motion/blend.h"
+
+namespace signweave {
+namespace {
+
+/// Context of a tenth of a second on either side: long enough to tell a velocity from noise.
+std::int64_t context_frames(double frames_per_second) noexcept {
+  return std::max<std::int64_t>(1, std::llround(0.1 * frames_per_second));
+}
+
+/// Keeps `total` frames of both sides together, shared out as they were captured.
+void share_out(const TransitionRoom& room, std::int64_t total, TransitionCut& cut) noexcept {
+  const std::int64_t both = room.retraction + room.preparation;
+  if (both <= total) {
+    cut.retraction_frames = room.retraction;
+    cut.preparation_frames = room.preparation;
+    return;
+  }
+  const double share = static_cast<double>(room.retraction) / static_cast<double>(both);
+  cut.retraction_frames = std::clamp<std::int64_t>(std::llround(static_cast<double>(total) * share),
+                                                   total - room.preparation, room.retraction);
+  cut.preparation_frames = total - cut.retraction_frames;
+}
+
+/// Reading "overlap": the p frames of each side are cross-faded, length = m_i + m_j − p. A third of the transition is
+/// cross-faded; where the captured frames do not reach that far, fewer; where they do not reach at all, what is missing
+/// is made as a gap.
+TransitionCut cut_for_overlap(const TransitionRoom& room) {
+  TransitionCut cut{.length = room.length};
+  const bool one_sided = room.retraction == 0 || room.preparation == 0;
+  const std::int64_t wanted = room.pause || one_sided ? 0 : room.length / 3;
+  share_out(room, room.length + wanted, cut);
+  // Neither side may be asked for more frames than the cross-fade needs to have room in.
+  cut.retraction_frames = std::min(cut.retraction_frames, room.length);
+  cut.preparation_frames = std::min(cut.preparation_frames, room.length);
+  cut.blend_frames = cut.gap() > 0 ? context_frames(room.frames_per_second) : cut.overlap();
+  return cut;
+}
+
+/// Reading "gap": at most a quarter of the transition is kept on each side, the rest is made; p frames of context give
+/// position and velocity at each border.
+TransitionCut cut_for_gap(const TransitionRoom& room) {
+  TransitionCut cut{.length = room.length, .blend_frames = context_frames(room.frames_per_second)};
+  if (room.pause) {
+    share_out(room, room.length, cut);
+  } else {
+    cut.retraction_frames = std::min(room.retraction, room.length / 4);
+    cut.preparation_frames = std::min(room.preparation, room.length / 4);
+  }
+  return cut;
+}
+
+constexpr TransitionMethod kMethods[] = {
+    {"overlap", "cross-fades the end of one retraction with the begin of the next preparation", cut_for_overlap},
+    {"gap", "makes the middle anew from pose and velocity at both borders", cut_for_gap},
+};
+
+/// The rotation per frame at a border, as a rotation vector in the joint's own space.
+Eigen::Vector3f velocity(const Eigen::Quaternionf& earlier, const Eigen::Quaternionf& later,
+                         std::int64_t span) noexcept {
+  Eigen::Quaternionf step = earlier.conjugate() * later;
+  if (step.w() < 0) step.coeffs() *= -1.0f;
+  const float sine = step.vec().norm();
+  if (sine < 1e-7f) return Eigen::Vector3f::Zero();
+  const float angle = 2.0f * std::atan2(sine, step.w());
+  return step.vec() * (angle / (sine * static_cast<float>(span)));
+}
+
+Eigen::Quaternionf turned(const Eigen::Quaternionf& from, const Eigen::Vector3f& by) noexcept {
+  const float angle = by.norm();
+  if (angle < 1e-9f) return from;
+  // More than a third of a turn would make the curve loop; a border that fast is cut short.
+  const float limited = std::min(angle, 2.0f);
+  return from * Eigen::Quaternionf(Eigen::AngleAxisf(limited, by / angle));
+}
+
+}  // namespace
+
+std::span<const TransitionMethod> transition_methods() noexcept {
+  return kMethods;
+}
+
+const TransitionMethod* find_transition_method(std::string_view name) noexcept {
+  for (const TransitionMethod& method : kMethods) {
+    if (method.name == name) return &method;
+  }
+  return nullptr;
+}
+
+float crossfade_weight(std::int64_t index, std::int64_t count) noexcept {
+  const float t = static_cast<float>(index + 1) / static_cast<float>(count + 1);
+  return t * t * (3.0f - 2.0f * t);
+}
+
+void fill_gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count,
+              MutablePoseView out) noexcept {
+  const auto intervals = static_cast<float>(count + 1);
+  const float t = static_cast<float>(index + 1) / intervals;
+  // Shorter tangents than the full velocity keep a long gap from swinging out past its borders.
+  const float reach = std::min(intervals / 3.0f, 8.0f);
+  for (std::size_t i = 0; i < out.rotations.size(); ++i) {
+    const Eigen::Quaternionf& a = from.pose.rotations[i];
+    Eigen::Quaternionf b = to.pose.rotations[i];
+    if (a.dot(b) < 0) b.coeffs() *= -1.0f;
+    Eigen::Quaternionf leave = a;
+    Eigen::Quaternionf arrive = b;
+    if (from.span > 0) leave = turned(a, velocity(from.context.rotations[i], a, from.span) * reach);
+    if (to.span > 0) arrive = turned(b, -velocity(b, to.context.rotations[i], to.span) * reach);
+    const Eigen::Quaternionf ab = slerp(a, leave, t);
+    const Eigen::Quaternionf bc = slerp(leave, arrive, t);
+    const Eigen::Quaternionf cd = slerp(arrive, b, t);
+    out.rotations[i] = slerp(slerp(ab, bc, t), slerp(bc, cd, t), t);
+  }
+  for (std::size_t i = 0; i < out.translations.size(); ++i) {
+    const Eigen::Vector3f& a = from.pose.translations[i];
+    const Eigen::Vector3f& b = to.pose.translations[i];
+    Eigen::Vector3f leave = a;
+    Eigen::Vector3f arrive = b;
+    if (from.span > 0) leave += (a - from.context.translations[i]) * (reach / static_cast<float>(from.span));
+    if (to.span > 0) arrive -= (to.context.translations[i] - b) * (reach / static_cast<float>(to.span));
+    const float s = 1.0f - t;
+    out.translations[i] = s * s * s * a + 3.0f * s * s * t * leave + 3.0f * s * t * t * arrive + t * t * t * b;
+  }
+}
+
+Milliseconds transition_duration(const DurationModel& model, const TransitionStats& corpus) noexcept {
+  if (model.fixed) return *model.fixed;
+  return corpus.count > 0 ? corpus.mean : kUnmeasuredTransition;
+}
+
+}  // namespace signweave

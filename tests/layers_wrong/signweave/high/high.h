@@ -1,0 +1,1 @@
+#include "signweave/low/low.h"

@@ -1,0 +1,1 @@
+#include "signweave/high/high.h"

@@ -109,8 +109,13 @@ WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, A
     }
   }
   best.twist = std::clamp(best.twist, radians(-90), radians(85));
-  best.flexion = std::clamp(best.flexion, radians(-70), radians(70));
-  best.radial = std::clamp(best.radial, radians(-40), radians(25));
+  // A wrist that is fully bent cannot lean aside as well: the limits lie on an ellipse.
+  const float aside = best.radial / (best.radial > 0 ? radians(25) : radians(40));
+  const float over = std::hypot(best.flexion / radians(70), aside);
+  if (over > 1) {
+    best.flexion /= over;
+    best.radial /= over;
+  }
   return best;
 }
 

@@ -111,9 +111,10 @@ std::vector<Bone> bones_of(const Skeleton& skeleton, const std::vector<Part>& pa
 }
 
 std::string xml(std::string_view text) {
+  const bool readable = is_utf8(text);
   std::string result;
-  const std::string replaced = is_utf8(text) ? std::string(text) : printable(text);
-  for (const char c : replaced) {
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
     switch (c) {
       case '&':
         result += "&amp;";
@@ -128,8 +129,14 @@ std::string xml(std::string_view text) {
         result += "&quot;";
         break;
       default:
-        // XML allows no other control characters, not even escaped.
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        // XML allows no control characters but the white ones, not even escaped.
+        if (byte < 0x20) {
+          result += ' ';
+        } else if (byte >= 0x7f && !readable) {
+          result += '?';
+        } else {
+          result += c;
+        }
     }
   }
   return result;

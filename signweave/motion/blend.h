@@ -14,7 +14,8 @@ Eigen::Quaternionf slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& 
 /// out = the pose at t between a and b: slerp of rotations, linear translations. `out` may be a or b.
 void blend(PoseView a, PoseView b, float t, MutablePoseView out) noexcept;
 
-/// The pose of a motion at a fractional frame, clamped to its first and last. A whole frame gives that frame's bits.
+/// The pose of a motion (of at least one frame) at a fractional frame, clamped to its first and last. A whole frame
+/// gives that frame's bits.
 void sample(const Motion& motion, double frame, MutablePoseView out) noexcept;
 
 /// A motion of the ground plane: a turn about the vertical through the origin, then a shift along the ground.

@@ -1,6 +1,7 @@
 #include "signweave/motion/motion.h"
 
 #include <cassert>
+#include <functional>
 
 namespace signweave {
 
@@ -29,6 +30,13 @@ MutablePoseView Motion::pose(std::int64_t frame) noexcept {
 void Motion::append(PoseView pose) {
   assert(pose.rotations.size() == skeleton_->joint_count());
   assert(pose.translations.size() == skeleton_->translation_count());
+  const std::less<const Eigen::Quaternionf*> before;
+  if (!before(pose.rotations.data(), rotations_.data()) &&
+      before(pose.rotations.data(), rotations_.data() + rotations_.size())) {
+    const Pose own(pose);  // growing would move it away while it is being copied
+    append(own.view());
+    return;
+  }
   rotations_.insert(rotations_.end(), pose.rotations.begin(), pose.rotations.end());
   translations_.insert(translations_.end(), pose.translations.begin(), pose.translations.end());
   ++frames_;

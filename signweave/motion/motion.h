@@ -33,9 +33,11 @@ struct Pose {
   std::vector<Eigen::Vector3f> translations;
 
   Pose() = default;
-  explicit Pose(const Skeleton& skeleton)
-      : rotations(skeleton.joint_count(), Eigen::Quaternionf::Identity()),
-        translations(skeleton.translation_count(), Eigen::Vector3f::Zero()) {}
+  /// The rest pose: every rotation the identity, every translation its joint's offset.
+  explicit Pose(const Skeleton& skeleton) : rotations(skeleton.joint_count(), Eigen::Quaternionf::Identity()) {
+    translations.reserve(skeleton.translation_count());
+    for (const JointIndex joint : skeleton.translated_joints()) translations.push_back(skeleton.joint(joint).offset);
+  }
   explicit Pose(PoseView view)
       : rotations(view.rotations.begin(), view.rotations.end()),
         translations(view.translations.begin(), view.translations.end()) {}
@@ -67,7 +69,7 @@ class Motion {
   PoseView pose(std::int64_t frame) const noexcept;
   MutablePoseView pose(std::int64_t frame) noexcept;
 
-  /// Appends a pose, which must have the skeleton's counts.
+  /// Appends a pose, which must have the skeleton's counts; it may be one of this motion's own.
   void append(PoseView pose);
   /// Appends a pose at rest, to be filled in.
   MutablePoseView append();

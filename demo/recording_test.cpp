@@ -1,0 +1,233 @@
+// What must hold for every recording that the made signer makes: body, motion, and the truth beside it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "demo/corpus.h"
+#include "signweave/core/error.h"
+#include "signweave/motion/kinematics.h"
+
+namespace signweave::demo {
+namespace {
+
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+
+constexpr FrameRate kRate{100, 1};
+
+const SyntheticRecording& recording(const std::string& name) {
+  static const SyntheticRecording first = make_recording(meteo(), kRate, 1);
+  static const SyntheticRecording second = make_recording(villes(), kRate, 1);
+  return name == "meteo" ? first : second;
+}
+
+class EveryRecording : public testing::TestWithParam<const char*> {
+ protected:
+  const SyntheticRecording& made() const { return recording(GetParam()); }
+};
+INSTANTIATE_TEST_SUITE_P(Demo, EveryRecording, testing::Values("meteo", "villes"),
+                         [](const auto& row) { return std::string(row.param); });
+
+bool same(const Motion& a, const Motion& b) {
+  const auto rotations =
+      std::equal(a.rotations().begin(), a.rotations().end(), b.rotations().begin(), b.rotations().end(),
+                 [](const Quaternionf& p, const Quaternionf& q) { return p.coeffs() == q.coeffs(); });
+  return rotations &&
+         std::equal(a.translations().begin(), a.translations().end(), b.translations().begin(), b.translations().end());
+}
+
+TEST(MadeSigner, HasAFullBodyWithHandsOfFifteenJoints) {
+  const Signer signer = make_signer();
+  EXPECT_GE(signer.skeleton->joint_count(), 55U);
+  std::set<std::string> names;
+  for (const Joint& joint : signer.skeleton->joints()) names.insert(joint.name);
+  EXPECT_EQ(names.size(), signer.skeleton->joint_count());
+  for (const char* side : {"Left", "Right"}) {
+    for (const char* finger : {"Thumb", "Index", "Middle", "Ring", "Pinky"}) {
+      for (const char* phalanx : {"1", "2", "3"}) {
+        EXPECT_TRUE(names.contains(std::string(side) + "Hand" + finger + phalanx)) << side << finger << phalanx;
+      }
+    }
+    for (const char* part : {"Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot", "ToeBase"}) {
+      EXPECT_TRUE(names.contains(std::string(side) + part)) << side << part;
+    }
+  }
+}
+
+TEST(MadeSigner, EveryChainEndsInATip) {
+  const Signer signer = make_signer();
+  std::set<JointIndex> parents;
+  for (const Joint& joint : signer.skeleton->joints()) parents.insert(joint.parent);
+  std::set<JointIndex> tipped;
+  for (const Tip& tip : signer.skeleton->tips()) tipped.insert(tip.joint);
+  for (JointIndex joint = 0; joint < static_cast<JointIndex>(signer.skeleton->joint_count()); ++joint) {
+    EXPECT_TRUE(parents.contains(joint) || tipped.contains(joint)) << signer.skeleton->joint(joint).name;
+  }
+}
+
+TEST(MadeSigner, IsOneMetreSeventyAndMirroredWithTheLeftAtPlusX) {
+  const Signer signer = make_signer();
+  const ModelPose rest = to_model_space(*signer.skeleton, Motion(signer.skeleton, kRate, 1).pose(0));
+  float top = 0;
+  for (const Tip& tip : signer.skeleton->tips()) top = std::max(top, position_of(tip, rest).y());
+  EXPECT_NEAR(top, 1.70f, 0.005f);
+  for (const Joint& joint : signer.skeleton->joints()) {
+    if (!joint.name.starts_with("Left")) continue;
+    const auto at = [&](const std::string& name) {
+      return rest.positions[static_cast<std::size_t>(signer.skeleton->find(name).value())];
+    };
+    const Vector3f left = at(joint.name);
+    const Vector3f right = at("Right" + joint.name.substr(4));
+    EXPECT_GT(left.x(), 0) << joint.name;
+    EXPECT_TRUE(right.isApprox(Vector3f(-left.x(), left.y(), left.z()), 1e-5f)) << joint.name;
+  }
+}
+
+TEST_P(EveryRecording, IsTheSameForTheSameSeedAndNotForAnother) {
+  const Script script = made().name == "meteo" ? meteo() : villes();
+  const SyntheticRecording again = make_recording(script, kRate, 1);
+  EXPECT_TRUE(same(made().motion, again.motion));
+  EXPECT_EQ(made().document, again.document);
+  EXPECT_EQ(made().truth, again.truth);
+  const SyntheticRecording other = make_recording(script, kRate, 2);
+  EXPECT_FALSE(same(made().motion, other.motion));
+  EXPECT_NE(made().truth, other.truth);
+}
+
+TEST_P(EveryRecording, HasUnitQuaternionsThatNeverLeaveTheirHemisphere) {
+  const Motion& motion = made().motion;
+  for (const Quaternionf& rotation : motion.rotations()) ASSERT_NEAR(rotation.norm(), 1.0f, 1e-5f);
+  for (std::int64_t frame = 1; frame < motion.frame_count(); ++frame) {
+    const PoseView before = motion.pose(frame - 1);
+    const PoseView now = motion.pose(frame);
+    for (std::size_t i = 0; i < now.rotations.size(); ++i) {
+      ASSERT_GE(now.rotations[i].dot(before.rotations[i]), 0) << frame << motion.skeleton().joints()[i].name;
+    }
+  }
+}
+
+TEST_P(EveryRecording, MovesItsHandsUnderFourMetresASecondAndWithoutJerks) {
+  const Motion& motion = made().motion;
+  const Skeleton& skeleton = motion.skeleton();
+  const Signer signer = make_signer();
+  ModelPose before = to_model_space(skeleton, motion.pose(0));
+  ModelPose now = to_model_space(skeleton, motion.pose(1));
+  double fastest_hand = 0;  // m/s
+  double fastest = 0;
+  double hardest = 0;  // m/s²
+  for (std::int64_t frame = 2; frame < motion.frame_count(); ++frame) {
+    ModelPose next = to_model_space(skeleton, motion.pose(frame));
+    for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
+      const Vector3f step = next.positions[i] - now.positions[i];
+      const Vector3f change = step - (now.positions[i] - before.positions[i]);
+      const double speed = static_cast<double>(step.norm()) * 100;
+      const auto joint = static_cast<JointIndex>(i);
+      if (joint == signer.left.hand || joint == signer.right.hand) fastest_hand = std::max(fastest_hand, speed);
+      fastest = std::max(fastest, speed);
+      hardest = std::max(hardest, static_cast<double>(change.norm()) * 100 * 100);
+    }
+    before = std::move(now);
+    now = std::move(next);
+  }
+  EXPECT_LT(fastest_hand, 4.0);
+  EXPECT_GT(fastest_hand, 0.8);  // it does sign
+  EXPECT_LT(fastest, 8.0);       // fingertips turn with the wrist; a jump of 25 cm would be 25 m/s
+  EXPECT_LT(hardest, 120.0);     // a step in velocity shows here: 1.2 m/s from one frame to the next
+}
+
+TEST_P(EveryRecording, KeepsTheFeetOnTheGroundAndTheHeadUp) {
+  const Motion& motion = made().motion;
+  const Skeleton& skeleton = motion.skeleton();
+  const Signer signer = make_signer();
+  for (std::int64_t frame = 0; frame < motion.frame_count(); frame += 7) {
+    const ModelPose pose = to_model_space(skeleton, motion.pose(frame));
+    for (const Side side : kSides) {
+      const JointIndex foot = signer.side(side).foot;
+      ASSERT_LT((pose.positions[static_cast<std::size_t>(foot)] - signer.rest_position(foot)).norm(), 0.005f) << frame;
+      const JointIndex toe = signer.side(side).toe;
+      ASSERT_LT((pose.positions[static_cast<std::size_t>(toe)] - signer.rest_position(toe)).norm(), 0.005f) << frame;
+    }
+    const Vector3f head = pose.positions[static_cast<std::size_t>(signer.head)];
+    ASSERT_LT((head - signer.rest_position(signer.head)).norm(), 0.06f) << frame;
+    const Vector3f facing = pose.rotations[static_cast<std::size_t>(signer.head)] * Vector3f::UnitZ();
+    ASSERT_GT(facing.z(), 0.9f) << frame;
+  }
+}
+
+TEST_P(EveryRecording, BendsElbowsWristsAndForearmsOnlyAsFarAsTheyGo) {
+  const Motion& motion = made().motion;
+  const Signer signer = make_signer();
+  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+    for (const Side side : kSides) {
+      const PoseView pose = motion.pose(frame);
+      const auto local = [&](JointIndex joint) { return pose.rotations[static_cast<std::size_t>(joint)]; };
+      const SideJoints& joints = signer.side(side);
+      const Vector3f along(sign_of(side), 0, 0);
+      // The elbow bends one way: forward in the T-pose.
+      const Vector3f fore_arm = local(joints.fore_arm) * along;
+      ASSERT_GT(fore_arm.z(), 0) << frame;
+      ASSERT_NEAR(fore_arm.y(), 0, 1e-3f) << frame;
+      ASSERT_GT(fore_arm.x() * sign_of(side), -0.88f) << frame;  // at most about 150° of flexion
+      // The wrist's swing has no part about the forearm's length.
+      const Quaternionf wrist = local(joints.hand);
+      ASSERT_NEAR(wrist.x(), 0, 2e-3f) << frame;
+      ASSERT_LT(wrist.angularDistance(Quaternionf::Identity()), 1.34f) << frame;  // 70°, and a little unrest
+    }
+  }
+}
+
+TEST_P(EveryRecording, ReachesTheWristTargetsOfItsTruth) {
+  const Motion& motion = made().motion;
+  const Signer signer = make_signer();
+  std::istringstream lines(made().truth);
+  std::string line;
+  std::getline(lines, line);
+  ASSERT_EQ(line, "gloss,phase,begin_ms,end_ms,hand,x,y,z");
+  int rows = 0;
+  int strokes = 0;
+  while (std::getline(lines, line)) {
+    std::vector<std::string> fields;
+    std::istringstream row(line);
+    for (std::string field; std::getline(row, field, ',');) fields.push_back(field);
+    ASSERT_EQ(fields.size(), 8U) << line;
+    const std::int64_t frame = std::stoll(fields[3]) / 10;
+    ASSERT_EQ(frame * 10, std::stoll(fields[3]));
+    const Vector3f target(std::stof(fields[5]), std::stof(fields[6]), std::stof(fields[7]));
+    const Side side = fields[4] == "right" ? Side::right : Side::left;
+    const ModelPose pose = to_model_space(motion.skeleton(), motion.pose(frame));
+    const Vector3f wrist = pose.positions[static_cast<std::size_t>(signer.side(side).hand)];
+    ASSERT_LT((wrist - target).norm(), 0.02f) << line << " but the wrist is at " << wrist.transpose();
+    ++rows;
+    if (fields[1] == "Stroke") {
+      ++strokes;
+      // The table's own words, not the plan's: the stroke ends where the description says.
+      const SignShape& sign = sign_for(fields[0]);
+      ASSERT_LT((wrist - to_model(stroke_place(sign, side, 1), side)).norm(), 0.02f) << line;
+    }
+  }
+  EXPECT_EQ(strokes * 3, rows);
+  EXPECT_GE(strokes, 36);
+}
+
+TEST_P(EveryRecording, KeepsTheHandsOutOfTheTrunk) {
+  const Motion& motion = made().motion;
+  const Signer signer = make_signer();
+  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+    const ModelPose pose = to_model_space(motion.skeleton(), motion.pose(frame));
+    for (const Side side : kSides) {
+      const Vector3f wrist = pose.positions[static_cast<std::size_t>(signer.side(side).hand)];
+      ASSERT_GT(wrist.z(), 0.09f) << frame;
+      ASSERT_GT(wrist.x() * sign_of(side), -0.02f) << frame << ": the wrists are crossed";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace signweave::demo

@@ -1,0 +1,191 @@
+#include "signweave/formats/contact_sheet.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <pugixml.hpp>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "signweave/core/error.h"
+
+namespace signweave {
+namespace {
+
+using Eigen::AngleAxisf;
+using Eigen::Vector3f;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A body of few bones: a trunk, a head with eyes, two arms with one finger each, one leg a side.
+std::shared_ptr<const Skeleton> body() {
+  std::vector<Joint> joints = {{"Hips", kNoJoint, {0, 1, 0}, true},
+                               {"Spine", 0, {0, 0.4f, 0}, false},
+                               {"Head", 1, {0, 0.1f, 0}, false},
+                               {"LeftEye", 2, {0.03f, 0.1f, 0.1f}, false},
+                               {"RightEye", 2, {-0.03f, 0.1f, 0.1f}, false}};
+  std::vector<Tip> tips = {{2, {0, 0.2f, 0}}, {3, {0, 0, 0.01f}}, {4, {0, 0, 0.01f}}};
+  for (const float side : {1.0f, -1.0f}) {
+    const std::string name = side > 0 ? "Left" : "Right";
+    const auto first = static_cast<JointIndex>(joints.size());
+    joints.push_back({name + "Arm", 1, {0.2f * side, 0, 0}, false});
+    joints.push_back({name + "ForeArm", first, {0.3f * side, 0, 0}, false});
+    joints.push_back({name + "Hand", first + 1, {0.25f * side, 0, 0}, false});
+    joints.push_back({name + "HandIndex1", first + 2, {0.1f * side, 0, 0}, false});
+    tips.push_back({first + 3, {0.07f * side, 0, 0}});
+  }
+  for (const float side : {1.0f, -1.0f}) {
+    const std::string name = side > 0 ? "Left" : "Right";
+    const auto first = static_cast<JointIndex>(joints.size());
+    joints.push_back({name + "UpLeg", 0, {0.1f * side, 0, 0}, false});
+    joints.push_back({name + "Foot", first, {0, -0.9f, 0}, false});
+    tips.push_back({first + 1, {0, 0, 0.2f}});
+  }
+  return std::make_shared<const Skeleton>(std::move(joints), std::move(tips));
+}
+
+Motion standing(std::int64_t frames) {
+  return Motion(body(), {100, 1}, frames);
+}
+
+pugi::xml_document parsed(const std::string& svg) {
+  pugi::xml_document document;
+  const pugi::xml_parse_result result = document.load_buffer(svg.data(), svg.size());
+  EXPECT_TRUE(result) << result.description();
+  return document;
+}
+
+std::vector<pugi::xml_node> cells(const pugi::xml_document& document) {
+  std::vector<pugi::xml_node> found;
+  for (const pugi::xml_node cell : document.child("svg").children("g")) found.push_back(cell);
+  return found;
+}
+
+TEST(ContactSheet, HasACellForEveryFrameAskedForWithItsCaption) {
+  ContactSheetOptions options;
+  options.frames = {3, 1, 1};
+  options.captions = {"PLUIE", "MATIN"};
+  options.title = "meteo";
+  options.note = "placeholder shapes, not LSF";
+  const std::string svg = contact_sheet(standing(10), options);
+  const pugi::xml_document document = parsed(svg);
+  const std::vector<pugi::xml_node> found = cells(document);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_STREQ(found[0].child_value("text"), "PLUIE");
+  EXPECT_STREQ(found[1].child_value("text"), "MATIN");
+  EXPECT_STREQ(found[2].child_value("text"), "0.01 s");  // no caption left: the time
+  EXPECT_THAT(svg, HasSubstr(">meteo</text>"));
+  EXPECT_THAT(svg, HasSubstr(">placeholder shapes, not LSF</text>"));
+}
+
+TEST(ContactSheet, SpreadsItsCellsFromTheFirstFrameToTheLast) {
+  ContactSheetOptions options;
+  options.cells = 5;
+  const pugi::xml_document document = parsed(contact_sheet(standing(201), options));
+  std::vector<std::string> captions;
+  for (const pugi::xml_node& cell : cells(document)) captions.emplace_back(cell.child_value("text"));
+  EXPECT_THAT(captions, testing::ElementsAre("0.00 s", "0.50 s", "1.00 s", "1.50 s", "2.00 s"));
+  EXPECT_EQ(cells(parsed(contact_sheet(standing(1000)))).size(), 24U);
+  EXPECT_EQ(cells(parsed(contact_sheet(standing(3)))).size(), 3U);  // not more cells than frames
+}
+
+TEST(ContactSheet, DrawsTheUpperBodyAndTellsRightFromLeft) {
+  const pugi::xml_document document = parsed(contact_sheet(standing(1)));
+  int lines = 0;
+  std::set<std::string> left, right;
+  double lowest = 0;
+  for (const pugi::xml_node line : cells(document)[0].children("line")) {
+    ++lines;
+    const double x = line.attribute("x2").as_double();
+    lowest = std::max(lowest, line.attribute("y2").as_double());
+    // The viewer faces the signer, whose left is then on the right of the picture.
+    if (x > 96) left.insert(line.attribute("stroke").value());
+    if (x < 94) right.insert(line.attribute("stroke").value());
+  }
+  EXPECT_EQ(lines, 12);        // trunk, neck, and a side's upper arm, forearm, hand, finger, tip; no legs
+  EXPECT_EQ(left.size(), 2U);  // arm and hand
+  EXPECT_EQ(right.size(), 2U);
+  for (const std::string& colour : left) EXPECT_FALSE(right.contains(colour)) << colour;
+  EXPECT_LT(lowest, 190);
+  int heads = 0;
+  for ([[maybe_unused]] const pugi::xml_node& head : cells(document)[0].children("ellipse")) ++heads;
+  EXPECT_EQ(heads, 1);
+}
+
+TEST(ContactSheet, KeepsEveryHandInsideItsCell) {
+  Motion motion = standing(3);
+  const auto turn = [&](std::int64_t frame, const char* joint, float angle) {
+    motion.pose(frame).rotations[static_cast<std::size_t>(motion.skeleton().find(joint).value())] =
+        AngleAxisf(angle, Vector3f::UnitZ());
+  };
+  turn(1, "LeftArm", std::numbers::pi_v<float> / 2);   // straight up
+  turn(2, "RightArm", std::numbers::pi_v<float> / 2);  // hanging, the fingertip below the hips
+  const pugi::xml_document document = parsed(contact_sheet(motion));
+  for (const pugi::xml_node& cell : cells(document)) {
+    for (const pugi::xml_node line : cell.children("line")) {
+      for (const char* x : {"x1", "x2"}) {
+        EXPECT_GE(line.attribute(x).as_double(), 2);
+        EXPECT_LE(line.attribute(x).as_double(), 188);
+      }
+      for (const char* y : {"y1", "y2"}) {
+        EXPECT_GE(line.attribute(y).as_double(), 2);
+        EXPECT_LE(line.attribute(y).as_double(), 186);
+      }
+    }
+  }
+}
+
+TEST(ContactSheet, LooksTheSameWhereverTheSignerStandsAndFaces) {
+  const Motion motion = standing(1);
+  Motion turned = standing(1);
+  turned.pose(0).translations[0] = {4, 1, -3};
+  turned.pose(0).rotations[0] = AngleAxisf(std::numbers::pi_v<float> / 2, Vector3f::UnitY());
+  EXPECT_EQ(contact_sheet(motion), contact_sheet(turned));
+}
+
+TEST(ContactSheet, EscapesEveryTextOfAnyScript) {
+  ContactSheetOptions options;
+  options.captions = {"<A & \"B\">"};
+  options.title = "手話 · إشارة";
+  options.note = std::string("bad \xff byte, tab\there, bell\x07");
+  const std::string svg = contact_sheet(standing(1), options);
+  const pugi::xml_document document = parsed(svg);
+  EXPECT_STREQ(cells(document)[0].child_value("text"), "<A & \"B\">");
+  EXPECT_THAT(svg, HasSubstr("手話 · إشارة"));
+  EXPECT_THAT(svg, Not(HasSubstr("\xff")));
+  EXPECT_THAT(svg, Not(HasSubstr("\x07")));
+}
+
+TEST(ContactSheet, HasTheSameBytesForTheSameMotionAndNumbersOfOnePlace) {
+  const std::string svg = contact_sheet(standing(30));
+  EXPECT_EQ(svg, contact_sheet(standing(30)));
+  EXPECT_FALSE(std::regex_search(svg, std::regex("=\"-?[0-9]+\\.[0-9]{2,}\"|nan|inf|\"-0\\.0\"")));
+}
+
+TEST(ContactSheet, DrawsASkeletonWhoseNamesSayNothing) {
+  const auto plain = std::make_shared<const Skeleton>(
+      std::vector<Joint>{
+          {"a", kNoJoint, {0, 1, 0}, true}, {"b", 0, {0, 0.5f, 0}, false}, {"c", 1, {0.5f, 0, 0}, false}},
+      std::vector<Tip>{{2, {0.1f, 0, 0}}});
+  EXPECT_EQ(cells(parsed(contact_sheet(Motion(plain, {30, 1}, 2)))).size(), 2U);
+  const auto point =
+      std::make_shared<const Skeleton>(std::vector<Joint>{{"a", kNoJoint, {0, 1, 0}, true}}, std::vector<Tip>{});
+  EXPECT_EQ(cells(parsed(contact_sheet(Motion(point, {30, 1}, 1)))).size(), 1U);
+}
+
+TEST(ContactSheet, RefusesWhatItCannotDraw) {
+  EXPECT_THROW(contact_sheet(standing(0)), Error);
+  ContactSheetOptions beyond;
+  beyond.frames = {5};
+  EXPECT_THROW(contact_sheet(standing(5), beyond), Error);
+  beyond.frames = {-1};
+  EXPECT_THROW(contact_sheet(standing(5), beyond), Error);
+  ContactSheetOptions narrow;
+  narrow.columns = 0;
+  EXPECT_THROW(contact_sheet(standing(5), narrow), Error);
+}
+
+}  // namespace
+}  // namespace signweave

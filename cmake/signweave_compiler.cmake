@@ -10,7 +10,7 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 
 add_library(signweave_flags INTERFACE)
-target_compile_options(signweave_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wold-style-cast
+target_compile_options(signweave_flags INTERFACE -pthread -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wold-style-cast
                        -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
 if(SIGNWEAVE_SANITIZE)
   add_compile_options(-fsanitize=${SIGNWEAVE_SANITIZE} -fno-omit-frame-pointer)
@@ -19,3 +19,11 @@ if(SIGNWEAVE_SANITIZE)
     add_compile_options(-fno-sanitize-recover=undefined)
   endif()
 endif()
+
+# Tests are compiled for speed of compiling: what they test is not.
+add_library(signweave_test_flags INTERFACE)
+target_link_libraries(signweave_test_flags INTERFACE signweave_flags GTest::gmock GTest::gtest_main rapidcheck
+                      rapidcheck_gtest)
+target_compile_options(signweave_test_flags INTERFACE -O1)
+target_compile_definitions(signweave_test_flags INTERFACE SIGNWEAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                           SIGNWEAVE_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")

@@ -6,6 +6,22 @@
 define_property(GLOBAL PROPERTY SIGNWEAVE_LAYERS BRIEF_DOCS "rows 'module:dependency,dependency'")
 define_property(GLOBAL PROPERTY SIGNWEAVE_MODULES BRIEF_DOCS "library targets, lowest first")
 
+# What nearly every file reads, compiled once. Includes stay written out in each file: the precompiled header only saves time.
+file(WRITE ${PROJECT_BINARY_DIR}/pch.cpp "")
+add_library(signweave_pch OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
+target_link_libraries(signweave_pch PRIVATE signweave_flags)
+target_include_directories(signweave_pch SYSTEM PRIVATE ${EIGEN3_INCLUDE_DIRS})
+target_precompile_headers(signweave_pch PRIVATE <Eigen/Geometry> <algorithm> <cmath> <filesystem> <functional> <map> <memory>
+                          <optional> <span> <string> <string_view> <unordered_map> <variant> <vector>)
+if(SIGNWEAVE_TESTS)
+  add_library(signweave_test_pch OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
+  target_link_libraries(signweave_test_pch PRIVATE signweave_test_flags)
+  target_include_directories(signweave_test_pch SYSTEM PRIVATE ${EIGEN3_INCLUDE_DIRS})
+  target_precompile_headers(signweave_test_pch PRIVATE <Eigen/Geometry> <algorithm> <cmath> <filesystem> <functional> <map>
+                            <memory> <optional> <span> <string> <string_view> <unordered_map> <variant> <vector>
+                            <gmock/gmock.h> <gtest/gtest.h> <rapidcheck/gtest.h>)
+endif()
+
 function(signweave_module name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
   set(target signweave_${name})
@@ -14,6 +30,7 @@ function(signweave_module name)
     add_library(${target} STATIC ${arg_SOURCES})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:signweave_flags>)
+    target_precompile_headers(${target} REUSE_FROM signweave_pch)
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
@@ -40,10 +57,8 @@ function(signweave_tests name)
     return()
   endif()
   add_executable(${name}_test ${tests} ${arg_SOURCES})
-  target_link_libraries(${name}_test PRIVATE ${arg_LIBRARIES} signweave_flags GTest::gmock GTest::gtest_main
-                        rapidcheck rapidcheck_gtest)
-  target_compile_definitions(${name}_test PRIVATE SIGNWEAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                             SIGNWEAVE_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
+  target_link_libraries(${name}_test PRIVATE ${arg_LIBRARIES} signweave_test_flags)
+  target_precompile_headers(${name}_test REUSE_FROM signweave_test_pch)
   gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()
 

@@ -98,29 +98,25 @@ void measure(Row& row, const kv::KvStore& store, const Motion& motion, std::mt19
   }));
 }
 
-void run(std::span<char*> arguments) {
+/// One access mode, in a database of its own: more motion beside it would only cost the cache.
+void run(const std::string& text, const Motion& motion) {
+  const auto mode = parse_access_mode(text);
+  if (!mode) throw Error(ErrorCode::bad_input, "'" + text + "' is no access mode");
   const auto folder = std::filesystem::temp_directory_path() / "signweave_bench_store_read";
   std::filesystem::remove_all(folder);
   kv::create(folder, kv::engines().front());
   {
     const auto store = kv::open(folder, kv::Access::read_write);
-    const Motion motion = long_motion();
-    std::vector<std::string> modes = {"by_frame", "by_joint_and_frame", "by_frame:1"};
-    modes.insert(modes.end(), arguments.begin(), arguments.end());
+    const auto stored = motion_db::describe(motion, *mode, 1);
+    const std::string name = to_string(stored.mode);
+    const double put = microseconds(1, [&] { motion_db::put(*store, stored, motion); });
+    std::printf("put_whole/%s %.1f ms - - -\n", name.c_str(), put / 1e3);
     const JointSet arm = {10, 11, 12, 13, 14, 15, 16, 17};
-    std::vector<Row> rows;
-    for (const std::string& text : modes) {
-      const auto mode = parse_access_mode(text);
-      if (!mode) throw Error(ErrorCode::bad_input, "'" + text + "' is no access mode");
-      const auto stored = motion_db::describe(motion, *mode, rows.size() + 1);
-      const double put = microseconds(1, [&] { motion_db::put(*store, stored, motion); });
-      std::printf("put_whole/%s %.1f ms - - -\n", to_string(stored.mode).c_str(), put / 1e3);
-      const std::string name = to_string(stored.mode);
-      rows.push_back(
-          {.name = "read_64_frames/" + name, .stored = stored, .joints = {}, .goal = text == "by_frame" ? "5" : "-"});
-      rows.push_back({.name = "read_64_frames_of_8_joints/" + name, .stored = stored, .joints = arm});
-      rows.push_back({.name = "read_whole/" + name, .stored = stored, .asked = kFrames, .joints = {}});
-    }
+    Row rows[] = {
+        {.name = "read_whole/" + name, .stored = stored, .asked = kFrames, .joints = {}},
+        {.name = "read_64_frames/" + name, .stored = stored, .joints = {}, .goal = text == "by_frame" ? "5" : "-"},
+        {.name = "read_64_frames_of_8_joints/" + name, .stored = stored, .joints = arm},
+    };
     std::mt19937 random(2);
     for (int round = 0; round < kRounds; ++round) {
       for (Row& row : rows) {
@@ -144,7 +140,10 @@ int main(int count, char** arguments) {
   ::mallopt(M_TRIM_THRESHOLD, 1 << 28);
   ::mallopt(M_MMAP_THRESHOLD, 1 << 25);
   try {
-    run(std::span(arguments, static_cast<std::size_t>(count)).subspan(1));
+    std::vector<std::string> modes = {"by_frame", "by_joint_and_frame", "by_frame:1"};
+    modes.insert(modes.end(), arguments + 1, arguments + count);
+    const Motion motion = long_motion();
+    for (const std::string& mode : modes) run(mode, motion);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "store_read: %s\n", error.what());
     return 1;

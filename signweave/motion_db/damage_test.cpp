@@ -209,6 +209,7 @@ TEST_F(DamageTest, ADescriptorThatClaimsMoreThanIsStoredAllocatesNothing) {
   for (const AccessMode::Kind kind : kAllKinds) {
     StoredMotion stored = put_as({kind, 10});
     stored.frames = 4'000'000'000;
+    stored.tracks.clear();
     EXPECT_NE(fault_in(*store_, stored, {0, stored.frames}), "");
     EXPECT_NE(fault_in(*store_, stored, {3'999'999'999, stored.frames}), "");
   }

@@ -325,7 +325,7 @@ TEST(MotionDb, TransactionsAreBoundedAndNoneIsOpenDuringProgress) {
   erase(counting, stored);
   EXPECT_EQ(counting.most_changes, 512u);
 
-  const Motion large = test_motion(8'000, 100);  // 16 MB
+  const Motion large = test_motion(12'000, 100);  // 24 MB
   put(counting, describe(large, {AccessMode::Kind::by_frame, 1'000}, 2), large);
   EXPECT_LE(counting.most_bytes, std::size_t{16 + 2} << 20) << "16 MiB, and the packet that goes past it";
 }

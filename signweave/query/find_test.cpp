@@ -242,6 +242,7 @@ TEST(Explain, SaysWhichIndexIsUsed) {
             "2. keep those with gloss = \"VANNES\" & phase = stroke\n");
   EXPECT_THAT(explained("phase = stroke & duration > 300ms"), HasSubstr("the phase index (phase = stroke)"));
   EXPECT_THAT(explained("duration > 300ms"), HasSubstr("all rows"));
+  EXPECT_THAT(explained("parent(gloss = BREST) & duration > 1ms"), HasSubstr("the children of the gloss index"));
   EXPECT_THAT(explained("gloss =~ /.*/ -> gloss = BREST"), HasSubstr("1. look up about 1 rows: the gloss index"));
   EXPECT_THAT(explained("duration > 1ms overlaps tier(\"Mouthing\") = \"pluie\""), HasSubstr("the label index"));
 }

@@ -4,12 +4,39 @@
 
 #include <filesystem>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/formats/eaf.h"
+
+namespace signweave {
+
+inline void PrintTo(const Tier& tier, std::ostream* out) {
+  *out << fmt::format("\ntier '{}' type '{}' parent '{}' by '{}' of '{}' in '{}'", tier.id, tier.type, tier.parent,
+                      tier.annotator, tier.participant, tier.language);
+  for (const Annotation& one : tier.annotations) {
+    *out << fmt::format("\n  {} {}-{} '{}' <{}{}", one.id, one.span.begin.count(), one.span.end.count(), one.label,
+                        one.parent, one.aligned ? "" : " unaligned");
+  }
+}
+
+inline void PrintTo(const AnnotationDocument& document, std::ostream* out) {
+  *out << fmt::format("author '{}' date '{}' format '{}'", document.author, document.date, document.format);
+  for (const LinkedFile& file : document.linked_files) {
+    *out << fmt::format("\nfile {} {} {} {} {}", file.media ? "media" : "linked", file.url, file.relative_url,
+                        file.mime_type, file.time_origin.count());
+  }
+  for (const auto& [name, value] : document.properties) *out << fmt::format("\nproperty {}={}", name, value);
+  for (const TierType& type : document.types) {
+    *out << fmt::format("\ntype '{}' {} '{}'", type.id, static_cast<int>(type.stereotype), type.controlled_vocabulary);
+  }
+  for (const Tier& tier : document.tiers) PrintTo(tier, out);
+}
+
+}  // namespace signweave
 
 /// Small EAF texts for the tests of this folder.
 namespace signweave::eaf::testing_support {

@@ -24,7 +24,7 @@ AnnotationDocument annotate(const Script& script, const Timeline& timeline) {
   const FrameClock clock{.frame_time = timeline.rate.frame_time()};
   AnnotationDocument document;
   document.author = "signweave demo: synthetic, placeholder shapes, not LSF";
-  document.date = "2009-07-06T12:00:00+02:00";  // the sixth of July that the forecast speaks of: the same bytes always
+  document.date = "1970-01-01T00:00:00+00:00";  // no clock: the same bytes always
   document.linked_files.push_back({.url = "./" + script.name + ".bvh",
                                    .relative_url = "./" + script.name + ".bvh",
                                    .mime_type = "application/octet-stream",

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "demo/corpus.h"
-#include "signweave/core/error.h"
+#include "signweave/formats/bvh.h"
+#include "signweave/formats/eaf.h"
 #include "signweave/motion/kinematics.h"
 
 namespace signweave::demo {
@@ -111,6 +112,40 @@ TEST_P(EveryRecording, HasUnitQuaternionsThatNeverLeaveTheirHemisphere) {
       ASSERT_GE(now.rotations[i].dot(before.rotations[i]), 0) << frame << motion.skeleton().joints()[i].name;
     }
   }
+}
+
+TEST_P(EveryRecording, KeepsItsBoneLengths) {
+  const Motion& motion = made().motion;
+  const Skeleton& skeleton = motion.skeleton();
+  for (std::int64_t frame = 0; frame < motion.frame_count(); frame += 11) {
+    const ModelPose pose = to_model_space(skeleton, motion.pose(frame));
+    for (std::size_t i = 1; i < skeleton.joint_count(); ++i) {
+      const auto parent = static_cast<std::size_t>(skeleton.joints()[i].parent);
+      ASSERT_NEAR((pose.positions[i] - pose.positions[parent]).norm(), skeleton.joints()[i].offset.norm(), 1e-5f)
+          << skeleton.joints()[i].name;
+    }
+  }
+}
+
+TEST_P(EveryRecording, ComesBackFromItsFiles) {
+  const Motion& motion = made().motion;
+  const std::string text = bvh::write_text(motion, bvh::default_layout(motion.skeleton()));
+  const bvh::File read = bvh::read_text("made.bvh", text);
+  EXPECT_EQ(read.layout.unit, 0.01);
+  EXPECT_EQ(read.layout.up, bvh::UpAxis::y);
+  EXPECT_EQ(read.motion.rate(), kRate);
+  EXPECT_EQ(difference(read.motion.skeleton(), motion.skeleton()), std::nullopt);
+  ASSERT_EQ(read.motion.frame_count(), motion.frame_count());
+  for (std::int64_t frame = 0; frame < motion.frame_count(); frame += 13) {
+    const ModelPose wanted = to_model_space(motion.skeleton(), motion.pose(frame));
+    const ModelPose is = to_model_space(read.motion.skeleton(), read.motion.pose(frame));
+    for (std::size_t i = 0; i < wanted.positions.size(); ++i) {
+      ASSERT_LT((wanted.positions[i] - is.positions[i]).norm(), 1e-4f) << frame;
+    }
+  }
+  const AnnotationDocument document = eaf::read_text("made.eaf", eaf::write_text(made().document)).document;
+  ASSERT_EQ(document.tiers.size(), made().document.tiers.size());
+  for (std::size_t i = 0; i < document.tiers.size(); ++i) EXPECT_EQ(document.tiers[i], made().document.tiers[i]);
 }
 
 TEST_P(EveryRecording, MovesItsHandsUnderFourMetresASecondAndWithoutJerks) {

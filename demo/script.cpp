@@ -126,7 +126,7 @@ Script villes() {
 }
 
 Eigen::Vector3f rest_place() {
-  return {0.095f, -0.410f, 0.195f};
+  return {0.120f, -0.405f, 0.195f};
 }
 
 Timeline schedule(const Script& script, FrameRate rate, Random& random) {

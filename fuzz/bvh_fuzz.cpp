@@ -12,14 +12,16 @@ using namespace signweave;
 /// Any bytes are either refused with an Error or read, written and read again as the same motion.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
+  bvh::ReadOptions options;
+  options.mirror = size % 2 == 1;
+  if (size % 8 == 7) options.root_columns = bvh::RootColumns::rotation_first;
   bvh::File first;
   try {
-    first = bvh::read_text("fuzz", text);
+    first = bvh::read_text("fuzz", text, options);
   } catch (const Error&) {
     return 0;
   }
   const std::string written = bvh::write_text(first.motion, first.layout);
-  bvh::ReadOptions options;
   options.up = first.layout.up;
   options.unit = first.layout.unit;
   options.root_unit = first.layout.root_unit;

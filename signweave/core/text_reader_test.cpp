@@ -1,8 +1,10 @@
 #include "signweave/core/text_reader.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -50,8 +52,9 @@ std::string fault_of(std::string_view text, double* value = nullptr) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string_view text)
-      : path_(std::filesystem::temp_directory_path() /
-              ("signweave_text_reader_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+      : path_(
+            std::filesystem::temp_directory_path() /
+            fmt::format("signweave_{}_{}", ::getpid(), testing::UnitTest::GetInstance()->current_test_info()->name())) {
     std::ofstream(path_, std::ios::binary) << text;
   }
   ~TemporaryFile() { std::filesystem::remove(path_); }

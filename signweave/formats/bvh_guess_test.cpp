@@ -137,7 +137,7 @@ TEST(BvhGuess, WithoutNamesTheExtentOfTheBodyTells) {
     EXPECT_EQ(file.layout.up, up);
     EXPECT_EQ(file.layout.unit, 0.0254);
     ASSERT_EQ(file.notices.size(), 1u);
-    EXPECT_THAT(file.notices[0].text, HasSubstr("inch (no head and feet by name; extent 1.50 m)"));
+    EXPECT_THAT(file.notices[0].text, HasSubstr("inch (no head and feet by name; extent 1.55 m)"));
   }
 }
 

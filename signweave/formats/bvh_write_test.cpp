@@ -1,6 +1,8 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -85,7 +87,7 @@ TEST(BvhWrite, NumbersAreNeverInScientificNotation) {
 }
 
 TEST(BvhWrite, TheFileIsTheText) {
-  const auto path = std::filesystem::temp_directory_path() / "signweave_bvh_write_test.bvh";
+  const auto path = std::filesystem::temp_directory_path() / fmt::format("signweave_{}.bvh", ::getpid());
   const File file = read_plainly(kTidy);
   write(path, file.motion, file.layout);
   EXPECT_EQ(read_file(path), write_text(file.motion, file.layout));

@@ -80,7 +80,9 @@ class TierEditor {
     if (tier.annotations.empty()) return text + "/>";
     text += ">";
     for (std::size_t i = 0; i < tier.annotations.size(); ++i) {
-      text += context_.separator(2) + changed_annotation(t, i).value_or(std::string(old_text(t, i)));
+      const std::optional<std::string> changed = changed_annotation(t, i);
+      text += context_.separator(2);
+      text += changed ? std::string_view(*changed) : old_text(t, i);  // comes from another tier
     }
     return text + context_.separator(1) + "</TIER>";
   }
@@ -164,12 +166,13 @@ class TierEditor {
   }
 
   void edit_label(Edits& edits, const Extent& extent, pugi::xml_node element, const std::string& label) const {
+    std::string text = escaped(label, "the label");
     if (const pugi::xml_node value = element.child("ANNOTATION_VALUE")) {
-      edit_content(edits, context_.extents.of(value), "ANNOTATION_VALUE", label);
+      edit_content(edits, context_.extents.of(value), "ANNOTATION_VALUE", std::move(text));
       return;
     }
-    edits.insert(extent.open_end, fmt::format("{}<ANNOTATION_VALUE>{}</ANNOTATION_VALUE>", context_.separator(4),
-                                              escaped(label, "the label")));
+    edits.insert(extent.open_end,
+                 fmt::format("{}<ANNOTATION_VALUE>{}</ANNOTATION_VALUE>", context_.separator(4), text));
     context_.open_up(edits, extent, element.name(), 3);
   }
 

@@ -9,9 +9,11 @@
 namespace signweave::eaf {
 namespace {
 
-/// Pairs what is with what was: first the same, then what is `alike`, each once. [now], an index into `was` or kNone.
-template <typename T, typename Alike>
-std::vector<std::size_t> partners(const std::vector<T>& was, const std::vector<T>& now, Alike alike) {
+/// Pairs what is with what was, each once: the same first, then by each of the tests. [now], an index into `was` or
+/// kNone.
+template <typename T>
+std::vector<std::size_t> partners(const std::vector<T>& was, const std::vector<T>& now,
+                                  const std::vector<bool (*)(const T&, const T&)>& tests) {
   std::vector<std::size_t> result(now.size(), kNone);
   std::vector<bool> taken(was.size(), false);
   const auto pair_up = [&](auto fits) {
@@ -26,14 +28,15 @@ std::vector<std::size_t> partners(const std::vector<T>& was, const std::vector<T
     }
   };
   pair_up([](const T& a, const T& b) { return a == b; });
-  pair_up(alike);
+  for (const auto test : tests) pair_up(test);
   return result;
 }
 
-template <typename T, typename Alike, typename Change, typename Make>
+template <typename T, typename Change, typename Make>
 std::vector<ListItem> list_items(const EditContext& context, const std::vector<T>& was, const std::vector<T>& now,
-                                 const std::vector<pugi::xml_node>& nodes, Alike alike, Change change, Make make) {
-  const std::vector<std::size_t> partner = partners(was, now, alike);
+                                 const std::vector<pugi::xml_node>& nodes,
+                                 const std::vector<bool (*)(const T&, const T&)>& tests, Change change, Make make) {
+  const std::vector<std::size_t> partner = partners(was, now, tests);
   std::vector<ListItem> items;
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (partner[i] == kNone) {
@@ -182,7 +185,8 @@ void edit_header(EditContext& context) {
   }
   const std::vector<ListItem> file_items = list_items(
       context, was.linked_files, now.linked_files, files,
-      [](const LinkedFile& a, const LinkedFile& b) { return a.media == b.media && a.url == b.url; },
+      {[](const LinkedFile& a, const LinkedFile& b) { return a.media == b.media && a.url == b.url; },
+       [](const LinkedFile& a, const LinkedFile& b) { return a.media == b.media; }},
       [&](pugi::xml_node node, const LinkedFile& file) {
         std::vector<Attribute> attributes = attributes_of(file);
         if (node.attribute("TIME_ORIGIN") && !attributes.back().value) attributes.back().value = "0";
@@ -192,10 +196,10 @@ void edit_header(EditContext& context) {
   using Property = std::pair<std::string, std::string>;
   const std::vector<ListItem> property_items = list_items(
       context, was.properties, now.properties, properties,
-      [](const Property& a, const Property& b) { return a.first == b.first; },
+      {[](const Property& a, const Property& b) { return a.first == b.first; }},
       [&](pugi::xml_node node, const Property& property) {
         Edits edits(context.xml.text());
-        edit_content(edits, context.extents.of(node), "PROPERTY", property.second);
+        edit_content(edits, context.extents.of(node), "PROPERTY", escaped(property.second, "the property"));
         return edits.apply(context.extents.of(node).begin, context.extents.of(node).end);
       },
       [](const Property& property) { return property_element(property.first, property.second); });
@@ -212,7 +216,7 @@ void edit_types(EditContext& context) {
     std::vector<pugi::xml_node> nodes;
     for (const pugi::xml_node node : context.xml.root().children("LINGUISTIC_TYPE")) nodes.push_back(node);
     const std::vector<ListItem> items = list_items(
-        context, was, context.now.types, nodes, [](const TierType& a, const TierType& b) { return a.id == b.id; },
+        context, was, context.now.types, nodes, {[](const TierType& a, const TierType& b) { return a.id == b.id; }},
         [&](pugi::xml_node node, const TierType& type) { return context.with_attributes(node, attributes_of(type)); },
         type_element);
     const ListPlace place{.head = context.place_at_root("LINGUISTIC_TYPE"), .separator = context.separator(1)};

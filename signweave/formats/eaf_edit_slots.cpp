@@ -86,9 +86,11 @@ class SlotEditor {
     const bool begin = user.side == Side::begin;
     const std::int64_t time = (begin ? one.span.begin : one.span.end).count();
     if (was == nullptr || !was->has_slots() || one.aligned) return time;
+    // Without times of its own it follows its parent and neighbours, unless it was moved itself.
     if (!result_.slots[slot].time) return std::nullopt;
     const TimeSpan before = was->annotation.span;
-    return (begin ? before.begin : before.end).count() == time ? result_.slots[slot].time : time;
+    if ((begin ? before.begin : before.end).count() == time) return std::nullopt;
+    return time;
   }
 
   void settle_times() {
@@ -157,16 +159,32 @@ class SlotEditor {
               [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
   }
 
+  /// New slots, and old ones whose new time does not fit between their neighbours.
+  std::vector<bool> slots_to_move() const {
+    const std::size_t count = result_.slots.size();
+    std::vector<std::int64_t> next(count, kLatest);  // the first unchanged time after
+    for (std::size_t slot = old_.slots.size(); slot-- > 1;) {
+      const std::optional<std::int64_t> time = old_.slots[slot].time;
+      next[slot - 1] = time && time == result_.slots[slot].time ? *time : next[slot];
+    }
+    std::vector<bool> moved(count, true);
+    std::int64_t latest = -1;
+    for (std::size_t slot = 0; slot < old_.slots.size(); ++slot) {
+      const std::optional<std::int64_t> time = result_.slots[slot].time;
+      moved[slot] = time != old_.slots[slot].time && (*time < latest || *time > next[slot]);
+      if (!moved[slot] && time) latest = std::max(latest, *time);
+    }
+    return moved;
+  }
+
   std::vector<Key> sort_keys() const {
+    std::vector<bool> moved = slots_to_move();
     std::vector<Key> keys;
-    std::vector<bool> moved;
     std::int64_t latest = -1;
     for (std::size_t slot = 0; slot < result_.slots.size(); ++slot) {
-      const EditedSlot& one = result_.slots[slot];
-      const std::optional<std::int64_t> before = one.old == kNone ? std::nullopt : old_.slots[one.old].time;
-      if (before) latest = std::max(latest, *before);
-      moved.push_back(one.old == kNone || one.time != before);
-      keys.push_back({moved.back() && one.time ? *one.time : latest, slot, {}});
+      const std::optional<std::int64_t> time = result_.slots[slot].time;
+      if (!moved[slot] && time) latest = std::max(latest, *time);
+      keys.push_back({moved[slot] && time ? *time : latest, slot, {}});
     }
     for (const std::size_t t : checked_.tier_order) {
       if (checked_.parents[t] == kNone) continue;

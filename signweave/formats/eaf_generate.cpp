@@ -64,7 +64,7 @@ class SlotMaker {
   };
   struct MadeSlot {
     std::optional<std::int64_t> time;
-    std::int64_t reached = 0;  ///< its time, or that of the aligned slot before it
+    std::int64_t shown = 0;  ///< its time, or where ELAN shows it
     bool listed = false;
   };
 
@@ -165,18 +165,14 @@ class SlotMaker {
       std::size_t to = from + 1;
       while (to + 1 < bounds.size() && bounds[to].may_lose_its_time && to - from < kLongestRun) ++to;
       while (to > from + 1 && !even(from, to)) --to;
-      for (std::size_t i = from + 1; i < to; ++i) {
-        MadeSlot& slot = slots_[bounds[i].slot];
-        slot.time = std::nullopt;
-        slot.reached = slots_[bounds[from].slot].reached;
-      }
+      for (std::size_t i = from + 1; i < to; ++i) slots_[bounds[i].slot].time = std::nullopt;
       from = to;
     }
   }
 
   void number() {
     std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::size_t a, std::size_t b) { return slots_[a].reached < slots_[b].reached; });
+                     [&](std::size_t a, std::size_t b) { return slots_[a].shown < slots_[b].shown; });
     numbers_.resize(slots_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) numbers_[order_[i]] = i;
   }

@@ -146,8 +146,7 @@ void edit_attributes(Edits& edits, const Extent& extent, pugi::xml_node element,
   }
 }
 
-void edit_content(Edits& edits, const Extent& extent, std::string_view name, std::string_view text) {
-  std::string content = escaped(text, name);
+void edit_content(Edits& edits, const Extent& extent, std::string_view name, std::string content) {
   if (extent.self_closing()) {
     edits.replace(extent.open_end - 2, extent.open_end, fmt::format(">{}</{}>", content, name));
   } else {
@@ -156,6 +155,12 @@ void edit_content(Edits& edits, const Extent& extent, std::string_view name, std
 }
 
 namespace {
+
+/// Where the blanks before a place begin.
+std::size_t blanks_before(std::string_view text, std::size_t at) {
+  while (at > 0 && kBlank.find(text[at - 1]) != std::string_view::npos) --at;
+  return at;
+}
 
 /// Which items may stay when the order of the list rules: a longest run of them that is in file order.
 std::vector<bool> staying(const std::vector<ListItem>& items, bool keep_places) {
@@ -192,6 +197,11 @@ bool edit_list(Edits& edits, const std::vector<Extent>& old, const std::vector<L
   std::vector<std::size_t> kept;
   bool inserted = false;
   std::size_t anchor = place.head;
+  if (!old.empty()) {
+    const auto first =
+        std::min_element(old.begin(), old.end(), [](const Extent& a, const Extent& b) { return a.begin < b.begin; });
+    anchor = blanks_before(text, first->begin);
+  }
   for (std::size_t i = 0; i < items.size(); ++i) {
     const ListItem& item = items[i];
     if (stays[i]) {
@@ -207,8 +217,7 @@ bool edit_list(Edits& edits, const std::vector<Extent>& old, const std::vector<L
   std::sort(kept.begin(), kept.end());
   for (const Extent& extent : old) {
     if (std::binary_search(kept.begin(), kept.end(), extent.begin)) continue;
-    const std::size_t before = text.find_last_not_of(kBlank, extent.begin - 1);
-    edits.replace(before == std::string_view::npos ? extent.begin : before + 1, extent.end, {});
+    edits.replace(blanks_before(text, extent.begin), extent.end, {});
   }
   return inserted;
 }

@@ -59,8 +59,8 @@ class Edits {
 /// does the writing of those whose value (`xml`) is the wanted one.
 void edit_attributes(Edits& edits, const Extent& extent, pugi::xml_node element, const std::vector<Attribute>& wanted);
 
-/// Gives an element this text for content, in place of all that it holds.
-void edit_content(Edits& edits, const Extent& extent, std::string_view name, std::string_view text);
+/// Gives the element `name` this text, already escaped, for content, in place of all that it holds.
+void edit_content(Edits& edits, const Extent& extent, std::string_view name, std::string content);
 
 /// One element of a list of siblings as it shall become.
 struct ListItem {
@@ -70,7 +70,7 @@ struct ListItem {
 
 /// How new elements are set among the old.
 struct ListPlace {
-  std::size_t head = 0;      ///< where the first goes when nothing stands before it
+  std::size_t head = 0;      ///< where the first goes when there was no such element
   std::string separator;     ///< line end and indentation before an element
   bool keep_places = false;  ///< the old ones stay in file order whatever their order in the list
 };

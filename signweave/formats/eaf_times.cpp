@@ -86,9 +86,18 @@ class Settler {
         const auto after =
             std::upper_bound(by_rank.begin(), by_rank.end(), rank(one.begin),
                              [&](std::size_t value, std::size_t parent) { return value < rank(above[parent].begin); });
-        if (after != by_rank.begin() && rank(one.end) <= rank(above[*(after - 1)].end)) parents_[i] = *(after - 1);
+        if (after == by_rank.begin()) continue;
+        const FileAnnotation& around = above[*(after - 1)];
+        // Where its own times say otherwise, they are right: around an unaligned parent the order says little.
+        const bool fits = !one.annotation.aligned || around.annotation.span.contains(own_span(one));
+        if (fits && rank(one.end) <= rank(around.end)) parents_[i] = *(after - 1);
       }
     }
+  }
+
+  /// The span of an annotation whose slots both have times.
+  TimeSpan own_span(const FileAnnotation& one) const {
+    return {Milliseconds(*parts_.slots[one.begin].time), Milliseconds(*parts_.slots[one.end].time)};
   }
 
   void interpolate(const FileTier& tier) {

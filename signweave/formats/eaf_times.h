@@ -12,7 +12,8 @@ namespace signweave::eaf {
 /// - Order of slots: as in TIME_ORDER, but a slot whose time is less than that of a slot before it moves to just before
 ///   the first slot that is later. Unaligned slots keep their place after the slot they were written after.
 /// - An annotation with slots belongs to the parent that shares its begin slot, else its end slot, else whose slots lie
-///   around its own in that order, else whose span contains its own, else whose span shares most time with it.
+///   around its own in that order (and, where its own both have times, whose span contains it), else whose span
+///   contains its own, else whose span shares most time with it.
 /// - Unaligned slots are interpolated inside one parent: of the slots that the children of one parent use on one tier,
 ///   each run without times is spread evenly between its two neighbours, in whole milliseconds rounded down, so that
 ///   the last piece is the longest. Where a run begins or ends without a neighbour, the parent's own bound stands in.

@@ -108,12 +108,12 @@ class Search {
     if (place == 0) return relate(0, 0);
     const Gap& gap = query_.gaps[place - 1];
     const auto use = [&](RowId row) {
-      if (row == kNoRow || !query_.elements[place - 1].matcher.accepts(row)) return;
+      if (!query_.elements[place - 1].matcher.accepts(row)) return;
       rows_[place - 1] = row;
       place_before(place - 1);
     };
-    if (gap.direct()) return use(previous_row(table_, rows_[place]));
-    for (const RowId row : rows_before(table_, rows_[place], gap)) use(row);
+    const RowId from = rows_[place];
+    for (const RowId row : gap.direct() ? previous_rows(table_, from) : rows_before(table_, from, gap)) use(row);
   }
 
   /// Finds partners from this relation of this element on.

@@ -167,6 +167,33 @@ TEST(Find, ARelationKeepsWhatHasAPartner) {
   EXPECT_THAT(answers("gloss = PLUIE & !starts(hand = left)"), ElementsAre("meteo PLUIE 6000..6900"));
 }
 
+TEST(Find, ThePartnerIsTheFirstInTime) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Late").tier("Gloss").tier("Phase").tier("Early");
+  corpus.sign("Gloss", "A", {0ms, 100ms});
+  corpus.annotation_on("Late", "x", {50ms, 60ms});
+  corpus.annotation_on("Early", "x", {10ms, 20ms});
+  corpus.annotation_on("Early", "x", {20ms, 30ms});
+  const SegmentTable table = corpus.table();
+  const std::vector<Segment> found = find(parse("gloss = A overlaps (tier(Late) = x | tier(Early) = x)"), table);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].parts[1].span, (TimeSpan{10ms, 20ms}));
+}
+
+TEST(Find, AFaultyTierWhoseAnnotationsOverlapIsSearchedWhole) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Gloss").tier("Phase");
+  corpus.sign("Gloss", "A", {0ms, 100ms});
+  corpus.sign("Gloss", "A", {10ms, 20ms});
+  corpus.sign("Gloss", "B", {30ms, 40ms});
+  corpus.sign("Gloss", "C", {90ms, 95ms});
+  const SegmentTable table = corpus.table();
+  const auto count = [&](std::string_view text) { return find(parse(text), table).size(); };
+  EXPECT_EQ(count("gloss = A ->[..10ms] gloss = B"), 1U);
+  EXPECT_EQ(count("gloss = A ->[..100ms] gloss = C"), 1U);
+  EXPECT_EQ(count("gloss = C overlaps gloss = A"), 1U);
+}
+
 TEST(Find, AMarkMakesOnePartTheAnswer) {
   const std::vector<Segment> found = find(parse("gloss = MATIN -> @ gloss =~ /.*/"), weather());
   ASSERT_EQ(found.size(), 2U);
@@ -242,6 +269,7 @@ TEST(Explain, SaysWhichIndexIsUsed) {
             "2. keep those with gloss = \"VANNES\" & phase = stroke\n");
   EXPECT_THAT(explained("phase = stroke & duration > 300ms"), HasSubstr("the phase index (phase = stroke)"));
   EXPECT_THAT(explained("duration > 300ms"), HasSubstr("all rows"));
+  EXPECT_THAT(explained("parent(gloss = BREST) & duration > 1ms"), HasSubstr("the children of the gloss index"));
   EXPECT_THAT(explained("gloss =~ /.*/ -> gloss = BREST"), HasSubstr("1. look up about 1 rows: the gloss index"));
   EXPECT_THAT(explained("duration > 1ms overlaps tier(\"Mouthing\") = \"pluie\""), HasSubstr("the label index"));
 }

@@ -68,9 +68,17 @@ RowId next_row(const SegmentTable& table, RowId row) {
   return step(table, row, 1);
 }
 
-RowId previous_row(const SegmentTable& table, RowId row) {
-  const RowId previous = step(table, row, -1);
-  return previous != kNoRow && next_row(table, previous) == row ? previous : kNoRow;
+std::vector<RowId> previous_rows(const SegmentTable& table, RowId row) {
+  std::vector<RowId> result;
+  const auto offer = [&](RowId previous) {
+    if (previous != kNoRow && next_row(table, previous) == row) result.push_back(previous);
+  };
+  const RowId stepped = step(table, row, -1);
+  offer(stepped);
+  // A sign follows the sign before it, and the annotation between them that is no sign.
+  const RowRange group = group_of(table, row);
+  if (!table.row(row).extra && row > group.begin && row - 1 != stepped) offer(row - 1);
+  return result;
 }
 
 std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Gap& gap) {

@@ -15,8 +15,8 @@ namespace signweave {
 /// is empty, are passed over); of any other annotation the next one of its tier; of an inferred stroke that of the next
 /// sign, if that is inferred too. None where there is none, or it is of another sort.
 RowId next_row(const SegmentTable& table, RowId row);
-/// The row whose `next_row` is `row`, or none.
-RowId previous_row(const SegmentTable& table, RowId row);
+/// The rows whose `next_row` is `row`: at most two.
+std::vector<RowId> previous_rows(const SegmentTable& table, RowId row);
 
 /// The rows of the same tier (inferred strokes among themselves) after `row` whose begin is `gap` away from its end,
 /// ascending. `gap` has a bound.

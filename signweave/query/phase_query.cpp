@@ -27,7 +27,7 @@ std::string slashed(const Regex& regex) {
   for (std::size_t i = 0; i < regex.pattern.size(); ++i) {
     if (regex.pattern[i] == '/') result += '\\';
     result += regex.pattern[i];
-    // The byte after a backslash belongs to it, so that "\\" followed by "/" is not read as an escaped slash.
+    // The byte after a backslash belongs to it: a slash that is escaped already (in a tree made by hand) stays so.
     if (regex.pattern[i] == '\\' && i + 1 < regex.pattern.size()) result += regex.pattern[++i];
   }
   return result + (regex.ignore_case ? "/i" : "/");

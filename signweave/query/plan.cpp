@@ -8,7 +8,9 @@ namespace signweave {
 namespace {
 
 /// A sign has about so many phases.
-constexpr std::size_t kPhasesPerSign = 3;
+constexpr std::size_t kChildrenPerRow = 3;
+
+std::vector<Access> accesses_of(Matcher& matcher);
 
 /// Chooses indexes for the answers of one scope.
 class AccessFinder {
@@ -36,7 +38,7 @@ class AccessFinder {
       case Expression::Kind::any:
         return of_any(expression);
       case Expression::Kind::link:
-        break;
+        return of_link(expression);
     }
     return std::nullopt;
   }
@@ -56,12 +58,25 @@ class AccessFinder {
       std::optional<Access> other = of(operand);
       if (!other) return std::nullopt;
       sum.lists.insert(sum.lists.end(), other->lists.begin(), other->lists.end());
-      sum.signs.insert(sum.signs.end(), other->signs.begin(), other->signs.end());
+      sum.parents.insert(sum.parents.end(), other->parents.begin(), other->parents.end());
       sum.ranges.insert(sum.ranges.end(), other->ranges.begin(), other->ranges.end());
       sum.through.insert(sum.through.end(), other->through.begin(), other->through.end());
       sum.rows += other->rows;
     }
     return sum;
+  }
+
+  /// parent(…): the children of what fulfils the condition inside, where an index leads to that.
+  std::optional<Access> of_link(BoundExpression& expression) {
+    if (expression.link != Link::parent) return std::nullopt;
+    Access result;
+    for (const Access& inner : accesses_of(*expression.linked)) {
+      if (!inner.ranges.empty() || !inner.parents.empty()) return std::nullopt;
+      result.parents.insert(result.parents.end(), inner.lists.begin(), inner.lists.end());
+      result.rows += inner.rows * kChildrenPerRow;
+      for (const std::string& through : inner.through) result.through.push_back("the children of " + through);
+    }
+    return result;
   }
 
   std::optional<Access> of(BoundCondition& condition) {
@@ -101,7 +116,7 @@ class AccessFinder {
   }
 
   void add_gloss(BoundCondition& condition, Access& access) {
-    std::vector<std::span<const RowId>>& target = scope_ == Scopes::phases() ? access.signs : access.lists;
+    std::vector<std::span<const RowId>>& target = scope_ == Scopes::phases() ? access.parents : access.lists;
     if (condition.regex) {
       for (const std::uint32_t label : table_.labels_of(RowKind::sign)) {
         if (matcher_.fits(condition, label)) add(table_.with_label(RowKind::sign, label), target, access);
@@ -110,7 +125,7 @@ class AccessFinder {
       add(table_.with_label(RowKind::sign, condition.label), target, access);
     }
     const bool phases = scope_ == Scopes::phases();
-    if (phases) access.rows *= kPhasesPerSign;
+    if (phases) access.rows *= kChildrenPerRow;
     access.through.push_back(fmt::format("the gloss index{} ({})", phases ? " and the phases of its signs" : "",
                                          to_string(*condition.source)));
   }
@@ -222,11 +237,10 @@ std::vector<RowId> candidates(std::span<const Access> accesses, const SegmentTab
   result.reserve(rows_of(accesses));
   for (const Access& access : accesses) {
     for (const std::span<const RowId> list : access.lists) result.insert(result.end(), list.begin(), list.end());
-    for (const std::span<const RowId> list : access.signs) {
-      for (const RowId sign : list) {
-        for (const RowId child : table.children(sign)) {
-          if (table.row(child).kind == RowKind::phase) result.push_back(child);
-        }
+    for (const std::span<const RowId> list : access.parents) {
+      for (const RowId parent : list) {
+        const std::span<const RowId> children = table.children(parent);
+        result.insert(result.end(), children.begin(), children.end());
       }
     }
     for (const SegmentTable::RowRange range : access.ranges) {

@@ -14,11 +14,11 @@ namespace signweave {
 
 /// Rows in which all answers to a condition lie, found through an index, and perhaps others too.
 struct Access {
-  std::vector<std::span<const RowId>> lists;   ///< rows
-  std::vector<std::span<const RowId>> signs;   ///< signs, of which the phases are meant
-  std::vector<SegmentTable::RowRange> ranges;  ///< rows
-  std::size_t rows = 0;                        ///< about how many
-  std::vector<std::string> through;            ///< for people: "the gloss index (gloss = \"VANNES\")"
+  std::vector<std::span<const RowId>> lists;    ///< rows
+  std::vector<std::span<const RowId>> parents;  ///< rows, of which the children are meant
+  std::vector<SegmentTable::RowRange> ranges;   ///< rows
+  std::size_t rows = 0;                         ///< about how many
+  std::vector<std::string> through;             ///< for people: "the gloss index (gloss = \"VANNES\")"
 };
 
 /// A query made ready for one table.

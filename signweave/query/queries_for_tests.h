@@ -20,10 +20,10 @@ class RandomQueries {
   PhaseQuery query() {
     PhaseQuery result;
     const unsigned places = one_in(2) ? 1 : 1 + below(3);
-    const bool phases = one_in(3);
+    const unsigned kind = below(4);
     for (unsigned i = 0; i < places; ++i) {
       Element element{{expression(2), false}, {}};
-      if (places > 1) element.term.expression = of_kind(phases);
+      if (places > 1) element.term.expression = of_kind(kind);
       if (one_in(4)) element.relations.push_back({static_cast<Link>(4 + below(5)), {expression(1), false}});
       result.elements.push_back(element);
       if (i > 0) result.gaps.push_back(gap());
@@ -43,14 +43,20 @@ class RandomQueries {
     return kLabels[below(one_in(3) ? 7 : 3)];
   }
 
-  /// Sequences of signs, or of phases: the parser refuses the mixed.
-  Expression of_kind(bool phases) {
-    if (!one_in(3)) return phases ? phase() : gloss();
+  /// Sequences of signs (0, 1), of phases (2), of the annotations of a sign tier (3): the parser refuses the mixed.
+  Expression of_kind(unsigned kind) {
+    const auto first = [&] { return kind == 2 ? phase() : kind == 3 ? of_tier("Gloss") : gloss(); };
+    if (!one_in(3)) return first();
     Expression result;
     result.kind = Expression::Kind::all;
-    result.operands = {phases ? phase() : gloss(), expression(1)};
-    if (phases) return result;
-    while (scopes_of(result, tiers_named(result)) == Scopes::phases()) result.operands[1] = expression(1);
+    result.operands = {first(), expression(1)};
+    while (kind != 2 && scopes_of(result, tiers_named(result)) == Scopes::phases()) result.operands[1] = expression(1);
+    return result;
+  }
+
+  Expression of_tier(const std::string& tier) {
+    Expression result = of_label(Field::tier);
+    result.condition.tier = tier;
     return result;
   }
 
@@ -115,12 +121,7 @@ class RandomQueries {
       case 2:
         return phase();
       case 3:
-        result = of_label(Field::tier);
-        result.condition.tier = std::string(below(4) == 0 ? "Gloss"
-                                            : one_in(4)   ? "No\"ne"
-                                            : one_in(2)   ? "Mouth"
-                                                          : "Phase");
-        return result;
+        return of_tier(below(4) == 0 ? "Gloss" : one_in(4) ? "No\"ne" : one_in(2) ? "Mouth" : "Phase");
       case 4:
         result = of_label(Field::recording);
         if (result.condition.compare != Compare::matches) result.condition.value = fmt::format("r{}", below(3));

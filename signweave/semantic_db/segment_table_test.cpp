@@ -184,6 +184,40 @@ RC_GTEST_PROP(SegmentBytes, DamageIsRefusedOrGivesATableThatHoldsTogether, ()) {
   }
 }
 
+TEST(SegmentBytes, RowsOutOfOrderAndIndexesOutOfRangeAreCorrupt) {
+  const SegmentChunk good = segments_of(weather(), weather_signs());
+  const auto refuses = [](const SegmentChunk& chunk) {
+    ByteWriter out;
+    encode(chunk, out);
+    try {
+      ByteReader in(out.bytes(), "meteo");
+      decode_segments(in);
+    } catch (const Error& error) {
+      return error.code() == ErrorCode::corrupt;
+    }
+    return false;
+  };
+  EXPECT_FALSE(refuses(good));
+  SegmentChunk bad = good;
+  std::swap(bad.rows[5], bad.rows[6]);
+  EXPECT_TRUE(refuses(bad));
+  bad = good;
+  bad.rows[0].label = 99;
+  EXPECT_TRUE(refuses(bad));
+  bad = good;
+  bad.rows[0].tier = 99;
+  EXPECT_TRUE(refuses(bad));
+  bad = good;
+  bad.rows[4].parent = 99;
+  EXPECT_TRUE(refuses(bad));
+  bad = good;
+  bad.rows[4].parent = kNoRow;
+  EXPECT_TRUE(refuses(bad)) << "a phase has a sign";
+  bad = good;
+  bad.rows[0].span.end = Milliseconds::max();
+  EXPECT_TRUE(refuses(bad));
+}
+
 TEST(SegmentBytes, ALaterVersionIsNamedAsSuch) {
   ByteWriter out;
   out.number(std::uint8_t{200});

@@ -36,8 +36,8 @@ class ByteWriter {
  public:
   template <typename T>
   requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void number(T value) {
-    const auto* from = reinterpret_cast<const std::byte*>(&value);
-    bytes_.insert(bytes_.end(), from, from + sizeof(T));
+    bytes_.resize(bytes_.size() + sizeof(T));
+    std::memcpy(bytes_.data() + bytes_.size() - sizeof(T), &value, sizeof(T));
   }
   void raw(ByteSpan bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
   void text(std::string_view text) {

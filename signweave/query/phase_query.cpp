@@ -7,7 +7,7 @@
 namespace signweave {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '\n') {
@@ -56,13 +56,13 @@ std::string to_string(const Term& term) {
 
 std::string to_string(const Condition& condition) {
   struct Printer {
-    std::string operator()(const std::string& text) const { return quoted(text); }
+    std::string operator()(const std::string& text) const { return in_quotes(text); }
     std::string operator()(const Regex& regex) const { return slashed(regex); }
     std::string operator()(PhaseKind kind) const { return std::string(word_of(kind)); }
     std::string operator()(Hand hand) const { return std::string(word_of(hand)); }
     std::string operator()(Milliseconds time) const { return fmt::format("{}ms", time.count()); }
   };
-  const std::string field = condition.field == Field::tier ? fmt::format("tier({})", quoted(condition.tier))
+  const std::string field = condition.field == Field::tier ? fmt::format("tier({})", in_quotes(condition.tier))
                                                            : std::string(word_of(condition.field));
   return fmt::format("{} {} {}", field, word_of(condition.compare), std::visit(Printer(), condition.value));
 }

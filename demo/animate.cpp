@@ -140,7 +140,8 @@ class Animator {
     of(pose, signer_.spine1) = turn(0.3 * yaw, y) * turn(0.3 * roll, z) * turn(-0.004 * breath, x);
     of(pose, signer_.spine2) = turn(0.7 * yaw, y) * turn(0.4 * roll, z) * turn(-0.007 * breath, x);
     // The head looks at whoever is addressed, and a little after the right hand.
-    const double look_yaw = 0.030 * head_[0].at(seconds) + 0.18 * static_cast<double>(right.x() + rest_place().x()) - 0.6 * yaw;
+    const double look_yaw =
+        0.030 * head_[0].at(seconds) + 0.18 * static_cast<double>(right.x() + rest_place().x()) - 0.6 * yaw;
     const double look_pitch =
         0.020 * head_[1].at(seconds) - 0.10 * static_cast<double>(right.y() - 1.30f) - 0.5 * pitch + 0.02;
     const double look_roll = 0.020 * head_[2].at(seconds);

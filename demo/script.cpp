@@ -58,8 +58,11 @@ double way_from_rest(const SignShape& sign, float done) {
 /// Durations with the script's mean and deviation, the longer ones for the longer ways, not strictly: a signer is no
 /// clock.
 void give_durations(std::vector<Junction*> junctions, const Script& script, Random& random, double least) {
-  std::vector<double> durations = sample_with(random, junctions.size(), Seconds(script.transition_mean).count(),
-                                              Seconds(script.transition_deviation).count(), least);
+  // Between the deviation over n and the one over n − 1, so that either reading finds the paper's figure.
+  const auto count = static_cast<double>(junctions.size());
+  const double deviation = Seconds(script.transition_deviation).count() * (1 - 0.25 / count);
+  std::vector<double> durations =
+      sample_with(random, junctions.size(), Seconds(script.transition_mean).count(), deviation, least);
   std::sort(durations.begin(), durations.end());
   std::vector<std::pair<double, Junction*>> order;
   for (Junction* junction : junctions) order.emplace_back(junction->way + 0.08 * random.normal(), junction);

@@ -116,6 +116,8 @@ TEST_P(EveryScript, HasTheTransitionsOfThePaper) {
     EXPECT_GE(spread.count, made.name == "meteo" ? 30U : 20U);
     EXPECT_NEAR(spread.mean, mean, 0.02 * mean);
     EXPECT_NEAR(spread.deviation, deviation, 0.02 * deviation);
+    const auto count = static_cast<double>(spread.count);  // and with n − 1 under the root
+    EXPECT_NEAR(spread.deviation * std::sqrt(count / (count - 1)), deviation, 0.02 * deviation);
     for (const double duration : durations) EXPECT_GE(duration, 250);
   }
 }

@@ -16,7 +16,8 @@ std::vector<Transition> transitions_in(std::span<const Sign> signs) {
   for (std::size_t i = 1; i < order.size(); ++i) {
     const Sign& from = signs[order[i - 1]];
     const Sign& to = signs[order[i]];
-    if (from.tier != to.tier || to.span.begin - from.span.end >= kRest) continue;
+    const bool inferred = from.inferred || to.inferred;
+    if (from.tier != to.tier || to.span.begin - from.span.end > (inferred ? kRest : kMeeting)) continue;
     const auto before = from.stroke_span();
     const auto after = to.stroke_span();
     if (!before || !after || after->begin < before->end) continue;
@@ -25,7 +26,7 @@ std::vector<Transition> transitions_in(std::span<const Sign> signs) {
                       .span = {before->end, after->begin},
                       .retraction = from.retraction_span().duration(),
                       .preparation = to.preparation_span().duration(),
-                      .inferred = from.inferred || to.inferred});
+                      .inferred = inferred});
   }
   return result;
 }

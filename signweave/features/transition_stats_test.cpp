@@ -24,7 +24,11 @@ TEST(TransitionStats, ATransitionIsRetractionPlusGapPlusPreparation) {
 }
 
 TEST(TransitionStats, ARestIsNoTransition) {
-  const std::vector<Sign> signs = {sign("A", 0ms, 100ms, 300ms, 400ms), sign("B", 1'400ms, 1'500ms, 1'600ms, 1'700ms)};
+  std::vector<Sign> signs = {sign("A", 0ms, 100ms, 300ms, 400ms), sign("B", 501ms, 600ms, 700ms, 800ms)};
+  EXPECT_TRUE(transitions_in(signs).empty());
+  signs[0].inferred = true;  // without phases the gap is all there is
+  EXPECT_EQ(transitions_in(signs).size(), 1u);
+  signs[1] = sign("B", 1'401ms, 1'500ms, 1'600ms, 1'700ms);
   EXPECT_TRUE(transitions_in(signs).empty());
 }
 

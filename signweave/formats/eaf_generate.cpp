@@ -44,6 +44,13 @@ class SlotMaker {
       ends_[root.tier][root.place] = {make(span(root).begin), make(span(root).end)};
       walk(root);
     }
+    for (std::size_t t = 0; t < tiers.size(); ++t) {
+      for (std::size_t i = 0; i < tiers[t].annotations.size(); ++i) {
+        if (ends_[t][i].begin == kNone || !tiers[t].annotations[i].aligned) continue;
+        slots_[ends_[t][i].begin].needs_time = slots_[ends_[t][i].end].needs_time = true;
+      }
+    }
+    for (const std::vector<Bound>& bounds : subdivisions_) unalign(bounds);
     number();
   }
 
@@ -64,7 +71,8 @@ class SlotMaker {
   };
   struct MadeSlot {
     std::optional<std::int64_t> time;
-    std::int64_t shown = 0;  ///< its time, or where ELAN shows it
+    std::int64_t shown = 0;   ///< its time, or where ELAN shows it
+    bool needs_time = false;  ///< an aligned annotation uses it
     bool listed = false;
   };
 
@@ -72,7 +80,7 @@ class SlotMaker {
   TimeSpan span(Node node) const { return at(node).span; }
 
   std::size_t make(Milliseconds time) {
-    slots_.push_back({time.count(), time.count(), false});
+    slots_.push_back({.time = time.count(), .shown = time.count()});
     return slots_.size() - 1;
   }
 
@@ -127,8 +135,8 @@ class SlotMaker {
 
   struct Bound {
     std::size_t slot;
-    std::int64_t time;       ///< where ELAN shows it
-    bool may_lose_its_time;  ///< unaligned annotations only use it
+    std::int64_t time;  ///< where ELAN shows it
+    bool shared;        ///< by two neighbours
   };
 
   void subdivide(Node parent, const std::vector<Node>& pieces) {
@@ -139,7 +147,7 @@ class SlotMaker {
       const TimeSpan here = span(pieces[i]);
       if (i > 0 && span(pieces[i - 1]).end == here.begin) {
         ends.begin = bounds.back().slot;
-        bounds.back().may_lose_its_time = !at(pieces[i - 1]).aligned && !at(pieces[i]).aligned;
+        bounds.back().shared = true;
       } else {
         ends.begin = i == 0 && here.begin == span(parent).begin ? own.begin : make(here.begin);
         bounds.push_back({ends.begin, here.begin.count(), false});
@@ -148,10 +156,11 @@ class SlotMaker {
       ends.end = last && here.end == span(parent).end ? own.end : make(here.end);
       bounds.push_back({ends.end, here.end.count(), false});
     }
-    unalign(bounds);
+    subdivisions_.push_back(std::move(bounds));
   }
 
-  /// Takes the time from every slot that ELAN would show at that very time without it.
+  /// Takes the time from every slot that ELAN would show at that very time without it, and that no annotation with
+  /// times of its own uses.
   void unalign(const std::vector<Bound>& bounds) {
     const auto even = [&](std::size_t from, std::size_t to) {
       const std::int64_t step = (bounds[to].time - bounds[from].time) / static_cast<std::int64_t>(to - from);
@@ -163,7 +172,9 @@ class SlotMaker {
     for (std::size_t from = 0; from + 1 < bounds.size();) {
       constexpr std::size_t kLongestRun = 1000;  // a longer one would take long to search
       std::size_t to = from + 1;
-      while (to + 1 < bounds.size() && bounds[to].may_lose_its_time && to - from < kLongestRun) ++to;
+      while (to + 1 < bounds.size() && bounds[to].shared && !slots_[bounds[to].slot].needs_time &&
+             to - from < kLongestRun)
+        ++to;
       while (to > from + 1 && !even(from, to)) --to;
       for (std::size_t i = from + 1; i < to; ++i) slots_[bounds[i].slot].time = std::nullopt;
       from = to;
@@ -182,6 +193,7 @@ class SlotMaker {
   std::vector<std::vector<std::vector<Node>>> children_;
   std::vector<Node> roots_;
   std::vector<MadeSlot> slots_;
+  std::vector<std::vector<Bound>> subdivisions_;  ///< the bounds of the pieces of one parent, in order
   std::vector<std::size_t> order_;
   std::vector<std::size_t> numbers_;
 };

@@ -29,7 +29,7 @@ AnnotationDocument annotate(const Script& script, const Timeline& timeline) {
                                    .relative_url = "./" + script.name + ".bvh",
                                    .mime_type = "application/octet-stream",
                                    .media = false});
-  document.properties = {{"signweave:placeholder", "made motion: these shapes are not signs of LSF"}};
+  document.properties = {{"signweave:placeholder", "synthetic motion: placeholder shapes, not LSF"}};
   document.types = {{"gloss", Stereotype::none, ""}, {"phase", Stereotype::time_subdivision, ""}};
   Tier glosses;
   glosses.id = "Gloss";

@@ -71,6 +71,7 @@ bvh::Layout layout_for(const std::optional<bvh::Layout>& layout, const Skeleton&
 ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string& title) {
   ContactSheetOptions options;
   options.title = title;
+  for (const auto& [name, value] : synthesis.declarations) options.note += (options.note.empty() ? "" : "; ") + value;
   struct Cell {
     std::int64_t frame;
     std::string caption;

@@ -122,6 +122,7 @@ void deliver(const Database& database, const Synthesized& made, const SynthesisW
   const std::shared_ptr<const Contents> contents = database.contents();
   write_synthesis(words.outputs, made, contents->at(made.layout_from).layout, title);
   print_notices(io, made.result.notices);
+  for (const auto& [name, value] : made.result.declarations) io.err << "signweave: " << value << '\n';
   const Synthesis& result = made.result;
   if (io.json) {
     nlohmann::json report = describe(result);

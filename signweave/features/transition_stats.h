@@ -22,9 +22,12 @@ struct Transition {
 
 /// Between signs farther apart than this the hands rested: that is no transition but the end of a Unit. (ours)
 inline constexpr Milliseconds kRest{1000};
+/// The same between signs whose phases are annotated: there the retraction and the preparation meet, give or take what
+/// an annotator leaves open. (ours)
+inline constexpr Milliseconds kMeeting{100};
 
-/// The transitions of one recording: neighbours on one sign tier, both with a stroke, less than kRest between the end
-/// of one sign and the begin of the next. By tier, then time.
+/// The transitions of one recording: neighbours on one sign tier, both with a stroke, at most kMeeting (kRest where
+/// either is inferred) between the end of one sign and the begin of the next. By tier, then time.
 std::vector<Transition> transitions_in(std::span<const Sign> signs);
 
 /// Mean and spread of transition durations (the paper, section 5.1, figure 4).

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "signweave/annotation/sign.h"
@@ -65,6 +66,9 @@ struct Synthesis {
   std::vector<Junction> junctions;  ///< [stretch − 1]
   std::vector<PlacedSign> signs;    ///< in time order
   std::vector<Notice> notices;
+  /// What the sources' documents say of themselves and must not be lost on the way: properties "signweave:…", such as
+  /// that a demo's shapes are placeholders. Name and value, each once.
+  std::vector<std::pair<std::string, std::string>> declarations;
 };
 
 /// How stretches from other recordings are brought to where the signer of the first stands.

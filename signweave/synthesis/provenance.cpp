@@ -23,6 +23,7 @@ AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& 
   }
   document.properties.emplace_back("signweave:synthesis",
                                    "made from captured stretches; see the tiers Source and Junction");
+  document.properties.insert(document.properties.end(), synthesis.declarations.begin(), synthesis.declarations.end());
   document.types = {{"gloss", Stereotype::none, {}},
                     {"phase", Stereotype::time_subdivision, {}},
                     {"source", Stereotype::none, {}},

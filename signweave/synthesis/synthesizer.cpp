@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <set>
 
 #include "signweave/core/error.h"
 
@@ -10,6 +11,21 @@ namespace signweave {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// What the documents of the recordings used declare of themselves.
+std::vector<std::pair<std::string, std::string>> declarations_of(const Database& database, const Contents& contents,
+                                                                 const std::vector<Stretch>& stretches) {
+  std::set<std::string> recordings;
+  for (const Stretch& stretch : stretches) recordings.insert(stretch.recording);
+  std::set<std::pair<std::string, std::string>> declarations;
+  for (const std::string& name : recordings) {
+    if (contents.at(name).document == 0) continue;
+    for (const auto& [key, value] : database.document(name).properties) {
+      if (key.starts_with("signweave:") && key != "signweave:synthesis") declarations.emplace(key, value);
+    }
+  }
+  return {declarations.begin(), declarations.end()};
+}
 
 /// One selected candidate, or several that were neighbours in a recording and stay together.
 std::vector<Candidate> merge_neighbours(const Contents& contents, const std::vector<Choice>& choices,
@@ -74,6 +90,7 @@ Synthesized run(const Database& database, const Contents& contents, std::vector<
          fmt::format("no transition in this database to measure: {} ms taken; --duration sets it", duration.count())});
   }
   const auto done = Clock::now();
+  made.result.declarations = declarations_of(database, contents, stretches);
   made.timings = {.semantic_query = queried - start,
                   .selection = selected - queried,
                   .retrieval = retrieved - selected,

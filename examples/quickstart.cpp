@@ -29,14 +29,15 @@ int main(int argc, char** argv) {
     // 2. Find: a query on the semantic side gives segments, a segment gives frames.
     const std::vector<Segment> strokes = database.find(parse("gloss = \"VANNES\" & phase = stroke"));
     for (const Segment& stroke : strokes) {
-      std::cout << stroke.recording << ' ' << stroke.span.begin.count() << " ms: " << database.read(stroke).frame_count()
-                << " frames\n";
+      std::cout << stroke.recording << ' ' << stroke.span.begin.count()
+                << " ms: " << database.read(stroke).frame_count() << " frames\n";
     }
 
     // 3. Sign: glosses in, motion out.
     const Synthesized made = synthesize(database, parse_utterance("VANNES MATIN PLUIE"));
     const RecordingInfo source = *database.info(made.layout_from);
-    bvh::write(argv[3], made.result.motion, source.layout ? *source.layout : bvh::default_layout(made.result.motion.skeleton()));
+    bvh::write(argv[3], made.result.motion,
+               source.layout ? *source.layout : bvh::default_layout(made.result.motion.skeleton()));
     std::cout << made.result.motion.frame_count() << " frames, " << made.result.junctions.size() << " junctions\n";
   } catch (const Error& error) {
     std::cerr << "quickstart: " << error.what() << '\n';

@@ -36,9 +36,11 @@ const Database& corpus() {
   return *database;
 }
 
-class Scenario : public testing::TestWithParam<const TransitionMethod*> {
+class Scenario : public testing::TestWithParam<std::string> {
  protected:
-  Synthesized edit(const Edit& what) const { return synthesize(corpus(), "meteo", what, {.method = GetParam()}); }
+  Synthesized edit(const Edit& what) const {
+    return synthesize(corpus(), "meteo", what, {.method = find_transition_method(GetParam())});
+  }
 };
 
 std::vector<std::string> glosses_of(const Synthesis& made) {
@@ -92,19 +94,28 @@ void expect_captured_frames_are_kept(const Synthesis& made) {
   EXPECT_GT(kept, static_cast<std::size_t>(made.motion.frame_count()) * 3 / 4);
 }
 
-/// No hand moves faster than a hand can.
-void expect_no_jump(const Motion& motion) {
+/// Nothing that was made moves faster than the fastest that was captured.
+void expect_no_jump(const Synthesis& made) {
+  const Motion& motion = made.motion;
+  double captured = 0;
+  double between = 0;
   ModelPose before;
   ModelPose now;
   to_model_space(motion.skeleton(), motion.pose(0), before);
   for (std::int64_t frame = 1; frame < motion.frame_count(); ++frame) {
     to_model_space(motion.skeleton(), motion.pose(frame), now);
+    const auto is_made = [&](std::int64_t f) {
+      return made.sources[static_cast<std::size_t>(f)].junction != FrameSource::kNone;
+    };
+    double& fastest = is_made(frame) || is_made(frame - 1) ? between : captured;
     for (std::size_t joint = 0; joint < now.positions.size(); ++joint) {
       const double speed = (now.positions[joint] - before.positions[joint]).norm() * motion.rate().hertz();
-      ASSERT_LT(speed, 5.0) << "m/s at frame " << frame << ", " << motion.skeleton().joints()[joint].name;
+      fastest = std::max(fastest, speed);
     }
     std::swap(before, now);
   }
+  EXPECT_GT(between, 0.0);
+  EXPECT_LT(between, captured);
 }
 
 TEST_P(Scenario, OneReplacesFourWordsWithEightJunctions) {
@@ -120,7 +131,7 @@ TEST_P(Scenario, OneReplacesFourWordsWithEightJunctions) {
   }
   EXPECT_EQ(glosses_of(made.result), expected);
   expect_captured_frames_are_kept(made.result);
-  expect_no_jump(made.result.motion);
+  expect_no_jump(made.result);
 }
 
 TEST_P(Scenario, TwoSwapsTwoPredictionsWithThreeJunctions) {
@@ -132,7 +143,7 @@ TEST_P(Scenario, TwoSwapsTwoPredictionsWithThreeJunctions) {
                                          "CHAUD-SEC-FERA", "NAGER", "CE-SERA-LE-MOMENT", "VENDREDI", "BRETAGNE",
                                          "MATIN", "NUAGES", "APRES-MIDI", "PLUIE"));
   expect_captured_frames_are_kept(made.result);
-  expect_no_jump(made.result.motion);
+  expect_no_jump(made.result);
 }
 
 TEST_P(Scenario, TransitionsLastTheMeanOfTheCorpus) {
@@ -170,14 +181,14 @@ TEST_P(Scenario, UneditedStretchesStayAsCaptured) {
   }
 }
 
-std::vector<const TransitionMethod*> every_method() {
-  std::vector<const TransitionMethod*> methods;
-  for (const TransitionMethod& method : transition_methods()) methods.push_back(&method);
+std::vector<std::string> every_method() {
+  std::vector<std::string> methods;
+  for (const TransitionMethod& method : transition_methods()) methods.emplace_back(method.name);
   return methods;
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryMethod, Scenario, testing::ValuesIn(every_method()),
-                         [](const auto& tested) { return std::string(tested.param->name); });
+                         [](const auto& tested) { return tested.param; });
 
 TEST(Utterances, NeighboursKeepTheirRecordedTransition) {
   const Synthesized made = synthesize(corpus(), parse_utterance("NUAGES#1 APRES-MIDI PLUIE"));
@@ -190,7 +201,7 @@ TEST(Utterances, AnUnknownGlossNamesNearOnes) {
     synthesize(corpus(), parse_utterance("VANES"));
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("no sign 'VANES' in this database; did you mean VANNES?"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("no sign 'VANES' in this database; did you mean VANNES or NANTES?"));
   }
 }
 
@@ -199,7 +210,8 @@ TEST(Utterances, ATokenBeyondTheLastSaysHowManyThereAre) {
     synthesize(corpus(), parse_utterance("VANNES#99"));
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("no token 99 of 'VANNES': there are 2"));
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("no token 99 of 'VANNES': there are 3, counted by recording name, then time"));
   }
 }
 

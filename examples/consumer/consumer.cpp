@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
         std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, true}, {"Hand", 0, {0.5f, 0, 0}, false}}, std::vector<Tip>{});
     AnnotationDocument document;
     document.types = {{"gloss", Stereotype::none, {}}};
-    document.tiers = {{.id = "Gloss", .type = "gloss", .annotations = {{.id = "a1", .label = "VANNES", .span = {0ms, 400ms}}}}};
+    document.tiers = {
+        {.id = "Gloss", .type = "gloss", .annotations = {{.id = "a1", .label = "VANNES", .span = {0ms, 400ms}}}}};
     Recording recording{.name = "made"};
     recording.motion = MotionPart{.motion = Motion(skeleton, {100, 1}, 50)};
     recording.annotation = AnnotationPart{.document = document, .tiers = guess_tier_names(document)};

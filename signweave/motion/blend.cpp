@@ -5,23 +5,27 @@
 
 namespace signweave {
 
-Eigen::Quaternionf slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) noexcept {
+Eigen::Quaternionf slerp_as_signed(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) noexcept {
   if (t <= 0.0f) return a;
-  float cosine = a.dot(b);
-  const float side = cosine < 0 ? -1.0f : 1.0f;
-  if (t >= 1.0f) return Eigen::Quaternionf(side * b.coeffs());
-  cosine = std::min(std::abs(cosine), 1.0f);
+  if (t >= 1.0f) return b;
+  const float cosine = std::clamp(a.dot(b), -1.0f, 1.0f);
   float from = 1.0f - t;
   float to = t;
-  if (cosine < 0.9995f) {  // nearer than that the arc is a line within a float's precision
+  if (cosine < -0.9995f) {  // a whole turn apart: every way round is as long, so none is taken
+    to = -to;
+  } else if (cosine < 0.9995f) {  // nearer than that the arc is a line within a float's precision
     const float angle = std::acos(cosine);
     const float inverse = 1.0f / std::sin(angle);
     from = std::sin(from * angle) * inverse;
     to = std::sin(to * angle) * inverse;
   }
-  Eigen::Quaternionf result(from * a.coeffs() + (side * to) * b.coeffs());
+  Eigen::Quaternionf result(from * a.coeffs() + to * b.coeffs());
   result.normalize();
   return result;
+}
+
+Eigen::Quaternionf slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) noexcept {
+  return slerp_as_signed(a, a.dot(b) < 0 ? Eigen::Quaternionf(-b.coeffs()) : b, t);
 }
 
 void blend(PoseView a, PoseView b, float t, MutablePoseView out) noexcept {

@@ -11,6 +11,11 @@ namespace signweave {
 /// The shortest arc from a to b at t in [0, 1]; exactly a at 0 and ±b at 1. Unit quaternions in, unit out.
 Eigen::Quaternionf slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) noexcept;
 
+/// The arc from a to b as they are signed, which may be the longer one: for a series of blends whose signs the caller
+/// keeps continuous. Where the shorter arc is chosen anew for each frame, two rotations that pass half a turn apart
+/// make the blend jump. Exactly a at 0 and b at 1.
+Eigen::Quaternionf slerp_as_signed(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) noexcept;
+
 /// out = the pose at t between a and b: slerp of rotations, linear translations. `out` may be a or b.
 void blend(PoseView a, PoseView b, float t, MutablePoseView out) noexcept;
 

@@ -85,7 +85,7 @@ std::string name_at_begin(const Stretch& stretch) {
 /// Appends poses to the result, with where each came from.
 class Writer {
  public:
-  explicit Writer(Synthesis& out) : out_(out), scratch_(out.motion.skeleton()) {}
+  explicit Writer(Synthesis& out) : out_(out) {}
 
   std::int64_t frame_count() const noexcept { return out_.motion.frame_count(); }
 
@@ -93,12 +93,37 @@ class Writer {
     laid.pose_at(k, out_.motion.append());
     out_.sources.push_back({static_cast<std::int32_t>(stretch), junction, laid.frame_at(k)});
   }
-  void crossfade(const Laid& a, std::int64_t ka, const Laid& b, std::int64_t kb, float weight, std::size_t junction) {
-    const MutablePoseView pose = out_.motion.append();
-    a.pose_at(ka, pose);
-    b.pose_at(kb, scratch_.view());
-    blend(pose, scratch_.view(), weight, pose);
-    out_.sources.push_back({FrameSource::kNone, static_cast<std::int32_t>(junction), 0});
+  void crossfade(const Laid& a, std::int64_t ka, const Laid& b, std::int64_t kb, std::int64_t count,
+                 std::size_t junction) {
+    // Signs are kept along both sides, and chosen so that in the middle the shorter arc is taken: choosing it anew for
+    // each frame would make a joint jump where the two sides pass half a turn apart.
+    Pose pose_a(out_.motion.skeleton()), pose_b(out_.motion.skeleton());
+    Pose last_a, last_b;
+    const auto sample_both = [&](std::int64_t k) {
+      a.pose_at(ka + k, pose_a.view());
+      b.pose_at(kb + k, pose_b.view());
+      if (!last_a.rotations.empty()) {
+        follow_signs(last_a, pose_a);
+        follow_signs(last_b, pose_b);
+      }
+      last_a = pose_a;
+      last_b = pose_b;
+    };
+    for (std::int64_t k = 0; k <= count / 2; ++k) sample_both(k);
+    for (std::size_t joint = 0; joint < pose_b.rotations.size(); ++joint) {
+      if (pose_a.rotations[joint].dot(pose_b.rotations[joint]) < 0) last_b.rotations[joint].coeffs() *= -1.0f;
+    }
+    for (std::int64_t k = count / 2; k-- > 0;) sample_both(k);  // back to the first frame, with the signs of the middle
+    for (std::int64_t k = 0; k < count; ++k) {
+      sample_both(k);
+      const float weight = crossfade_weight(k, count);
+      const MutablePoseView pose = out_.motion.append();
+      blend(pose_a.view(), pose_b.view(), weight, pose);  // the translations
+      for (std::size_t joint = 0; joint < pose.rotations.size(); ++joint) {
+        pose.rotations[joint] = slerp_as_signed(pose_a.rotations[joint], pose_b.rotations[joint], weight);
+      }
+      out_.sources.push_back({FrameSource::kNone, static_cast<std::int32_t>(junction), 0});
+    }
   }
   void gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count, std::size_t junction) {
     fill_gap(from, to, index, count, out_.motion.append());
@@ -106,8 +131,13 @@ class Writer {
   }
 
  private:
+  static void follow_signs(const Pose& last, Pose& pose) {
+    for (std::size_t joint = 0; joint < pose.rotations.size(); ++joint) {
+      if (pose.rotations[joint].dot(last.rotations[joint]) < 0) pose.rotations[joint].coeffs() *= -1.0f;
+    }
+  }
+
   Synthesis& out_;
-  Pose scratch_;
 };
 
 /// The transition between two stretches: Algorithm 1, lines 3 to 6.
@@ -121,9 +151,8 @@ void join(const Laid& a, const Laid& b, std::size_t index, const TransitionCut& 
   for (std::int64_t k = 0; k < cut.retraction_frames - overlap; ++k) {
     writer.keep(a, static_cast<std::size_t>(stretch), end + k, junction);
   }
-  for (std::int64_t k = 0; k < overlap; ++k) {
-    writer.crossfade(a, end + cut.retraction_frames - overlap + k, b, -cut.preparation_frames + k,
-                     crossfade_weight(k, overlap), index);
+  if (overlap > 0) {
+    writer.crossfade(a, end + cut.retraction_frames - overlap, b, -cut.preparation_frames, overlap, index);
   }
   if (gap > 0) {
     Pose left(skeleton), left_context(skeleton), right(skeleton), right_context(skeleton);

@@ -198,6 +198,30 @@ TEST_P(Concatenate, SignsAreFilledByTheirPhases) {
   EXPECT_EQ(made.signs[0].recorded, stretches[0].signs[0].span);
 }
 
+TEST(Crossfading, DoesNotJumpWhereTheSidesPassHalfATurnApart) {
+  // One joint turns from 70 to 110 degrees on one side and from -70 to -110 on the other: 140 to 220 degrees apart.
+  const auto turning = [](const std::string& name, float sense) {
+    Stretch result = stretch(name, 0.0f, 60, 20, 60);
+    for (std::int64_t frame = 0; frame < result.motion.frame_count(); ++frame) {
+      const float part = static_cast<float>(frame % 80) / 59.0f;
+      const float degrees = frame < 60   ? 70.0f + 40.0f * part
+                            : frame < 80 ? 110.0f
+                                         : 70.0f + 40.0f * (static_cast<float>(frame - 80) / 59.0f);
+      for (Eigen::Quaternionf& q : result.motion.pose(frame).rotations) q.setIdentity();
+      result.motion.pose(frame).rotations[2] =
+          Eigen::AngleAxisf(sense * degrees * static_cast<float>(EIGEN_PI) / 180.0f, Eigen::Vector3f::UnitX());
+    }
+    return result;
+  };
+  const Synthesis made = concatenate({turning("A", 1.0f), turning("B", -1.0f)},
+                                     {.method = find_transition_method("overlap"), .duration = 600ms});
+  const Junction& junction = made.junctions[0];
+  ASSERT_EQ(junction.cut.overlap(), 20);
+  for (std::int64_t frame = junction.frames.begin + 1; frame < junction.frames.end; ++frame) {
+    EXPECT_LT(angle(made.motion.pose(frame - 1).rotations[2], made.motion.pose(frame).rotations[2]), 0.4) << frame;
+  }
+}
+
 TEST(ConcatenateFaults, NothingToJoin) {
   EXPECT_THROW(concatenate({}, {}), Error);
 }

@@ -14,8 +14,8 @@ std::int64_t context_frames(double frames_per_second) noexcept {
   return std::max<std::int64_t>(1, std::llround(0.1 * frames_per_second));
 }
 
-/// Keeps `total` frames of both sides together, shared out as they were captured.
-void share_out(const TransitionRoom& room, std::int64_t total, TransitionCut& cut) noexcept {
+/// Keeps `total` frames of both sides together, shared out as they were captured; fewer where fewer were.
+void keep(const TransitionRoom& room, std::int64_t total, TransitionCut& cut) noexcept {
   const std::int64_t both = room.retraction + room.preparation;
   if (both <= total) {
     cut.retraction_frames = room.retraction;
@@ -23,36 +23,47 @@ void share_out(const TransitionRoom& room, std::int64_t total, TransitionCut& cu
     return;
   }
   const double share = static_cast<double>(room.retraction) / static_cast<double>(both);
-  cut.retraction_frames = std::clamp<std::int64_t>(std::llround(static_cast<double>(total) * share),
-                                                   total - room.preparation, room.retraction);
+  cut.retraction_frames =
+      std::clamp<std::int64_t>(std::llround(static_cast<double>(total) * share),
+                               std::max<std::int64_t>(0, total - room.preparation), std::min(room.retraction, total));
   cut.preparation_frames = total - cut.retraction_frames;
 }
 
-/// Reading "overlap": the p frames of each side are cross-faded, length = m_i + m_j − p. A third of the transition is
-/// cross-faded; where the captured frames do not reach that far, fewer; where they do not reach at all, what is missing
-/// is made as a gap.
+/// A third of the transition, in which one pose turns into another. Where it is much shorter the hands have to leap.
+std::int64_t third(const TransitionRoom& room) noexcept {
+  return (room.length + 2) / 3;
+}
+
+/// Keeps at most two thirds of the transition; the rest is made as a gap, from pose and velocity at its borders.
+TransitionCut cut_with_gap(const TransitionRoom& room) noexcept {
+  TransitionCut cut{.length = room.length, .blend_frames = context_frames(room.frames_per_second)};
+  keep(room, room.length - third(room), cut);
+  return cut;
+}
+
+/// Reading "overlap": the p frames of each side are cross-faded, length = m_i + m_j − p, with p a third of the length.
+/// Where the captured frames do not reach that far, or a pause lies between, the middle third is made as a gap.
 TransitionCut cut_for_overlap(const TransitionRoom& room) {
-  TransitionCut cut{.length = room.length};
-  const bool one_sided = room.retraction == 0 || room.preparation == 0;
-  const std::int64_t wanted = room.pause || one_sided ? 0 : room.length / 3;
-  share_out(room, room.length + wanted, cut);
-  // Neither side may be asked for more frames than the cross-fade needs to have room in.
-  cut.retraction_frames = std::min(cut.retraction_frames, room.length);
-  cut.preparation_frames = std::min(cut.preparation_frames, room.length);
-  cut.blend_frames = cut.gap() > 0 ? context_frames(room.frames_per_second) : cut.overlap();
+  const std::int64_t faded = third(room);
+  const std::int64_t total = room.length + faded;
+  if (room.pause || room.retraction < faded || room.preparation < faded || room.retraction + room.preparation < total) {
+    return cut_with_gap(room);
+  }
+  TransitionCut cut{.length = room.length, .blend_frames = faded};
+  keep(room, total, cut);
+  // Each side has to reach over the whole cross-fade, and no further than the transition.
+  cut.retraction_frames = std::clamp(cut.retraction_frames, faded, room.length);
+  cut.preparation_frames = total - cut.retraction_frames;
   return cut;
 }
 
 /// Reading "gap": at most a quarter of the transition is kept on each side, the rest is made; p frames of context give
 /// position and velocity at each border.
 TransitionCut cut_for_gap(const TransitionRoom& room) {
+  if (room.pause) return cut_with_gap(room);
   TransitionCut cut{.length = room.length, .blend_frames = context_frames(room.frames_per_second)};
-  if (room.pause) {
-    share_out(room, room.length, cut);
-  } else {
-    cut.retraction_frames = std::min(room.retraction, room.length / 4);
-    cut.preparation_frames = std::min(room.preparation, room.length / 4);
-  }
+  cut.retraction_frames = std::min(room.retraction, room.length / 4);
+  cut.preparation_frames = std::min(room.preparation, room.length / 4);
   return cut;
 }
 

@@ -25,6 +25,7 @@ RC_GTEST_PROP(TransitionCut, EveryMethodFillsTheWholeTransitionFromWhatThereIs, 
     RC_ASSERT(cut.overlap() <= std::min(cut.retraction_frames, cut.preparation_frames));
     RC_ASSERT(cut.retraction_frames + cut.preparation_frames - cut.overlap() + cut.gap() == room.length);
     RC_ASSERT(cut.blend_frames >= 0);
+    RC_ASSERT(3 * std::max(cut.overlap(), cut.gap()) >= room.length);  // the hands need not leap
   }
 }
 
@@ -39,6 +40,13 @@ TEST(TransitionCut, ASignWithoutRetractionLeavesAGap) {
   const TransitionCut cut = find_transition_method("overlap")->cut({.length = 60, .retraction = 0, .preparation = 40});
   EXPECT_EQ(cut.retraction_frames, 0);
   EXPECT_EQ(cut.preparation_frames, 40);
+  EXPECT_EQ(cut.gap(), 20);
+  EXPECT_EQ(cut.overlap(), 0);
+}
+
+TEST(TransitionCut, WhereTheCapturedFramesHardlyMeetTheMiddleIsMade) {
+  const TransitionCut cut = find_transition_method("overlap")->cut({.length = 60, .retraction = 30, .preparation = 28});
+  EXPECT_EQ(cut.overlap(), 0);
   EXPECT_EQ(cut.gap(), 20);
 }
 

@@ -20,9 +20,9 @@ TEST(EafWrite, WhatEafCannotHoldIsRefused) {
     return std::string("was written");
   };
   using Document = AnnotationDocument;
-  EXPECT_EQ(refusal([](Document& d) { annotation_of(d, "a1").label = "bell \a"; }),
+  EXPECT_EQ(refusal([](Document& d) { annotation_of(d, "a1").label = std::string("bell \a"); }),
             "the label 'bell \\x07' has a control character, which XML cannot hold; take it out");
-  EXPECT_EQ(refusal([](Document& d) { annotation_of(d, "a1").label = "\xFF"; }),
+  EXPECT_EQ(refusal([](Document& d) { annotation_of(d, "a1").label = std::string("\xFF"); }),
             "the label '\xFF' has bytes that are not UTF-8; take it out");
   EXPECT_EQ(
       refusal([](Document& d) { std::erase_if(tier_of(d, "text").annotations, [](auto& a) { return a.id == "a1"; }); }),
@@ -30,11 +30,11 @@ TEST(EafWrite, WhatEafCannotHoldIsRefused) {
       "remove it too");
   EXPECT_EQ(refusal([](Document& d) { std::erase_if(d.tiers, [](auto& t) { return t.id == "text"; }); }),
             "tier 'words': has the parent 'text', which is no tier; name one that is");
-  EXPECT_EQ(refusal([](Document& d) { tier_of(d, "text").parent = "words"; }),
+  EXPECT_EQ(refusal([](Document& d) { tier_of(d, "text").parent = std::string("words"); }),
             "tier 'words': is its own ancestor; give one of its parents another parent");
-  EXPECT_EQ(refusal([](Document& d) { tier_of(d, "text").id = "words"; }),
+  EXPECT_EQ(refusal([](Document& d) { tier_of(d, "text").id = std::string("words"); }),
             "tier 'words': is there twice; give one of them another name");
-  EXPECT_EQ(refusal([](Document& d) { annotation_of(d, "a1").id = "a2"; }),
+  EXPECT_EQ(refusal([](Document& d) { annotation_of(d, "a1").id = std::string("a2"); }),
             "tier 'text': annotation 'a2' is there twice; give one of them another id");
   EXPECT_EQ(refusal([](Document& d) {
               annotation_of(d, "a1").span = {9ms, 8ms};
@@ -55,7 +55,7 @@ TEST(EafWrite, AFileIsWrittenWholeOrNotAtAll) {
   AnnotationDocument document = constraints();
   write(path, document);
   EXPECT_EQ(read_file(path), document.source);
-  annotation_of(document, "a1").label = "\a";
+  annotation_of(document, "a1").label = std::string("\a");
   EXPECT_THROW(write(path, document), Error);
   EXPECT_EQ(read_file(path), document.source);
   std::filesystem::remove(path);

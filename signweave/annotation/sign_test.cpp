@@ -138,6 +138,19 @@ TEST(SignsIn, AHandInThePhaseTiersNameChoosesTheSignTier) {
   EXPECT_THAT(kinds(both.signs.at(1)), ElementsAre(PhaseKind::hold));
 }
 
+TEST(SignsIn, ASignerInThePhaseTiersNameChoosesTheSignTier) {
+  AnnotationDocument document;
+  document.tiers = {tier("gloss@A", "", {annotation("a1", "A", 0, 100)}),
+                    tier("gloss@B", "", {annotation("a2", "B", 0, 100)}),
+                    tier("phase@B", "", {annotation("p1", "stroke", 0, 100)})};
+  const SignsFound found =
+      signs_in(document, {.sign_tiers = {{"gloss@A", Hand::both, "A"}, {"gloss@B", Hand::both, "B"}},
+                          .phase_tiers = {"phase@B"},
+                          .phase_labels = {}});
+  EXPECT_TRUE(found.signs.at(0).inferred);
+  EXPECT_FALSE(found.signs.at(1).inferred);
+}
+
 TEST(SignsIn, TheSignerIsTheGivenOneElseTheParticipant) {
   AnnotationDocument document;
   document.tiers = {tier("A", "", {annotation("a1", "X", 0, 9)}), tier("B", "", {annotation("a2", "Y", 0, 9)})};

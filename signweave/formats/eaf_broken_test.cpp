@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ostream>
 
 #include "signweave/core/text.h"
 #include "signweave/formats/eaf_test_support.h"
@@ -11,16 +10,17 @@ namespace {
 
 using namespace testing_support;
 
-std::vector<std::filesystem::path> broken_files() {
-  std::vector<std::filesystem::path> files;
+/// Names without ".eaf".
+std::vector<std::string> broken_files() {
+  std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(testdata("eaf_broken"))) {
-    if (entry.path().extension() == ".eaf") files.push_back(entry.path());
+    if (entry.path().extension() == ".eaf") files.push_back(entry.path().stem().string());
   }
   std::sort(files.begin(), files.end());
   return files;
 }
 
-class BrokenEaf : public testing::TestWithParam<std::filesystem::path> {};
+class BrokenEaf : public testing::TestWithParam<std::string> {};
 
 /// The error, where there is one, without the file's folder.
 std::string error_of(const std::filesystem::path& path) {
@@ -36,14 +36,13 @@ std::string error_of(const std::filesystem::path& path) {
 }
 
 TEST_P(BrokenEaf, IsRefusedWithOneClearLine) {
-  std::filesystem::path expected = GetParam();
-  expected.replace_extension(".expected");
+  const std::filesystem::path expected = testdata("eaf_broken") / (GetParam() + ".expected");
   ASSERT_TRUE(std::filesystem::exists(expected)) << "every broken file needs its .expected";
-  EXPECT_EQ(error_of(GetParam()), trimmed(read_file(expected)));
+  EXPECT_EQ(error_of(testdata("eaf_broken") / (GetParam() + ".eaf")), trimmed(read_file(expected)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Testdata, BrokenEaf, testing::ValuesIn(broken_files()),
-                         [](const auto& one) { return one.param.stem().string(); });
+                         [](const auto& one) { return one.param; });
 
 TEST(BrokenEaf, NoExpectationIsWithoutItsFile) {
   std::size_t expectations = 0;

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <ostream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -128,6 +130,24 @@ inline AnnotationDocument without_source(AnnotationDocument document) {
 
 inline AnnotationDocument reread(const AnnotationDocument& document) {
   return read_text("written.eaf", write_text(document)).document;
+}
+
+/// testdata/eaf/constraints.eaf: everything that EAF has.
+inline AnnotationDocument constraints() {
+  return read_text("constraints.eaf", testfile("constraints.eaf")).document;
+}
+
+inline Tier& tier_of(AnnotationDocument& document, std::string_view id) {
+  return *std::find_if(document.tiers.begin(), document.tiers.end(), [&](const Tier& tier) { return tier.id == id; });
+}
+
+inline Annotation& annotation_of(AnnotationDocument& document, std::string_view id) {
+  for (Tier& tier : document.tiers) {
+    for (Annotation& one : tier.annotations) {
+      if (one.id == id) return one;
+    }
+  }
+  throw std::out_of_range(std::string(id));
 }
 
 }  // namespace signweave::eaf::testing_support

@@ -76,6 +76,12 @@ TEST(EafTimes, SlotsOutOfOrderAreSortedAsElanInsertsThem) {
   EXPECT_EQ(parents(file.document, "B"), "c<q, a<p, b<p");
 }
 
+TEST(EafTimes, ASlotThatStandsTooLateInTheFileCountsWhereItsTimeIs) {
+  const File file = read_text("x", document({100, kOpen, 400, 200}, tier("A", "root", "", alignable("a", 1, 2)) +
+                                                                        tier("B", "root", "", alignable("b", 4, 3))));
+  EXPECT_EQ(times(file.document, "A"), "a 100-150");
+}
+
 TEST(EafTimes, SymbolicSubdivisionsShareTheirParentInChainOrder) {
   const File file = read_text(
       "x", document({100, 200}, tier("A", "root", "", alignable("p", 1, 2)) +
@@ -126,6 +132,17 @@ TEST(EafTimes, AChildWithSlotsOfItsOwnBelongsToTheParentAroundIt) {
                                                 tier("B", "within", "A", alignable("b", 5, 6) + alignable("a", 7, 8))));
   EXPECT_THAT(file.notices, IsEmpty());
   EXPECT_EQ(parents(file.document, "B"), "a<p, b<q");
+}
+
+TEST(EafTimes, AroundUnalignedParentsTheTimesOfAChildCountMoreThanTheOrderOfSlots) {
+  const File file = read_text(
+      "x", document({100, kOpen, kOpen, 220, 260, 400},
+                    tier("A", "root", "", alignable("p", 1, 6)) +
+                        tier("B", "fill", "A", alignable("a", 1, 2) + alignable("b", 2, 3) + alignable("c", 3, 6)) +
+                        tier("C", "within", "B", alignable("x", 4, 5))));
+  EXPECT_EQ(times(file.document, "B"), "a 100-200, b 200-300, c 300-400");
+  EXPECT_EQ(parents(file.document, "C"), "x<b");
+  EXPECT_THAT(file.notices, IsEmpty());
 }
 
 TEST(EafTimes, AChildThatReachesOutsideBelongsWhereMostOfItLies) {

@@ -4,7 +4,8 @@ include(CMakePackageConfigHelpers)
 get_property(modules GLOBAL PROPERTY SIGNWEAVE_MODULES)
 install(TARGETS ${modules} EXPORT signweave ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS signweave RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/signweave DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/signweave DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
+        PATTERN "*test*" EXCLUDE)
 install(EXPORT signweave NAMESPACE signweave:: FILE signweave-targets.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/signweave)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/signweave-config.cmake.in

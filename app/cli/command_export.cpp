@@ -83,11 +83,13 @@ Run export_recording(CLI::App& verb) {
     const TimeSpan all = info.motion ? span_of(frames, info.clock) : TimeSpan{Milliseconds(0), Milliseconds::max()};
     const TimeSpan span{options->from ? Milliseconds(*options->from) : all.begin,
                         options->to ? Milliseconds(*options->to) : all.end};
-    if (span.begin >= span.end) throw Error(ErrorCode::bad_input, "--from must be before --to");
+    if (options->from && options->to && span.begin >= span.end) {
+      throw Error(ErrorCode::bad_input, "--from must be before --to");
+    }
     const bool needs_motion = std::any_of(options->outputs.begin(), options->outputs.end(),
                                           [](const std::string& path) { return !fold_case(path).ends_with(".eaf"); });
     if (info.motion && needs_motion) {
-      if (part) frames = clamp(frames_of(span, info.clock), info.motion->frames);
+      if (part) frames = span.begin < span.end ? clamp(frames_of(span, info.clock), info.motion->frames) : FrameRange{};
       if (frames.empty()) {
         throw Error(ErrorCode::bad_input, fmt::format("nothing between --from and --to: the motion covers {}..{} ms",
                                                       all.begin.count(), all.end.count()));

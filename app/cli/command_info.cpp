@@ -33,7 +33,7 @@ json json_of(const std::vector<Notice>& notices) {
   return list;
 }
 
-void print_pairs(Io& io, const json& fields) {
+void print_pairs(Io& io, const nlohmann::ordered_json& fields) {
   std::vector<std::vector<std::string>> rows = {{}};
   for (const auto& [key, value] : fields.items()) {
     if (value.is_array() || value.is_object()) continue;
@@ -67,7 +67,7 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, I
     io.out << fields.dump(2) << '\n';
     return;
   }
-  print_pairs(io, json(nlohmann::json::parse(fields.dump())));
+  print_pairs(io, fields);
   print_notices(io, file.notices);
 }
 

@@ -170,13 +170,18 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     eaf::File file = eaf::read(*job.annotation);
     recording.notices.insert(recording.notices.end(), file.notices.begin(), file.notices.end());
     TierNames names = tier_names(file.document, options, where, recording.notices);
-    SignsFound found = signs_in(file.document, names);
+    SignsFound found = [&] {
+      try {
+        return signs_in(file.document, names);
+      } catch (const Error& error) {  // a tier that was named and is not there: say in which file
+        throw Error(error.code(), fmt::format("{}: {}", where, error.what()));
+      }
+    }();
     for (Notice& notice : found.notices) {
       if (notice.where.empty()) notice.where = where;
       recording.notices.push_back(std::move(notice));
     }
     signs = std::move(found.signs);
-    report.signs = signs.size();
     document = file.document;
     if (recording.signer.empty() && !signs.empty()) recording.signer = signs[0].signer;
     recording.annotation = AnnotationPart{.document = std::move(file.document),
@@ -187,6 +192,7 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     document = database.document(job.name);
     signs = signs_in(*document, known->tiers).signs;
   }
+  report.signs = signs.size();
   const bool has_motion = new_motion || motion_known;
   if (has_motion) {
     recording.clock = clock_for(job, options, rate, document ? &*document : nullptr);

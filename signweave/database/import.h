@@ -62,7 +62,7 @@ enum class ImportOutcome { added, unchanged, annotation_replaced, motion_replace
 struct ImportReport {
   ImportOutcome outcome = ImportOutcome::unchanged;
   std::int64_t frames = 0;  ///< of the motion as it now is; 0: none
-  std::size_t signs = 0;    ///< found in the annotation; 0 where it was not read again
+  std::size_t signs = 0;    ///< in the annotation as it now is; 0 where the outcome is `unchanged`
   std::vector<Notice> notices;
 };
 

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 #include "demo/corpus.h"
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
@@ -66,7 +69,7 @@ Edit scenario_1() {
 
 Edit scenario_2() {
   Edit edit;
-  edit.swaps.push_back(parse_swap("BRETAGNE..PLUIE,NUAGES#2..BROUILLARD"));
+  edit.swap = parse_swap("BRETAGNE..PLUIE,NUAGES#2..BROUILLARD");
   return edit;
 }
 
@@ -227,9 +230,41 @@ TEST(Edits, AGlossThatOccursTwiceNeedsANumber) {
   }
 }
 
+TEST(Edits, ReplacingTheFirstSignKeepsTheRecordingWhereItStands) {
+  Edit edit;
+  edit.replacements.push_back(parse_replacement("BONJOUR=VANNES"));
+  const Synthesized made = synthesize(corpus(), "meteo", edit);
+  EXPECT_EQ(made.layout_from, "meteo");
+  EXPECT_EQ(made.result.junctions.size(), 2u);  // what lies before the first sign stays
+  const Motion meteo = corpus().read("meteo");
+  EXPECT_EQ(made.result.motion.pose(0).translations[0], meteo.pose(0).translations[0]);
+  const std::int64_t last = made.result.motion.frame_count() - 1;
+  EXPECT_EQ(made.result.motion.pose(last).translations[0], meteo.pose(meteo.frame_count() - 1).translations[0]);
+}
+
+TEST(Utterances, SigningGoesOnWhileARecordingIsReplaced) {
+  const TestFolder folder;
+  Database::create(folder / "db", {});
+  Database writer(folder / "db", kv::Access::read_write);
+  writer.put(testing_database::small_recording("a", 1, {"A", "B", "C"}, 300));
+  const Database reader(folder / "db", kv::Access::read_only);
+  std::atomic<bool> stop = false;
+  std::thread replacing([&] {
+    for (int i = 0; !stop; ++i) {
+      writer.put(testing_database::small_recording("a", i, {"A", "B", "C"}, i % 2 == 0 ? 130 : 300));
+    }
+  });
+  for (int i = 0; i < 200; ++i) {
+    const Synthesized made = synthesize(reader, parse_utterance("C A C"));
+    EXPECT_EQ(made.result.junctions.size(), 2u);
+  }
+  stop = true;
+  replacing.join();
+}
+
 TEST(Edits, RunsThatShareSignsCannotBeSwapped) {
   Edit edit;
-  edit.swaps.push_back(parse_swap("BRETAGNE..PLUIE,NUAGES#1..DEMAIN"));
+  edit.swap = parse_swap("BRETAGNE..PLUIE,NUAGES#1..DEMAIN");
   EXPECT_THROW(synthesize(corpus(), "meteo", edit), Error);
 }
 

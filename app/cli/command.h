@@ -13,6 +13,10 @@ namespace CLI {
 class App;
 }
 
+namespace signweave {
+class Database;
+}
+
 /// The command line. Results go to `out`, everything else to `err`; failure is thrown.
 namespace signweave::cli {
 
@@ -43,8 +47,14 @@ std::span<const Command> commands() noexcept;
 /// wrong usage. Never throws.
 int dispatch(const std::vector<std::string>& words, Io& io);
 
+/// A message as one line, whatever a file's name holds.
+std::string one_line(std::string_view text);
+
 /// "signweave: WHERE: text" on `err`.
 void print_notices(Io& io, const std::vector<Notice>& notices);
+
+/// Tells of recordings that are damaged and therefore left out, on `err`, and sets the exit status to 1.
+void report_damage(const Database& database, Io& io);
 
 Run create(CLI::App& verb);
 Run import(CLI::App& verb);

@@ -24,7 +24,9 @@ Run check(CLI::App& verb) {
     }
     const std::size_t recordings = database.contents()->recordings.size();
     if (io.json) {
-      io.out << nlohmann::json{{"recordings", recordings}, {"faults", faults}}.dump(2) << '\n';
+      io.out << nlohmann::json{{"recordings", recordings}, {"faults", faults}}.dump(
+                    2, ' ', false, nlohmann::json::error_handler_t::replace)
+             << '\n';
     } else if (faults.empty()) {
       io.out << counted(recordings, "recording") << ", no fault found\n";
     }

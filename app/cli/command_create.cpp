@@ -35,7 +35,7 @@ Run create(CLI::App& verb) {
       io.out << nlohmann::json{{"database", options->folder},
                                {"engine", options->engine},
                                {"access_mode", to_string(mode)}}
-                    .dump(2)
+                    .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
              << '\n';
     }
   };

@@ -26,9 +26,10 @@ Run edit(CLI::App& verb) {
   return [options](Io& io) {
     Edit edit;
     for (const std::string& text : options->replacements) edit.replacements.push_back(parse_replacement(text));
-    if (!options->swap.empty()) edit.swaps.push_back(parse_swap(options->swap));
-    if (edit.replacements.empty() && edit.swaps.empty()) throw CLI::RequiredError("--replace or --swap");
+    if (!options->swap.empty()) edit.swap = parse_swap(options->swap);
+    if (edit.replacements.empty() && !edit.swap) throw CLI::RequiredError("--replace or --swap");
     const Database database(options->words.folder, kv::Access::read_only);
+    report_damage(database, io);
     const Synthesized made = synthesize(database, options->recording, edit, synthesis_options(options->words));
     deliver(database, made, options->words, options->recording + ", edited", io);
   };

@@ -44,11 +44,10 @@ JointSet joints_named(const std::string& names, const Skeleton& skeleton) {
 }
 
 /// The part of a document inside a span, its times moved so that the span begins at 0. Annotations that reach over an
-/// end are cut. A document of its own: nothing of the original file is carried over but the tiers.
+/// end are cut; linked files keep their place in time. Everything else of the document is carried over.
 AnnotationDocument cut_document(const AnnotationDocument& document, TimeSpan span) {
   AnnotationDocument cut = document;
-  cut.source.clear();
-  cut.linked_files.clear();
+  for (LinkedFile& linked : cut.linked_files) linked.time_origin += span.begin;
   for (Tier& tier : cut.tiers) {
     std::erase_if(tier.annotations, [&](const Annotation& a) { return !a.span.overlaps(span); });
     for (Annotation& annotation : tier.annotations) {
@@ -75,6 +74,7 @@ Run export_recording(CLI::App& verb) {
   verb.add_option("--joints", options->joints, "joint names, separated by commas; the others are left at rest");
   return [options](Io& io) {
     const Database database(options->folder, kv::Access::read_only);
+    report_damage(database, io);
     const std::shared_ptr<const Contents> contents = database.contents();
     const RecordingInfo& info = contents->at(options->recording);
     const bool part = options->from || options->to;
@@ -100,12 +100,14 @@ Run export_recording(CLI::App& verb) {
     }
     std::optional<AnnotationDocument> document;
     if (info.document != 0) document = database.document(info.name);
-    if (document && part) document = cut_document(*document, span);
+    // The annotation is cut where the frames are, so that both begin together.
+    if (document && part) document = cut_document(*document, motion ? span_of(frames, info.clock) : span);
     for (const std::string& path : options->outputs) {
       write_recording(path, motion ? &*motion : nullptr, info.layout, document ? &*document : nullptr, info.name);
     }
     if (io.json) {
-      io.out << nlohmann::json{{"recording", info.name}, {"files", options->outputs}, {"frames", frames.size()}}.dump(2)
+      io.out << nlohmann::json{{"recording", info.name}, {"files", options->outputs}, {"frames", frames.size()}}.dump(
+                    2, ' ', false, nlohmann::json::error_handler_t::replace)
              << '\n';
     }
   };

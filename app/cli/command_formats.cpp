@@ -29,7 +29,7 @@ Run formats(CLI::App&) {
                       {"holds", rows[i][3]},
                       {"lost", rows[i][4]}});
     }
-    io.out << list.dump(2) << '\n';
+    io.out << list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   };
 }
 

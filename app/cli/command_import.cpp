@@ -58,6 +58,12 @@ std::string_view name_of(ImportOutcome outcome) {
       return "added";
     case ImportOutcome::unchanged:
       return "unchanged";
+    case ImportOutcome::clock_changed:
+      return "clock changed";
+    case ImportOutcome::annotation_added:
+      return "annotation added";
+    case ImportOutcome::motion_added:
+      return "motion added";
     case ImportOutcome::annotation_replaced:
       return "annotation replaced";
     case ImportOutcome::motion_replaced:
@@ -97,38 +103,46 @@ void run_import(const Options& given, Io& io) {
   if (pairing.jobs.empty()) io.err << "signweave: no motion or annotation file there\n";
 
   nlohmann::json recordings = nlohmann::json::array();
+  // One bar for all; it must be gone before a line is printed.
+  auto progress = std::make_unique<Progress>(io, "importing");
+  std::size_t done = 0;
   for (const ImportJob& job : pairing.jobs) {
     try {
-      ImportReport report;
-      {
-        Progress progress(io, job.name);
-        report = import_recording(database, job, options, [&](double fraction) { progress.show(fraction); });
-      }
+      const auto jobs = static_cast<double>(pairing.jobs.size());
+      const auto show = [&](double fraction) { progress->show((static_cast<double>(done) + fraction) / jobs); };
+      show(0);
+      const ImportReport report = import_recording(database, job, options, show);
+      progress->hide();
       print_notices(io, report.notices);
       if (io.json) {
         nlohmann::json notices = nlohmann::json::array();
         for (const Notice& notice : report.notices) notices.push_back({{"where", notice.where}, {"text", notice.text}});
-        recordings.push_back({{"name", job.name},
+        recordings.push_back({{"name", report.name},
                               {"outcome", name_of(report.outcome)},
                               {"frames", report.frames},
                               {"signs", report.signs},
                               {"notices", std::move(notices)}});
       } else {
-        std::string line = fmt::format("{}: {}", job.name, name_of(report.outcome));
+        std::string line = fmt::format("{}: {}", report.name, name_of(report.outcome));
         if (report.outcome != ImportOutcome::unchanged) {
           line += fmt::format(", {}, {}", counted(static_cast<std::size_t>(report.frames), "frame"),
                               counted(report.signs, "sign"));
         }
         io.out << line << '\n';
       }
+      ++done;
     } catch (const Error& error) {  // a bad recording changes nothing of its own; the others are imported
-      io.err << "signweave: " << error.what() << '\n';
+      progress->hide();
+      io.err << "signweave: " << one_line(error.what()) << '\n';
       if (io.json) recordings.push_back({{"name", job.name}, {"outcome", "failed"}, {"error", error.what()}});
       io.status = 1;
-      if (error.code() == ErrorCode::io) throw;  // a full disk will not be better for the next one
+      ++done;
     }
   }
-  if (io.json) io.out << nlohmann::json{{"recordings", std::move(recordings)}}.dump(2) << '\n';
+  if (io.json)
+    io.out << nlohmann::json{{"recordings", std::move(recordings)}}.dump(2, ' ', false,
+                                                                         nlohmann::json::error_handler_t::replace)
+           << '\n';
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, I
   nlohmann::ordered_json fields = {{"file", path},
                                    {"format", "BVH"},
                                    {"frames", file.motion.frame_count()},
-                                   {"frames_per_second", to_string(file.motion.rate())},
-                                   {"seconds", fmt::format("{:.3f}", file.motion.duration().count())},
+                                   {"frames_per_second", file.motion.rate().hertz()},
+                                   {"seconds", file.motion.duration().count()},
                                    {"joints", skeleton.joint_count()},
                                    {"tips", skeleton.tips().size()},
                                    {"joints_with_translation", skeleton.translation_count()},
@@ -64,9 +64,11 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, I
     for (const Joint& joint : skeleton.joints()) names.push_back(joint.name);
     fields["joint_names"] = std::move(names);
     fields["notices"] = json_of(file.notices);
-    io.out << fields.dump(2) << '\n';
+    io.out << fields.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return;
   }
+  fields["frames_per_second"] = to_string(file.motion.rate());
+  fields["seconds"] = fmt::format("{:.3f}", file.motion.duration().count());
   print_pairs(io, fields);
   print_notices(io, file.notices);
 }
@@ -83,7 +85,9 @@ void info_of_eaf(const std::string& path, Io& io) {
     return std::find(names.phase_tiers.begin(), names.phase_tiers.end(), id) != names.phase_tiers.end() ? "phases" : "";
   };
   std::vector<Notice> notices = file.notices;
-  notices.insert(notices.end(), found.notices.begin(), found.notices.end());
+  for (const Notice& notice : found.notices) {
+    notices.push_back({notice.where.empty() ? path : path + ": " + notice.where, notice.text});
+  }
   if (io.json) {
     json tiers = json::array();
     for (const Tier& tier : document.tiers) {
@@ -98,7 +102,7 @@ void info_of_eaf(const std::string& path, Io& io) {
                    {"tiers", std::move(tiers)},
                    {"signs", found.signs.size()},
                    {"notices", json_of(notices)}}
-                  .dump(2)
+                  .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
            << '\n';
     return;
   }
@@ -141,7 +145,7 @@ void info_of_database(const std::string& folder, Io& io) {
                    {"bytes_on_disk", engine.bytes_on_disk},
                    {"access_mode", to_string(database.access_mode())},
                    {"recordings", std::move(recordings)}}
-                  .dump(2)
+                  .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
            << '\n';
     return;
   }
@@ -191,6 +195,8 @@ Run info(CLI::App& verb) {
       info_of_database(options->path, io);
     } else if (!std::filesystem::exists(options->path, ignored)) {
       throw Error(ErrorCode::not_found, options->path + ": no such file or database");
+    } else if (!std::filesystem::is_regular_file(options->path, ignored)) {
+      throw Error(ErrorCode::bad_input, options->path + ": is no file");
     } else if (ending == ".bvh") {
       info_of_bvh(options->path, options->motion, io);
     } else if (ending == ".eaf") {

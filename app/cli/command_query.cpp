@@ -37,10 +37,15 @@ std::vector<std::vector<std::string>> rows_of(const std::vector<Segment>& answer
 void run_query(const Options& options, Io& io) {
   const PhaseQuery query = parse(options.text);
   const Database database(options.folder, kv::Access::read_only);
+  report_damage(database, io);
   const std::shared_ptr<const Contents> contents = database.contents();
-  for (const std::string& fault : contents->faults) io.err << "signweave: " << fault << '\n';
   if (options.explain) {
-    io.out << explain(query, contents->segments);
+    const std::string plan = explain(query, contents->segments);
+    if (io.json) {
+      io.out << nlohmann::json{{"plan", plan}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    } else {
+      io.out << plan;
+    }
     return;
   }
   FindLimits limits;
@@ -64,7 +69,7 @@ void run_query(const Options& options, Io& io) {
                       {"end_ms", segment.span.end.count()},
                       {"parts", std::move(parts)}});
     }
-    io.out << list.dump(2) << '\n';
+    io.out << list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   } else if (options.format == "csv") {
     io.out << format_csv(rows_of(answers));
   } else {
@@ -81,8 +86,8 @@ Run query(CLI::App& verb) {
   verb.add_option("--format", options->format, "of the answer")
       ->check(CLI::IsMember({"table", "json", "csv"}))
       ->capture_default_str();
-  verb.add_option("--limit", options->limit, "at most so many answers")->check(CLI::PositiveNumber);
-  verb.add_option("--timeout", options->timeout_ms, "give up after so many ms")->check(CLI::PositiveNumber);
+  verb.add_option("--limit", options->limit, "at most so many answers")->check(CLI::Range(1, 1'000'000'000));
+  verb.add_option("--timeout", options->timeout_ms, "give up after so many ms")->check(CLI::Range(1, 1'000'000'000));
   verb.add_flag("--explain", options->explain, "show how the query would be answered");
   return [options](Io& io) { run_query(*options, io); };
 }

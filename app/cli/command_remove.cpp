@@ -19,7 +19,10 @@ Run remove(CLI::App& verb) {
   return [options](Io& io) {
     Database database(options->folder, kv::Access::read_write);
     database.remove(options->recording);
-    if (io.json) io.out << nlohmann::json{{"removed", options->recording}}.dump(2) << '\n';
+    if (io.json)
+      io.out << nlohmann::json{{"removed", options->recording}}.dump(2, ' ', false,
+                                                                     nlohmann::json::error_handler_t::replace)
+             << '\n';
   };
 }
 

@@ -16,12 +16,7 @@ namespace {
 TransitionStats stats_of(const Contents& contents, const std::string& recording) {
   if (recording.empty()) return contents.transitions;
   const auto index = static_cast<std::uint32_t>(&contents.at(recording) - contents.recordings.data());
-  std::vector<Sign> signs;
-  const SegmentTable::RowRange rows = contents.segments.recording_rows(index);
-  for (RowId row = rows.begin; row < rows.end; ++row) {
-    if (contents.segments.row(row).kind == RowKind::sign) signs.push_back(sign_at(contents.segments, row));
-  }
-  return summarize(transitions_in(signs));
+  return summarize(transitions_in(signs_of(contents.segments, index)));
 }
 
 }  // namespace
@@ -36,6 +31,7 @@ Run stats(CLI::App& verb) {
   verb.add_option("--recording", options->recording, "of this recording alone");
   return [options](Io& io) {
     const Database database(options->folder, kv::Access::read_only);
+    report_damage(database, io);
     const TransitionStats stats = stats_of(*database.contents(), options->recording);
     const auto ms = [](Milliseconds time) { return std::to_string(time.count()); };
     if (io.json) {
@@ -48,7 +44,7 @@ Run stats(CLI::App& verb) {
                                {"percentile_90_ms", stats.percentile_90.count()},
                                {"mean_retraction_ms", stats.mean_retraction.count()},
                                {"mean_preparation_ms", stats.mean_preparation.count()}}
-                    .dump(2)
+                    .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
              << '\n';
       return;
     }

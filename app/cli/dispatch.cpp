@@ -8,6 +8,7 @@
 
 #include "app/cli/command.h"
 #include "signweave/core/text.h"
+#include "signweave/database/database.h"
 #include "signweave/query/parse.h"
 
 namespace signweave::cli {
@@ -43,6 +44,10 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& error, const
     for (const Command& command : kCommands) known.emplace_back(command.name);
     if (words.empty()) return "no verb given; see signweave --help";
     unknown = words[0];
+    if (unknown.starts_with('-')) {
+      return fmt::format("'{}' stands before the verb; options come after it; see signweave --help",
+                         printable(unknown));
+    }
     return fmt::format("no verb '{}'{}; see signweave --help", printable(unknown), did_you_mean(unknown, known));
   }
   std::string text = error.what();
@@ -56,6 +61,10 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& error, const
         break;
       }
     }
+    if (unknown.empty() && verb->remaining().empty()) {  // what is left over stood before the verb
+      return fmt::format("'{}' stands before the verb; options come after it; see signweave --help",
+                         printable(words.at(0)));
+    }
     text = unknown.empty() ? fmt::format("'{}' is one word too many", printable(verb->remaining().at(0)))
                            : fmt::format("no option '{}'{}", printable(unknown), did_you_mean(unknown, known));
   }
@@ -68,9 +77,29 @@ std::span<const Command> commands() noexcept {
   return kCommands;
 }
 
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) {
+      line += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
 void print_notices(Io& io, const std::vector<Notice>& notices) {
   for (const Notice& notice : notices) {
-    io.err << "signweave: " << notice.where << (notice.where.empty() ? "" : ": ") << notice.text << '\n';
+    io.err << "signweave: " << one_line(notice.where) << (notice.where.empty() ? "" : ": ") << one_line(notice.text)
+           << '\n';
+  }
+}
+
+void report_damage(const Database& database, Io& io) {
+  for (const std::string& fault : database.contents()->faults) {
+    io.err << "signweave: " << fault << '\n';
+    io.status = 1;
   }
 }
 
@@ -106,7 +135,7 @@ int dispatch(const std::vector<std::string>& words, Io& io) {
   } catch (const QueryError& error) {
     io.err << "signweave: " << error.what() << '\n' << error.caret << '\n';
   } catch (const Error& error) {
-    io.err << "signweave: " << error.what() << '\n';
+    io.err << "signweave: " << one_line(error.what()) << '\n';
   } catch (const std::bad_alloc&) {
     io.err << "signweave: not enough memory\n";
   } catch (const std::exception& error) {

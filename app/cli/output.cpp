@@ -62,6 +62,17 @@ json frames_json(FrameRange frames) {
   return {{"begin", frames.begin}, {"end", frames.end}};
 }
 
+/// Before the first file is written: that each has a folder to go to.
+void check_folders(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    const fs::path folder = fs::path(path).parent_path();
+    std::error_code ignored;
+    if (!folder.empty() && !fs::is_directory(folder, ignored)) {
+      throw Error(ErrorCode::io, fmt::format("{}: there is no folder '{}'; make it first", path, folder.string()));
+    }
+  }
+}
+
 /// What a motion written without its own layout looks like.
 bvh::Layout layout_for(const std::optional<bvh::Layout>& layout, const Skeleton& skeleton) {
   return layout && bvh::fits(*layout, skeleton) ? *layout : bvh::default_layout(skeleton);
@@ -92,6 +103,14 @@ ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string&
     add(0.1, " ·");
     add(0.5, " ··");
     add(0.9, " ···");
+  }
+  for (std::size_t i = 0; i < synthesis.stretches.size(); ++i) {  // bare pieces have no sign to show
+    const Placed& placed = synthesis.stretches[i];
+    const bool bare = std::none_of(synthesis.signs.begin(), synthesis.signs.end(),
+                                   [&](const PlacedSign& sign) { return sign.stretch == i; });
+    for (const int part : {1, 5, 9}) {
+      if (bare) cells.push_back({placed.core.begin + placed.core.size() * part / 10, placed.recording});
+    }
   }
   for (const Junction& junction : synthesis.junctions) {
     cells.push_back({(junction.frames.begin + junction.frames.end) / 2, junction.from + " → " + junction.to});
@@ -138,7 +157,7 @@ json describe(const Synthesis& synthesis) {
     stretches.push_back({{"recording", placed.recording},
                          {"frames", frames_json(placed.output)},
                          {"kept_frames", frames_json(placed.core)},
-                         {"first_recorded_frame", placed.first_frame},
+                         {"kept_from_recorded_frame", placed.first_frame},
                          {"recorded_frames_per_frame", placed.step}});
   }
   json junctions = json::array();
@@ -162,6 +181,7 @@ void write_synthesis(const std::vector<std::string>& paths, const Synthesized& m
                      const std::optional<bvh::Layout>& layout, const std::string& title) {
   const Synthesis& result = made.result;
   std::string motion_file;
+  check_folders(paths);
   for (const std::string& path : paths) {
     if (ending_of(path) == ".bvh") motion_file = fs::path(path).filename().string();
   }
@@ -182,7 +202,7 @@ void write_synthesis(const std::vector<std::string>& paths, const Synthesized& m
       }
       document["sources"] = std::move(sources);
       document["motion"] = json_of(result.motion);
-      write_text(path, document.dump() + '\n');
+      write_text(path, document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
     } else if (ending == ".svg") {
       write_text(path, contact_sheet(result.motion, sheet_options(result, title)));
     } else {
@@ -209,7 +229,7 @@ void write_recording(const std::string& path, const Motion* motion, const std::o
     options.title = title;
     write_text(path, contact_sheet(*motion, options));
   } else {
-    write_text(path, json_of(*motion).dump() + '\n');
+    write_text(path, json_of(*motion).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
   }
 }
 

@@ -13,7 +13,12 @@ Progress::Progress(Io& io, std::string title)
     : io_(io), title_(std::move(title)), start_(std::chrono::steady_clock::now()), drawn_(start_) {}
 
 Progress::~Progress() {
+  hide();
+}
+
+void Progress::hide() {
   if (visible_) io_.err << "\r\x1b[K" << std::flush;
+  visible_ = false;
 }
 
 void Progress::show(double fraction) {

@@ -17,6 +17,8 @@ class Progress {
 
   /// `fraction` in [0, 1].
   void show(double fraction);
+  /// Takes the bar off the terminal until it is shown again.
+  void hide();
 
  private:
   Io& io_;

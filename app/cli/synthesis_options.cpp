@@ -57,6 +57,23 @@ void explain(const Database& database, const Synthesized& made, Io& io) {
   if (rows.size() > 1) io.out << '\n' << format_table(rows);
 }
 
+nlohmann::json places_of(const Contents& contents, const Synthesized& made) {
+  nlohmann::json places = nlohmann::json::array();
+  for (std::size_t place = 0; place < made.choices.size(); ++place) {
+    nlohmann::json candidates = nlohmann::json::array();
+    for (const Candidate& candidate : made.choices[place].candidates) {
+      candidates.push_back({{"recording", contents.recordings[candidate.recording].name},
+                            {"token", candidate.token},
+                            {"frames", {{"begin", candidate.whole.begin}, {"end", candidate.whole.end}}},
+                            {"target_cost", candidate.cost}});
+    }
+    places.push_back({{"candidates", std::move(candidates)},
+                      {"chosen", made.selection.chosen[place]},
+                      {"join_cost", made.selection.join_costs[place]}});
+  }
+  return places;
+}
+
 nlohmann::json timings_of(const Timings& timings) {
   return {{"semantic_query_ms", ms_of(timings.semantic_query)},
           {"selection_ms", ms_of(timings.selection)},
@@ -120,7 +137,14 @@ SynthesisOptions synthesis_options(const SynthesisWords& words) {
 void deliver(const Database& database, const Synthesized& made, const SynthesisWords& words, const std::string& title,
              Io& io) {
   const std::shared_ptr<const Contents> contents = database.contents();
-  write_synthesis(words.outputs, made, contents->at(made.layout_from).layout, title);
+  std::optional<bvh::Layout> layout;
+  if (const RecordingInfo* source = contents->find(made.layout_from)) layout = source->layout;
+  if (layout) {  // of the source's file its axes, unit and orders, but not its oddities
+    layout->root_columns = bvh::RootColumns::declared;
+    layout->root_unit = layout->unit;
+    layout->frame_time.clear();
+  }
+  write_synthesis(words.outputs, made, layout, title);
   print_notices(io, made.result.notices);
   for (const auto& [name, value] : made.result.declarations) io.err << "signweave: " << value << '\n';
   const Synthesis& result = made.result;
@@ -128,7 +152,8 @@ void deliver(const Database& database, const Synthesized& made, const SynthesisW
     nlohmann::json report = describe(result);
     report["files"] = words.outputs;
     report["timings"] = timings_of(made.timings);
-    io.out << report.dump(2) << '\n';
+    if (words.explain) report["places"] = places_of(*contents, made);
+    io.out << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return;
   }
   if (words.explain) explain(database, made, io);

@@ -90,7 +90,8 @@ std::string fold_case(std::string_view text) {
 
 std::vector<std::string> near_matches(std::string_view wanted, std::span<const std::string> known, std::size_t most) {
   const std::vector<utf8proc_int32_t> target = letters(fold_case(match_form(wanted)));
-  const std::size_t farthest = std::max<std::size_t>(1, (target.size() + 2) / 3);
+  const std::size_t farthest = (target.size() + 1) / 3;  // one letter is near no other
+  if (target.empty()) return {};
   struct Near {
     std::size_t distance;
     std::string_view name;

@@ -118,6 +118,7 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
   info.name = in.text();
   info.signer = in.text();
   info.clock = decode_clock(in);
+  info.clock_given = in.number<std::uint8_t>() != 0;
   if (in.number<std::uint8_t>() != 0) info.motion = motion_db::decode(in);
   if (in.number<std::uint8_t>() != 0) info.layout = bvh::decode_layout(in);
   info.document = in.number<std::uint64_t>();
@@ -141,6 +142,7 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
   out.text(info.name);
   out.text(info.signer);
   encode(info.clock, out);
+  out.number(static_cast<std::uint8_t>(info.clock_given ? 1 : 0));
   out.number(static_cast<std::uint8_t>(info.motion ? 1 : 0));
   if (info.motion) motion_db::encode(*info.motion, out);
   out.number(static_cast<std::uint8_t>(info.layout ? 1 : 0));
@@ -157,6 +159,14 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
     out.text(notice.text);
   }
   transaction.put(slot_key(slot), kv::sealed(out.bytes()));
+}
+
+void move_recording(kv::WriteTransaction& transaction, std::uint32_t from, std::uint32_t to) {
+  const auto record = transaction.get(slot_key(from));
+  if (!record) ByteReader({}, fmt::format("catalogue entry {}", from)).fail("it is missing");
+  const Bytes copy(record->begin(), record->end());
+  transaction.put(slot_key(to), copy);
+  transaction.erase(slot_key(from));
 }
 
 void erase_recording(kv::WriteTransaction& transaction, std::uint32_t slot) {

@@ -30,6 +30,8 @@ void write_head(kv::WriteTransaction& transaction, const Head& head);
 
 RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t slot);
 void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, const RecordingInfo& info);
+/// Moves an entry as the bytes that it is, damaged or not.
+void move_recording(kv::WriteTransaction& transaction, std::uint32_t from, std::uint32_t to);
 void erase_recording(kv::WriteTransaction& transaction, std::uint32_t slot);
 
 SweepList read_sweep_list(const kv::ReadTransaction& snapshot);

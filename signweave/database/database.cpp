@@ -81,7 +81,7 @@ std::shared_ptr<const Contents> Database::contents() const {
   const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
   const catalogue::Head head = catalogue::read_head(*snapshot);
   const std::lock_guard guard(mutex_);
-  if (contents_ && contents_at_ == head.changes) return contents_;
+  if (contents_ && contents_at_ >= head.changes) return contents_;  // another thread may have seen a newer state
 
   auto made = std::make_shared<Contents>();
   made->recordings.reserve(head.recordings);
@@ -110,12 +110,7 @@ std::shared_ptr<const Contents> Database::contents() const {
 
   std::vector<Transition> transitions;
   for (std::uint32_t recording = 0; recording < sources.size(); ++recording) {
-    std::vector<Sign> signs;
-    const SegmentTable::RowRange rows = made->segments.recording_rows(recording);
-    for (RowId row = rows.begin; row < rows.end; ++row) {
-      if (made->segments.row(row).kind == RowKind::sign) signs.push_back(sign_at(made->segments, row));
-    }
-    const std::vector<Transition> found = transitions_in(signs);
+    const std::vector<Transition> found = transitions_in(signs_of(made->segments, recording));
     transitions.insert(transitions.end(), found.begin(), found.end());
   }
   made->transitions = summarize(transitions);
@@ -132,6 +127,7 @@ void Database::require_writable() const {
 
 std::optional<std::uint32_t> Database::slot_of(const kv::ReadTransaction& snapshot, std::string_view name) const {
   const catalogue::Head head = catalogue::read_head(snapshot);
+  const std::lock_guard guard(mutex_);
   if (slots_at_ != head.changes) {
     slots_.clear();
     for (std::uint32_t slot = 0; slot < head.recordings; ++slot) {
@@ -150,7 +146,6 @@ std::optional<std::uint32_t> Database::slot_of(const kv::ReadTransaction& snapsh
 
 std::optional<RecordingInfo> Database::info(std::string_view name) const {
   const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
-  const std::lock_guard guard(mutex_);
   const std::optional<std::uint32_t> slot = slot_of(*snapshot, name);
   if (!slot) return std::nullopt;
   return catalogue::read_recording(*snapshot, *slot);
@@ -178,7 +173,7 @@ void Database::put(const Recording& recording, const Progress& progress) {
     throw Error(ErrorCode::bad_input,
                 fmt::format("'{}': a recording needs a name of 1 to 1000 bytes of UTF-8", printable(recording.name)));
   }
-  if (!recording.motion && !recording.annotation) {
+  if (!recording.motion && !recording.annotation && !this->info(recording.name)) {
     throw Error(ErrorCode::bad_input, recording.name + ": neither motion nor annotation to store");
   }
 
@@ -216,12 +211,14 @@ void Database::put(const Recording& recording, const Progress& progress) {
   catalogue::Head head = catalogue::read_head(*transaction);
   catalogue::SweepList list = catalogue::read_sweep_list(*transaction);
   const std::optional<std::uint32_t> known = slot_of(*transaction, recording.name);
-  const std::uint32_t slot = known.value_or(head.recordings);
+  // A new recording goes to the end, or over an entry that is damaged beyond reading.
+  const std::uint32_t slot = known.value_or(slot_of(*transaction, {}).value_or(head.recordings));
   RecordingInfo info;
   if (known) info = catalogue::read_recording(*transaction, slot);
   info.name = recording.name;
   info.signer = recording.signer;
   info.clock = recording.clock;
+  info.clock_given = recording.clock_given;
   info.notices = recording.notices;
   if (recording.motion) {
     std::erase_if(list, [&](const motion_db::StoredMotion& motion) { return motion.generation == generation; });
@@ -241,13 +238,19 @@ void Database::put(const Recording& recording, const Progress& progress) {
   }
   catalogue::write_recording(*transaction, slot, info);
   catalogue::write_sweep_list(*transaction, list);
-  if (!known) ++head.recordings;
+  if (slot == head.recordings) ++head.recordings;
   ++head.changes;
   catalogue::write_head(*transaction, head);
   transaction->commit();
 
-  if (!known) slots_.push_back(info.name);
-  slots_at_ = head.changes;
+  {
+    const std::lock_guard guard(mutex_);
+    if (slots_at_ == head.changes - 1) {  // else a reader has looked again already
+      if (slot == slots_.size()) slots_.emplace_back();
+      slots_[slot] = info.name;
+      slots_at_ = head.changes;
+    }
+  }
   if (!list.empty()) sweep();
 }
 
@@ -266,13 +269,15 @@ void Database::remove(std::string_view name) {
     catalogue::write_sweep_list(*transaction, list);
   }
   const std::uint32_t last = head.recordings - 1;
-  if (*slot != last) catalogue::write_recording(*transaction, *slot, catalogue::read_recording(*transaction, last));
-  catalogue::erase_recording(*transaction, last);
+  if (*slot != last) {
+    catalogue::move_recording(*transaction, last, *slot);
+  } else {
+    catalogue::erase_recording(*transaction, last);
+  }
   --head.recordings;
   ++head.changes;
   catalogue::write_head(*transaction, head);
   transaction->commit();
-  slots_at_.reset();
   sweep();
 }
 
@@ -302,13 +307,37 @@ const motion_db::StoredMotion& motion_of(const RecordingInfo& info) {
 
 }  // namespace
 
+RecordingInfo Database::recording_in(const kv::ReadTransaction& snapshot, std::string_view name) const {
+  const std::optional<std::uint32_t> slot = slot_of(snapshot, name);
+  if (slot) return catalogue::read_recording(snapshot, *slot);
+  contents()->at(name);  // the error with near matches
+  throw Error(ErrorCode::conflict, fmt::format("{}: was added just now; try again", printable(name)));
+}
+
+// Each of these reads the catalogue and the data it names in one snapshot: what another process does meanwhile is not
+// seen.
+
 Motion Database::read(std::string_view name, FrameRange frames, const JointSet& joints,
                       motion_db::ReadCost* cost) const {
-  const std::shared_ptr<const Contents> now = contents();
-  const motion_db::StoredMotion& stored = motion_of(now->at(name));
   const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
+  const RecordingInfo info = recording_in(*snapshot, name);
+  const motion_db::StoredMotion& stored = motion_of(info);
   return motion_db::read(*snapshot, stored, motion_db::read_skeleton(*snapshot, stored), clamp(frames, stored.frames),
                          joints, cost);
+}
+
+Motion Database::read(const RecordingInfo& recording, FrameRange frames) const {
+  const motion_db::StoredMotion& stored = motion_of(recording);
+  const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
+  try {
+    return motion_db::read(*snapshot, stored, motion_db::read_skeleton(*snapshot, stored),
+                           clamp(frames, stored.frames));
+  } catch (const Error&) {
+    const std::optional<std::uint32_t> slot = slot_of(*snapshot, recording.name);
+    if (slot && catalogue::read_recording(*snapshot, *slot).motion == recording.motion) throw;  // damaged indeed
+    throw Error(ErrorCode::conflict,
+                fmt::format("{}: was replaced or removed while it was read; try again", recording.name));
+  }
 }
 
 Motion Database::read(std::string_view name) const {
@@ -316,23 +345,26 @@ Motion Database::read(std::string_view name) const {
 }
 
 Motion Database::read(const Segment& segment) const {
-  const std::shared_ptr<const Contents> now = contents();
-  return read(segment.recording, frames_of(segment.span, now->at(segment.recording).clock));
+  const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
+  const RecordingInfo info = recording_in(*snapshot, segment.recording);
+  const motion_db::StoredMotion& stored = motion_of(info);
+  return motion_db::read(*snapshot, stored, motion_db::read_skeleton(*snapshot, stored),
+                         clamp(frames_of(segment.span, info.clock), stored.frames));
 }
 
 std::shared_ptr<const Skeleton> Database::skeleton(std::string_view name) const {
-  const std::shared_ptr<const Contents> now = contents();
-  return motion_db::read_skeleton(*store_->read(), motion_of(now->at(name)));
+  const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
+  return motion_db::read_skeleton(*snapshot, motion_of(recording_in(*snapshot, name)));
 }
 
 AnnotationDocument Database::document(std::string_view name) const {
-  const std::shared_ptr<const Contents> now = contents();
-  const RecordingInfo& info = now->at(name);
+  const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
+  const RecordingInfo info = recording_in(*snapshot, name);
   if (info.document == 0) {
     throw Error(ErrorCode::not_found,
                 fmt::format("recording '{}' has no annotation; import its annotation file too", info.name));
   }
-  const std::string source = semantic_db::read_document(*store_->read(), info.document, info.name);
+  const std::string source = semantic_db::read_document(*snapshot, info.document, info.name);
   return eaf::read_text(info.annotation_file.empty() ? info.name : info.annotation_file, source).document;
 }
 

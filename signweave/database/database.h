@@ -77,7 +77,8 @@ class Database {
 
   /// Stores a recording. One of the same name gets the halves that are given replaced (motion, annotation), and its
   /// clock, signer and notices; the other half stays. Whole or not at all, also when `progress` throws or the process
-  /// is killed. Throws Error{bad_input} for an empty or overlong name or a recording without both halves, Error{io}.
+  /// is killed. Throws Error{bad_input} for an empty or overlong name or a new recording without both halves,
+  /// Error{io}.
   void put(const Recording& recording, const Progress& progress = {});
 
   /// Removes a recording. Throws Error{not_found}.
@@ -90,6 +91,9 @@ class Database {
   /// `joints` is empty, others at rest. Throws Error{not_found} for an unknown recording or one without motion.
   Motion read(std::string_view name, FrameRange frames, const JointSet& joints = {},
               motion_db::ReadCost* cost = nullptr) const;
+  /// Frames of exactly the motion that `recording` names, as `contents()` or `info()` told it: for several reads that
+  /// must fit together. Throws Error{conflict} where it was replaced or removed since.
+  Motion read(const RecordingInfo& recording, FrameRange frames) const;
   /// The whole motion.
   Motion read(std::string_view name) const;
   /// The frames of an answer.
@@ -114,6 +118,7 @@ class Database {
   void sweep();
   void require_writable() const;
   std::optional<std::uint32_t> slot_of(const kv::ReadTransaction& snapshot, std::string_view name) const;
+  RecordingInfo recording_in(const kv::ReadTransaction& snapshot, std::string_view name) const;
 
   std::filesystem::path folder_;
   kv::Access access_;

@@ -272,6 +272,45 @@ TEST_F(DatabaseTest, KilledAtAnyMomentEachRecordingIsAsItWasOrAsItWasToBecome) {
   }
 }
 
+TEST_F(DatabaseTest, AMotionThatWasReplacedMeanwhileIsAConflictAndNoDamage) {
+  Database database(path(), kv::Access::read_write);
+  database.put(small_recording("a", 1, {"A"}));
+  const RecordingInfo before = *database.info("a");
+  EXPECT_TRUE(same_poses(database.read(before, {0, 300}), small_motion(300, 1)));
+  database.put(small_recording("a", 2, {"A"}, 50));
+  EXPECT_THAT(fault_of([&] {
+                database.read(before, {0, 300});
+              }),
+              HasSubstr("was replaced or removed while it was read"));
+}
+
+TEST_F(DatabaseTest, AnEntryBeyondReadingIsReplacedByTheNextNewRecording) {
+  {
+    Database database(path(), kv::Access::read_write);
+    for (const char* name : {"a", "b", "c"}) database.put(small_recording(name, 1, {"A"}));
+  }
+  {  // turn one bit of the second entry
+    const auto store = kv::open(path(), kv::Access::read_write);
+    const auto transaction = store->write();
+    ByteWriter key;
+    key.number('R');
+    key.number(std::uint32_t{1});
+    const ByteSpan value = *transaction->get(key.bytes());
+    Bytes damaged(value.begin(), value.end());
+    damaged[20] ^= std::byte{1};
+    transaction->put(key.bytes(), damaged);
+    transaction->commit();
+  }
+  Database database(path(), kv::Access::read_write);
+  EXPECT_THAT(names_in(database), ElementsAre("a", "c"));
+  EXPECT_EQ(database.contents()->faults.size(), 1u);
+  database.remove("c");  // the damaged one is moved as it is
+  EXPECT_THAT(names_in(database), ElementsAre("a"));
+  database.put(small_recording("d", 2, {"B"}));
+  EXPECT_THAT(names_in(database), ElementsAre("a", "d"));
+  EXPECT_TRUE(database.check().empty());
+}
+
 TEST_F(DatabaseTest, ConcurrentReadersSeeWholeRecordingsWhileOneIsReplaced) {
   Database database(path(), kv::Access::read_write);
   database.put(small_recording("a", 0, {"A"}));
@@ -286,6 +325,8 @@ TEST_F(DatabaseTest, ConcurrentReadersSeeWholeRecordingsWhileOneIsReplaced) {
           const int seed = static_cast<int>(std::lround(motion.pose(0).translations[0].x()));
           EXPECT_TRUE(same_poses(motion, small_motion(300, seed)));
           EXPECT_EQ(database.find(parse("phase = stroke")).size(), 1u);
+          EXPECT_EQ(database.info("a")->motion->frames, 300);
+          EXPECT_EQ(database.document("a").tiers.size(), 2u);
           ++reads;
         } catch (const Error& error) {
           ADD_FAILURE() << error.what();

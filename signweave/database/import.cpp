@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
@@ -13,60 +14,44 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::uint64_t fingerprint(const fs::path& file, std::string_view options) {
-  return checksum(bytes_of(fmt::format("{:x} {}", file_checksum(file), options)));
+/// True where the file would be read otherwise than it was when `layout` was made.
+bool reads_otherwise(const bvh::ReadOptions& options, const bvh::Layout& layout) {
+  return (options.up && *options.up != layout.up) || (options.unit && *options.unit != layout.unit) ||
+         (options.root_unit && *options.root_unit != layout.root_unit) || (options.mirror && !layout.mirrored) ||
+         (options.root_columns != bvh::RootColumns::declared && options.root_columns != layout.root_columns);
 }
 
-/// Everything that changes how a motion file is read.
-std::string describe(const bvh::ReadOptions& options) {
-  return fmt::format("up {} unit {} root {} columns {} mirror {}", options.up ? static_cast<int>(*options.up) : -1,
-                     options.unit.value_or(0), options.root_unit.value_or(0), static_cast<int>(options.root_columns),
-                     options.mirror);
-}
-
-/// Everything that changes what an annotation file means.
-std::string describe(const ImportOptions& options, const ImportJob& job) {
-  std::string text = fmt::format("signer {} offset {} {}", job.signer, options.offset.value_or(Seconds(-1e9)).count(),
-                                 job.offset.value_or(Seconds(-1e9)).count());
-  for (const SyncPoint& sync : options.sync) text += fmt::format(" sync {} {}", sync.frame, sync.time.count());
-  for (const TierNames::SignTier& tier : options.sign_tiers) {
-    text += fmt::format(" sign {:?} {} {}", tier.id, static_cast<int>(tier.hand), tier.signer);
-  }
-  for (const std::string& tier : options.phase_tiers) text += fmt::format(" phase {:?}", tier);
-  for (const auto& [label, kind] : options.phase_labels)
-    text += fmt::format(" label {:?} {}", label, static_cast<int>(kind));
-  return text;
-}
-
-std::string quoted_list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
-  return text;
-}
-
-/// The given tiers, else the guessed ones, with a notice that tells.
-TierNames tier_names(const AnnotationDocument& document, const ImportOptions& options, const std::string& where,
-                     std::vector<Notice>& notices) {
+/// Which tiers hold signs and phases: as given; else as they were, where the document still has them; else guessed,
+/// with a notice that tells.
+TierNames tier_names(const AnnotationDocument& document, const ImportOptions& options, const RecordingInfo* known,
+                     const std::string& where, std::vector<Notice>& notices) {
   TierNames names{options.sign_tiers, options.phase_tiers, options.phase_labels};
-  if (!names.sign_tiers.empty() && !names.phase_tiers.empty()) return names;
-  const TierNames guess = guess_tier_names(document);
+  const bool as_before =
+      known != nullptr && known->document != 0 &&
+      std::all_of(known->tiers.sign_tiers.begin(), known->tiers.sign_tiers.end(),
+                  [&](const TierNames::SignTier& tier) { return document.find_tier(tier.id) != nullptr; }) &&
+      std::all_of(known->tiers.phase_tiers.begin(), known->tiers.phase_tiers.end(),
+                  [&](const std::string& tier) { return document.find_tier(tier) != nullptr; });
+  const TierNames other = as_before ? known->tiers : guess_tier_names(document);
+  if (names.phase_labels.empty() && as_before) names.phase_labels = known->tiers.phase_labels;
   if (names.sign_tiers.empty()) {
-    names.sign_tiers = guess.sign_tiers;
-    std::vector<std::string> ids;
+    names.sign_tiers = other.sign_tiers;
+    std::string told;
     for (const TierNames::SignTier& tier : names.sign_tiers) {
-      ids.push_back(tier.hand == Hand::both ? tier.id : fmt::format("{}' ({} hand)", tier.id, name_of(tier.hand)));
+      told += fmt::format("{}'{}'", told.empty() ? "" : ", ", tier.id);
+      if (tier.hand != Hand::both) told += fmt::format(" ({} hand)", name_of(tier.hand));
     }
-    if (ids.empty()) {
+    if (told.empty()) {
       notices.push_back({where, "no tier looks like glosses, so no sign was found; name one with --sign-tier"});
-    } else {
-      notices.push_back({where, fmt::format("sign tier {} guessed", quoted_list(ids))});
+    } else if (!as_before) {
+      notices.push_back({where, fmt::format("sign tier {} guessed", told)});
     }
   }
   if (names.phase_tiers.empty()) {
-    names.phase_tiers = guess.phase_tiers;
-    if (!names.phase_tiers.empty()) {
-      notices.push_back({where, fmt::format("phase tier {} guessed", quoted_list(names.phase_tiers))});
-    }
+    names.phase_tiers = other.phase_tiers;
+    std::string told;
+    for (const std::string& tier : names.phase_tiers) told += fmt::format("{}'{}'", told.empty() ? "" : ", ", tier);
+    if (!told.empty() && !as_before) notices.push_back({where, fmt::format("phase tier {} guessed", told)});
   }
   return names;
 }
@@ -75,33 +60,48 @@ TierNames tier_names(const AnnotationDocument& document, const ImportOptions& op
 std::optional<Seconds> linked_origin(const AnnotationDocument& document, const std::string& motion_file) {
   for (const LinkedFile& linked : document.linked_files) {
     for (const std::string& url : {linked.url, linked.relative_url}) {
-      if (url.ends_with(motion_file)) return -Seconds(linked.time_origin);
+      if (linked_file_name(url) == motion_file) return -Seconds(linked.time_origin);
     }
   }
   return std::nullopt;
 }
 
-FrameClock clock_for(const ImportJob& job, const ImportOptions& options, FrameRate rate,
-                     const AnnotationDocument* document) {
+/// A clock that a person set, or none. Throws for one that no recording can have.
+std::optional<FrameClock> given_clock(const ImportJob& job, const ImportOptions& options, FrameRate rate) {
   FrameClock clock{rate.frame_time(), Seconds(0)};
+  const char* option = "--offset-ms";
   if (options.sync.size() == 2) {
-    const auto& [first, second] = std::pair(options.sync[0], options.sync[1]);
-    if (first.frame == second.frame || (second.time - first.time) / (second.frame - first.frame) <= Seconds(0)) {
-      throw Error(ErrorCode::bad_input, "--sync: the two points must be two frames, in the order of their times");
-    }
+    option = "--sync";
+    const SyncPoint& first = options.sync[0];
+    const SyncPoint& second = options.sync[1];
     clock.frame_time = (second.time - first.time) / (second.frame - first.frame);
     clock.origin = first.time - first.frame * clock.frame_time;
-    return clock;
+  } else if (!options.sync.empty()) {
+    throw Error(ErrorCode::bad_input, "--sync: give two points, or use --offset-ms");
+  } else if (job.offset || options.offset) {
+    clock.origin = job.offset ? *job.offset : *options.offset;
+  } else {
+    return std::nullopt;
   }
-  if (!options.sync.empty()) throw Error(ErrorCode::bad_input, "--sync: give two points, or use --offset-ms");
-  if (job.offset) {
-    clock.origin = *job.offset;
-  } else if (options.offset) {
-    clock.origin = *options.offset;
-  } else if (document != nullptr && job.motion) {
-    clock.origin = linked_origin(*document, job.motion->filename().string()).value_or(Seconds(0));
+  const double drift = clock.frame_time / rate.frame_time();
+  if (!(std::abs(clock.origin.count()) <= 1e6) || !(drift > 0.5 && drift < 2.0)) {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: frame 0 would be at {:.6g} s and a frame {:.6g} times as long as in the "
+                            "motion file; give the two points in the order of their times",
+                            option, clock.origin.count(), drift));
   }
   return clock;
+}
+
+/// The notices of the half of a recording that stays: those about its file, and those about the recording come anew.
+void keep_notices(const RecordingInfo& known, const std::string& file, std::vector<Notice>& notices) {
+  if (file.empty()) return;
+  for (const Notice& notice : known.notices) {
+    if (notice.where == file || notice.where.ends_with('/' + file) ||
+        notice.where.find(file + ':') != std::string::npos) {
+      notices.push_back(notice);
+    }
+  }
 }
 
 /// Signs that lie outside the motion can be found but not signed: say so.
@@ -123,34 +123,88 @@ void report_uncovered(const std::vector<Sign>& signs, const FrameClock& clock, s
 
 }  // namespace
 
+namespace {
+
+/// What is stored of a job's files already, if anything: under the job's name, or under the shorter name that the same
+/// files had before another file of the same stem came beside them.
+std::optional<RecordingInfo> find_known(const Database& database, const ImportJob& job, std::uint64_t motion_print,
+                                        std::uint64_t annotation_print) {
+  for (std::size_t from = job.name.rfind('/'); from != std::string::npos && from > 0;
+       from = job.name.rfind('/', from - 1)) {
+    std::optional<RecordingInfo> shorter = database.info(job.name.substr(from + 1));
+    if (shorter && (shorter->motion_fingerprint == motion_print || !job.motion) &&
+        (shorter->annotation_fingerprint == annotation_print || !job.annotation)) {
+      return shorter;
+    }
+  }
+  return database.info(job.name);
+}
+
+}  // namespace
+
 ImportReport import_recording(Database& database, const ImportJob& job, const ImportOptions& options,
                               const Database::Progress& progress) {
-  const std::optional<RecordingInfo> known = database.info(job.name);
-  const std::uint64_t motion_print = job.motion ? fingerprint(*job.motion, describe(options.motion)) : 0;
-  const std::uint64_t annotation_print = job.annotation ? fingerprint(*job.annotation, describe(options, job)) : 0;
+  const std::uint64_t motion_print = job.motion ? file_checksum(*job.motion) : 0;
+  const std::uint64_t annotation_print = job.annotation ? file_checksum(*job.annotation) : 0;
+  const std::optional<RecordingInfo> known = find_known(database, job, motion_print, annotation_print);
   const bool motion_known = known && known->motion;
-  const bool new_motion = job.motion && (!motion_known || known->motion_fingerprint != motion_print);
-  bool new_annotation =
-      job.annotation && (!known || known->document == 0 || known->annotation_fingerprint != annotation_print);
+  const bool document_known = known && known->document != 0;
+  const bool same_motion = motion_known && known->motion_fingerprint == motion_print &&
+                           !(known->layout && reads_otherwise(options.motion, *known->layout));
+  const bool new_motion = job.motion && (!same_motion || options.replace_motion);
 
   ImportReport report;
-  report.frames = motion_known ? known->motion->frames : 0;
-  if (!new_motion && !new_annotation) return report;
+  Recording recording;
+  report.name = recording.name = known ? known->name : job.name;
+  recording.signer = !job.signer.empty() || !known ? job.signer : known->signer;
   if (new_motion && motion_known && !options.replace_motion) {
     throw Error(
         ErrorCode::conflict,
         fmt::format("{}: is not the motion that recording '{}' was imported from (or is read with other options); "
                     "--replace-motion takes it, and another file name makes another recording",
-                    job.motion->string(), job.name));
+                    job.motion->string(), recording.name));
   }
-
-  Recording recording{
-      .name = job.name, .signer = job.signer, .motion = {}, .annotation = {}, .clock = {}, .notices = {}};
-  if (recording.signer.empty() && known) recording.signer = known->signer;
   const auto half = [](const Database::Progress& whole, double from) {
     return whole ? Database::Progress([&whole, from](double part) { whole(from + part / 2); }) : Database::Progress();
   };
+
+  // The annotation: read where it is new, or where it may have to be read otherwise.
+  std::optional<AnnotationDocument> document;
+  TierNames names;
+  bool new_annotation = false;
+  std::vector<Notice> annotation_notices;
+  const bool options_about_tiers =
+      !options.sign_tiers.empty() || !options.phase_tiers.empty() || !options.phase_labels.empty();
+  if (job.annotation && (!document_known || known->annotation_fingerprint != annotation_print || options_about_tiers)) {
+    const std::string where = job.annotation->string();
+    eaf::File file = eaf::read(*job.annotation);
+    annotation_notices = std::move(file.notices);
+    names = tier_names(file.document, options, known ? &*known : nullptr, where, annotation_notices);
+    document = std::move(file.document);
+    new_annotation = !document_known || known->annotation_fingerprint != annotation_print || names != known->tiers;
+  } else if (document_known) {
+    document = database.document(recording.name);
+    names = known->tiers;
+  }
+  std::vector<Sign> signs;
+  if (document) {
+    const std::string where = job.annotation ? job.annotation->string() : recording.name;
+    try {
+      SignsFound found = signs_in(*document, names);
+      signs = std::move(found.signs);
+      for (Notice& notice : found.notices) {
+        notice.where = notice.where.empty() ? where : where + ": " + notice.where;
+        annotation_notices.push_back(std::move(notice));
+      }
+    } catch (const Error& error) {  // a tier that was named and is not there: say in which file
+      throw Error(error.code(), fmt::format("{}: {}", where, error.what()));
+    }
+    if (recording.signer.empty() && !signs.empty()) recording.signer = signs[0].signer;
+  }
+
+  // The motion.
   FrameRate rate = motion_known ? known->motion->rate : FrameRate{};
+  report.frames = motion_known ? known->motion->frames : 0;
   if (new_motion) {
     bvh::ReadOptions read_options = options.motion;
     read_options.progress = half(progress, 0);
@@ -162,52 +216,55 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                                   .layout = std::move(file.layout),
                                   .file = job.motion->filename().string(),
                                   .fingerprint = motion_print};
+  } else if (known) {
+    keep_notices(*known, known->motion_file, recording.notices);
   }
-  std::optional<AnnotationDocument> document;
-  std::vector<Sign> signs;
   if (new_annotation) {
-    const std::string where = job.annotation->string();
-    eaf::File file = eaf::read(*job.annotation);
-    recording.notices.insert(recording.notices.end(), file.notices.begin(), file.notices.end());
-    TierNames names = tier_names(file.document, options, where, recording.notices);
-    SignsFound found = [&] {
-      try {
-        return signs_in(file.document, names);
-      } catch (const Error& error) {  // a tier that was named and is not there: say in which file
-        throw Error(error.code(), fmt::format("{}: {}", where, error.what()));
-      }
-    }();
-    for (Notice& notice : found.notices) {
-      if (notice.where.empty()) notice.where = where;
-      recording.notices.push_back(std::move(notice));
+    recording.notices.insert(recording.notices.end(), annotation_notices.begin(), annotation_notices.end());
+  } else if (known) {
+    keep_notices(*known, known->annotation_file, recording.notices);
+  }
+
+  // The clock: as given now; as given before; as the document says; else both begin together.
+  const bool has_motion = new_motion || motion_known;
+  bool new_clock = false;
+  if (has_motion) {
+    const std::string motion_file = job.motion ? job.motion->filename().string() : known->motion_file;
+    const std::optional<FrameClock> given = given_clock(job, options, rate);
+    recording.clock_given = given || (known && known->clock_given);
+    recording.clock = {rate.frame_time(), Seconds(0)};
+    if (given) {
+      recording.clock = *given;
+    } else if (recording.clock_given) {
+      recording.clock = known->clock;
+    } else if (document) {
+      recording.clock.origin = linked_origin(*document, motion_file).value_or(Seconds(0));
     }
-    signs = std::move(found.signs);
-    document = file.document;
-    if (recording.signer.empty() && !signs.empty()) recording.signer = signs[0].signer;
-    recording.annotation = AnnotationPart{.document = std::move(file.document),
+    new_clock = motion_known && recording.clock != known->clock;
+  }
+  if (known && !new_motion && !new_annotation && !new_clock && recording.signer == known->signer) return report;
+
+  if (has_motion && document)
+    report_uncovered(signs, recording.clock, report.frames, recording.name, recording.notices);
+  if (!has_motion)
+    recording.notices.push_back({recording.name, "annotation without motion: it can be searched, not signed"});
+  if (!document)
+    recording.notices.push_back({recording.name, "motion without annotation: it can be read, not searched"});
+  if (new_annotation) {
+    recording.annotation = AnnotationPart{.document = std::move(*document),
                                           .tiers = std::move(names),
                                           .file = job.annotation->filename().string(),
                                           .fingerprint = annotation_print};
-  } else if (known && known->document != 0) {
-    document = database.document(job.name);
-    signs = signs_in(*document, known->tiers).signs;
   }
-  report.signs = signs.size();
-  const bool has_motion = new_motion || motion_known;
-  if (has_motion) {
-    recording.clock = clock_for(job, options, rate, document ? &*document : nullptr);
-    if (document) report_uncovered(signs, recording.clock, report.frames, job.name, recording.notices);
-  }
-  if (!has_motion) recording.notices.push_back({job.name, "annotation without motion: it can be searched, not signed"});
-  if (!document) recording.notices.push_back({job.name, "motion without annotation: it can be read, not searched"});
-
   database.put(recording, half(progress, 0.5));
+  report.signs = signs.size();
   report.notices = recording.notices;
-  if (!known) {
-    report.outcome = ImportOutcome::added;
-  } else {
-    report.outcome = new_motion ? ImportOutcome::motion_replaced : ImportOutcome::annotation_replaced;
-  }
+  report.outcome = !known                              ? ImportOutcome::added
+                   : new_motion && !motion_known       ? ImportOutcome::motion_added
+                   : new_annotation && !document_known ? ImportOutcome::annotation_added
+                   : new_motion                        ? ImportOutcome::motion_replaced
+                   : new_annotation                    ? ImportOutcome::annotation_replaced
+                                                       : ImportOutcome::clock_changed;
   return report;
 }
 

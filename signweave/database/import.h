@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "signweave/annotation/sign.h"
@@ -57,9 +58,18 @@ struct ImportOptions {
   bool replace_motion = false;    ///< take a motion file that changed since it was imported
 };
 
-enum class ImportOutcome { added, unchanged, annotation_replaced, motion_replaced };
+enum class ImportOutcome {
+  added,
+  unchanged,
+  clock_changed,
+  annotation_added,  ///< to a motion that was there
+  annotation_replaced,
+  motion_added,  ///< to an annotation that was there
+  motion_replaced,
+};
 
 struct ImportReport {
+  std::string name;  ///< of the recording; the job's, or the one under which the same files are stored already
   ImportOutcome outcome = ImportOutcome::unchanged;
   std::int64_t frames = 0;  ///< of the motion as it now is; 0: none
   std::size_t signs = 0;    ///< in the annotation as it now is; 0 where the outcome is `unchanged`
@@ -67,9 +77,13 @@ struct ImportReport {
 };
 
 /// Imports one recording: nothing where nothing changed; a changed annotation replaces the annotation alone; a changed
-/// motion is Error{conflict} unless replace_motion. A fault leaves the recording as it was.
+/// motion is Error{conflict} unless replace_motion (which also takes an unchanged one again, over damage). What an
+/// earlier import was told (clock, tiers, signer) holds until it is told anew. A fault leaves the recording as it was.
 ImportReport import_recording(Database& database, const ImportJob& job, const ImportOptions& options,
                               const Database::Progress& progress = {});
+
+/// The name of a file that a URL or path of any system names: its last part, with %20 and the like decoded.
+std::string linked_file_name(std::string_view url);
 
 /// Reads a table of phase labels: lines "LABEL = KIND", KIND one of preparation, stroke, retraction, hold; # comments.
 std::map<std::string, PhaseKind> read_phase_labels(const std::filesystem::path& path);

@@ -162,7 +162,7 @@ TEST_F(ImportTest, HalvesComeTogetherInAnyOrder) {
   EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::added));
   EXPECT_THAT(notices_, testing::Contains(HasSubstr("annotation without motion")));
   write_motion("a.bvh", 1);
-  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::motion_replaced));
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::motion_added));
   const Database database(folder_ / "db", kv::Access::read_only);
   EXPECT_EQ(database.read(database.find(parse("phase = stroke")).at(0)).frame_count(), 20);
 }
@@ -179,6 +179,48 @@ TEST_F(ImportTest, TheClockComesFromTheLinkedFileOrFromOptions) {
   EXPECT_NEAR(clock.origin.count(), 1.0, 1e-9);
   EXPECT_NEAR(clock.frame_time.count(), 0.01001, 1e-9);
   EXPECT_THROW(import_all({.sync = {{0, Seconds(1)}, {0, Seconds(2)}}}), Error);
+}
+
+TEST_F(ImportTest, WhatAnEarlierImportWasToldHolds) {
+  write_motion("a.bvh", 1);
+  write_annotation("a.eaf", {"A"});
+  import_all({.offset = Seconds(0.7)});
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::unchanged));
+  write_annotation("a.eaf", {"B"});
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::annotation_replaced));
+  EXPECT_NEAR(Database(folder_ / "db", kv::Access::read_only).info("a")->clock.origin.count(), 0.7, 1e-9);
+  EXPECT_THAT(import_all({.offset = Seconds(0)}), ElementsAre(ImportOutcome::clock_changed));
+  EXPECT_NEAR(Database(folder_ / "db", kv::Access::read_only).info("a")->clock.origin.count(), 0.0, 1e-9);
+}
+
+TEST_F(ImportTest, AClockThatNoRecordingCanHaveIsRefused) {
+  write_motion("a.bvh", 1);
+  EXPECT_THROW(import_all({.offset = Seconds(std::nan(""))}), Error);
+  EXPECT_THROW(import_all({.offset = Seconds(1e300)}), Error);
+  EXPECT_THROW(import_all({.sync = {{0, Seconds(0)}, {1, Seconds(1000)}}}), Error);
+}
+
+TEST_F(ImportTest, ALinkedFileIsKnownByItsWholeName) {
+  write_motion("sign.bvh", 1);
+  write_annotation("sign.eaf", {"A"},
+                   {{.url = "file:///x/othersign.bvh", .mime_type = "x", .time_origin = 700ms, .media = false},
+                    {.url = "file:///x/s%69gn.bvh", .mime_type = "x", .time_origin = 200ms, .media = false}});
+  import_all();
+  EXPECT_NEAR(Database(folder_ / "db", kv::Access::read_only).info("sign")->clock.origin.count(), -0.2, 1e-9);
+}
+
+TEST_F(ImportTest, AStoredRecordingKeepsItsNameWhenAnotherOfItsStemComesBeside) {
+  write_motion("a.bvh", 1);
+  import_all();
+  write_motion("sub/a.bvh", 2);
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::unchanged, ImportOutcome::added));
+  EXPECT_EQ(Database(folder_ / "db", kv::Access::read_only).contents()->recordings.size(), 2u);
+}
+
+TEST_F(ImportTest, ReplacingTheMotionMendsDamage) {
+  write_motion("a.bvh", 1);
+  import_all();
+  EXPECT_THAT(import_all({.replace_motion = true}), ElementsAre(ImportOutcome::motion_replaced));
 }
 
 TEST_F(ImportTest, SignsOutsideTheMotionAreReported) {

@@ -151,23 +151,6 @@ std::vector<ImportJob> read_pairs(const fs::path& table) {
   return jobs;
 }
 
-/// The last part of a path or URL, either kind of slash, with %20 and the like decoded.
-std::string file_name_of(std::string_view url) {
-  std::string name(url.substr(url.find_last_of("/\\") == url.npos ? 0 : url.find_last_of("/\\") + 1));
-  std::string decoded;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    unsigned value = 0;
-    if (name[i] == '%' && i + 2 < name.size() &&
-        std::from_chars(name.data() + i + 1, name.data() + i + 3, value, 16).ptr == name.data() + i + 3) {
-      decoded += static_cast<char>(value);
-      i += 2;
-    } else {
-      decoded += name[i];
-    }
-  }
-  return decoded;
-}
-
 /// Names of the motion files that an annotation file links. A file that cannot be read links none here: importing it
 /// reports why.
 std::set<std::string> linked_motions(const fs::path& annotation) {
@@ -175,7 +158,7 @@ std::set<std::string> linked_motions(const fs::path& annotation) {
   try {
     for (const LinkedFile& linked : eaf::read(annotation).document.linked_files) {
       for (const std::string& url : {linked.url, linked.relative_url}) {
-        if (kind_of(file_name_of(url)) == Kind::motion) names.insert(file_name_of(url));
+        if (kind_of(linked_file_name(url)) == Kind::motion) names.insert(linked_file_name(url));
       }
     }
   } catch (const Error&) {
@@ -216,6 +199,22 @@ void name_jobs(std::vector<ImportJob>& jobs) {
 }
 
 }  // namespace
+
+std::string linked_file_name(std::string_view url) {
+  std::string name(url.substr(url.find_last_of("/\\") == url.npos ? 0 : url.find_last_of("/\\") + 1));
+  std::string decoded;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    unsigned value = 0;
+    if (name[i] == '%' && i + 2 < name.size() &&
+        std::from_chars(name.data() + i + 1, name.data() + i + 3, value, 16).ptr == name.data() + i + 3) {
+      decoded += static_cast<char>(value);
+      i += 2;
+    } else {
+      decoded += name[i];
+    }
+  }
+  return decoded;
+}
 
 Pairing pair_files(const std::vector<fs::path>& inputs, const std::optional<fs::path>& pairs_table) {
   Pairing result;

@@ -21,7 +21,7 @@ struct MotionPart {
   Motion motion;
   std::optional<bvh::Layout> layout;  ///< how its file looked, for writing it back; none where it was no BVH file
   std::string file;                   ///< the file's name without its folder, for reports; may be empty
-  std::uint64_t fingerprint = 0;      ///< of the file's bytes and the options it was read with; 0: not known
+  std::uint64_t fingerprint = 0;      ///< checksum of the file's bytes; 0: not known
 };
 
 /// The annotation half.
@@ -39,6 +39,7 @@ struct Recording {
   std::optional<MotionPart> motion;
   std::optional<AnnotationPart> annotation;
   FrameClock clock;             ///< meaningful where there is a motion
+  bool clock_given = false;     ///< somebody set the clock; else it follows from the files
   std::vector<Notice> notices;  ///< what reading it reported; kept with the recording
 };
 
@@ -47,6 +48,7 @@ struct RecordingInfo {
   std::string name;
   std::string signer;
   FrameClock clock;
+  bool clock_given = false;  ///< see Recording
   std::optional<motion_db::StoredMotion> motion;
   std::optional<bvh::Layout> layout;
   std::uint64_t document = 0;  ///< generation of the stored document; 0: none

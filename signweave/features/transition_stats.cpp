@@ -18,6 +18,7 @@ std::vector<Transition> transitions_in(std::span<const Sign> signs) {
     const Sign& to = signs[order[i]];
     const bool inferred = from.inferred || to.inferred;
     if (from.tier != to.tier || to.span.begin - from.span.end > (inferred ? kRest : kMeeting)) continue;
+    if (inferred && to.span.begin - from.span.end <= kTouching) continue;
     const auto before = from.stroke_span();
     const auto after = to.stroke_span();
     if (!before || !after || after->begin < before->end) continue;

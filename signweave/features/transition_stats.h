@@ -25,6 +25,9 @@ inline constexpr Milliseconds kRest{1000};
 /// The same between signs whose phases are annotated: there the retraction and the preparation meet, give or take what
 /// an annotator leaves open. (ours)
 inline constexpr Milliseconds kMeeting{100};
+/// Between signs without annotated phases, a gap no longer than this tells nothing: the glosses touch, and the
+/// transitions lie inside them. (ours)
+inline constexpr Milliseconds kTouching{20};
 
 /// The transitions of one recording: neighbours on one sign tier, both with a stroke, at most kMeeting (kRest where
 /// either is inferred) between the end of one sign and the begin of the next. By tier, then time.

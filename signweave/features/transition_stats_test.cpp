@@ -28,6 +28,8 @@ TEST(TransitionStats, ARestIsNoTransition) {
   EXPECT_TRUE(transitions_in(signs).empty());
   signs[0].inferred = true;  // without phases the gap is all there is
   EXPECT_EQ(transitions_in(signs).size(), 1u);
+  signs[1] = sign("B", 415ms, 500ms, 600ms, 700ms);  // glosses that touch tell nothing
+  EXPECT_TRUE(transitions_in(signs).empty());
   signs[1] = sign("B", 1'401ms, 1'500ms, 1'600ms, 1'700ms);
   EXPECT_TRUE(transitions_in(signs).empty());
 }

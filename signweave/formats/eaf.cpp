@@ -1,6 +1,9 @@
 #include "signweave/formats/eaf.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/formats/eaf_edit.h"
@@ -14,8 +17,35 @@ File read(const std::filesystem::path& path) {
   return read_text(path.string(), read_file(path));
 }
 
+namespace {
+
+/// XML cannot hold control characters, written out or as references; the parser lets them pass, and would cut a label
+/// at &#0;.
+void refuse_control_characters(const std::string& name, std::string_view text) {
+  const bool wide = text.size() >= 2 && (text[0] == 0 || text[1] == 0 || text[0] == '\xFE' || text[0] == '\xFF');
+  if (wide) return;  // UTF-16 and UTF-32: checked where a label is written
+  std::size_t line = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = static_cast<unsigned char>(text[i]);
+    if (code == '\n') ++line;
+    if (text.substr(i, 2) == "&#") {
+      const bool hexadecimal = text.substr(i + 2, 1) == "x";
+      const char* begin = text.data() + i + (hexadecimal ? 3 : 2);
+      if (std::from_chars(begin, text.data() + text.size(), code, hexadecimal ? 16 : 10).ec != std::errc()) code = '?';
+    }
+    if (code >= 0x20 || code == '\t' || code == '\n' || code == '\r') continue;
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("{}:{}: a control character (\\x{:02x}), which XML cannot hold; take it out", name, line, code));
+  }
+}
+
+}  // namespace
+
 File read_text(std::string name, std::string_view text) {
+  const std::string file_name = name;
   const Xml xml(std::move(name), text);
+  refuse_control_characters(file_name, text);
   FileParts parts = parse(xml);
   File file{std::move(parts.head), std::move(parts.notices)};
   for (FileTier& from : parts.tiers) {

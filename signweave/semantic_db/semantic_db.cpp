@@ -1,5 +1,7 @@
 #include "signweave/semantic_db/semantic_db.h"
 
+#include <map>
+
 #include "signweave/kv/sealed.h"
 
 namespace signweave::semantic_db {
@@ -67,6 +69,25 @@ Sign sign_at(const SegmentTable& table, RowId row) {
     if (phase.kind == RowKind::phase) sign.phases.push_back({phase.phase, phase.span, table.labels()[phase.text], {}});
   }
   return sign;
+}
+
+std::vector<Sign> signs_of(const SegmentTable& table, std::uint32_t recording) {
+  std::vector<Sign> signs;
+  const SegmentTable::RowRange rows = table.recording_rows(recording);
+  for (RowId row = rows.begin; row < rows.end; ++row) {
+    if (table.row(row).kind == RowKind::sign) signs.push_back(sign_at(table, row));
+  }
+  return signs;
+}
+
+std::vector<Sign> main_signs_of(const SegmentTable& table, std::uint32_t recording) {
+  std::map<std::string, std::vector<Sign>> tiers;
+  for (Sign& sign : signs_of(table, recording)) tiers[sign.tier].push_back(std::move(sign));
+  std::vector<Sign> main;
+  for (auto& [tier, signs] : tiers) {
+    if (signs.size() > main.size()) main = std::move(signs);
+  }
+  return main;
 }
 
 }  // namespace signweave

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "signweave/kv/kv_store.h"
 #include "signweave/semantic_db/segment_table.h"
@@ -32,5 +33,12 @@ namespace signweave {
 
 /// A sign row and its phases as the Sign that they were made of (without its annotation ids and signer).
 Sign sign_at(const SegmentTable& table, RowId row);
+
+/// All signs of a recording, by tier as the table lists them, then time.
+std::vector<Sign> signs_of(const SegmentTable& table, std::uint32_t recording);
+
+/// Those of its main sign tier, the one with most signs (of several, the first): what a run of signs means where each
+/// hand has a tier of its own.
+std::vector<Sign> main_signs_of(const SegmentTable& table, std::uint32_t recording);
 
 }  // namespace signweave

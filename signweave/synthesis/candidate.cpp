@@ -15,10 +15,18 @@ std::string obstacle(const RecordingInfo& info, const Sign& sign) {
   if (!info.motion) return "its recording has no motion";
   const auto stroke = sign.stroke_span();
   if (!stroke) return "it has no stroke";
-  if (clamp(frames_of(*stroke, info.clock), info.motion->frames).empty()) {
-    return fmt::format("its stroke lies outside the motion, which has {} frames", info.motion->frames);
+  const FrameRange frames = frames_of(*stroke, info.clock);
+  if (frames.begin < -1 || frames.end > info.motion->frames + 1) {  // a frame of rounding on either side
+    return fmt::format("its stroke reaches outside the motion, which has {} frames", info.motion->frames);
   }
   return {};
+}
+
+/// The frames of a span, at least one where it lies inside the motion.
+FrameRange core_frames(TimeSpan span, const RecordingInfo& info) {
+  FrameRange frames = frames_of(span, info.clock);
+  if (frames.begin == frames.end) ++frames.end;  // shorter than half a frame
+  return clamp(frames, info.motion->frames);
 }
 
 // An inferred stroke holds the whole sign, its own transitions too, so an annotated token is preferred; but a good join
@@ -69,23 +77,18 @@ Candidate piece_candidate(const Contents& contents, const Place& place) {
   if (!info.motion) throw Error(ErrorCode::not_found, fmt::format("recording '{}' has no motion", info.name));
   Candidate piece;
   piece.recording = static_cast<std::size_t>(&info - contents.recordings.data());
-  piece.core = clamp(frames_of(place.span, info.clock), info.motion->frames);
+  piece.core = core_frames(place.span, info);
   piece.whole = piece.core;
-  if (piece.core.empty()) {
+  const FrameRange asked = frames_of(place.span, info.clock);
+  if (piece.core.empty() || asked.begin < -1 || asked.end > info.motion->frames + 1) {
     const TimeSpan all = span_of({0, info.motion->frames}, info.clock);
     throw Error(ErrorCode::bad_input,
-                fmt::format("'{}'@{}..{} lies outside the motion, which covers {}..{} ms", info.name,
+                fmt::format("'{}'@{}..{} reaches outside the motion, which covers {}..{} ms", info.name,
                             place.span.begin.count(), place.span.end.count(), all.begin.count(), all.end.count()));
   }
-  const SegmentTable::RowRange rows = contents.segments.recording_rows(static_cast<std::uint32_t>(piece.recording));
-  for (RowId row = rows.begin; row < rows.end; ++row) {
-    const SegmentRow& sign = contents.segments.row(row);
-    if (sign.kind == RowKind::sign && place.span.contains(sign.span)) {
-      piece.signs.push_back(sign_at(contents.segments, row));
-    }
+  for (Sign& sign : main_signs_of(contents.segments, static_cast<std::uint32_t>(piece.recording))) {
+    if (place.span.contains(sign.span)) piece.signs.push_back(std::move(sign));
   }
-  std::sort(piece.signs.begin(), piece.signs.end(),
-            [](const Sign& a, const Sign& b) { return a.span.begin < b.span.begin; });
   return piece;
 }
 
@@ -116,17 +119,20 @@ std::vector<Candidate> candidates_for(const Contents& contents, const Place& pla
 
 std::optional<Candidate> candidate_of_run(const Contents& contents, std::size_t recording, std::vector<Sign> signs) {
   const RecordingInfo& info = contents.recordings[recording];
-  const auto first = signs.front().stroke_span();
-  const auto last = signs.back().stroke_span();
-  if (!info.motion || !first || !last) return std::nullopt;
+  const auto has_stroke = [](const Sign& sign) { return sign.stroke_span().has_value(); };
+  const auto first = std::find_if(signs.begin(), signs.end(), has_stroke);
+  if (!info.motion || first == signs.end()) return std::nullopt;
+  const auto last = std::find_if(signs.rbegin(), signs.rend(), has_stroke).base() - 1;
   Candidate run;
   run.recording = recording;
-  run.core = clamp(frames_of({first->begin, last->end}, info.clock), info.motion->frames);
-  run.whole = clamp(frames_of({signs.front().span.begin, signs.back().span.end}, info.clock), info.motion->frames);
+  run.core = core_frames({first->stroke_span()->begin, last->stroke_span()->end}, info);
+  run.whole = clamp(frames_of({first->span.begin, last->span.end}, info.clock), info.motion->frames);
   // Phases that reach outside their sign must not make the whole smaller than its core.
   run.whole = {std::min(run.whole.begin, run.core.begin), std::max(run.whole.end, run.core.end)};
   if (run.core.empty()) return std::nullopt;
-  run.signs = std::move(signs);
+  run.signs.assign(first, last + 1);
+  run.left_out.assign(signs.begin(), first);
+  run.left_out.insert(run.left_out.end(), last + 1, signs.end());
   return run;
 }
 

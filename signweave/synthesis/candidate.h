@@ -13,12 +13,13 @@ namespace signweave {
 
 /// A stretch of one recording that may fill one place: mostly one sign, in an edit a run of signs as captured.
 struct Candidate {
-  std::size_t recording = 0;  ///< index into Contents::recordings
-  std::vector<Sign> signs;    ///< in time order; empty for a bare piece of a recording
-  FrameRange whole;           ///< with preparation and retraction; within the motion
-  FrameRange core;            ///< from the first stroke's begin to the last stroke's end: never changed. Not empty
-  std::size_t token = 0;      ///< which token of its gloss it is, from 1; 0 for a run or a piece
-  double cost = 0;            ///< the target cost: what speaks against it by itself
+  std::size_t recording = 0;   ///< index into Contents::recordings
+  std::vector<Sign> signs;     ///< in time order; empty for a bare piece of a recording
+  std::vector<Sign> left_out;  ///< signs without stroke at the ends of a run: nothing of them can be kept at a cut
+  FrameRange whole;            ///< with preparation and retraction; within the motion
+  FrameRange core;             ///< from the first stroke's begin to the last stroke's end: never changed. Not empty
+  std::size_t token = 0;       ///< which token of its gloss it is, from 1; 0 for a run or a piece
+  double cost = 0;             ///< the target cost: what speaks against it by itself
 
   const std::string& gloss() const noexcept { return signs.front().gloss; }
 };
@@ -30,8 +31,8 @@ std::vector<RowId> tokens_of(const Contents& contents, std::string_view gloss);
 /// number it is an error that says why. Throws Error{not_found} with near matches for a gloss that the database lacks.
 std::vector<Candidate> candidates_for(const Contents& contents, const Place& place);
 
-/// A run of neighbouring signs of one recording as one candidate. `signs` in time order, at least one, the first and
-/// the last with a stroke. None where its strokes lie outside the motion.
+/// A run of neighbouring signs of one recording, in time order, as one candidate, from its first sign with a stroke to
+/// its last. None where no sign has a stroke inside the motion.
 std::optional<Candidate> candidate_of_run(const Contents& contents, std::size_t recording, std::vector<Sign> signs);
 
 }  // namespace signweave

@@ -24,22 +24,23 @@ struct Laid {
   std::int64_t retraction = 0;  ///< output frames after it
 
   double frame_at(std::int64_t k) const noexcept {
-    return static_cast<double>(source->core.begin) + static_cast<double>(k) * step;
+    const double frame = static_cast<double>(source->core.begin) + static_cast<double>(k) * step;
+    return std::clamp(frame, static_cast<double>(source->frames.begin), static_cast<double>(source->frames.end - 1));
   }
   void pose_at(std::int64_t k, MutablePoseView out) const noexcept {
-    sample(source->motion, frame_at(k) - static_cast<double>(source->whole.begin), out);
+    sample(source->motion, frame_at(k) - static_cast<double>(source->frames.begin), out);
     if (aligned) apply(transform, out);
   }
 };
 
-void check_skeletons(const std::vector<Stretch>& stretches) {
+void check_skeletons(const std::vector<Stretch>& stretches, const Stretch& reference) {
   for (const Stretch& stretch : stretches) {
-    const auto differs = difference(stretches[0].motion.skeleton(), stretch.motion.skeleton());
+    const auto differs = difference(reference.motion.skeleton(), stretch.motion.skeleton());
     if (!differs) continue;
     throw Error(ErrorCode::bad_input,
                 fmt::format("recordings '{}' and '{}' have different skeletons: {}; only motions with "
                             "the same joints can be joined",
-                            stretches[0].recording, stretch.recording, *differs));
+                            reference.recording, stretch.recording, *differs));
   }
 }
 
@@ -52,11 +53,10 @@ FrameRate highest_rate(const std::vector<Stretch>& stretches) {
 }
 
 FrameRange within(const Stretch& stretch, FrameRange frames) {
-  return {frames.begin - stretch.whole.begin, frames.end - stretch.whole.begin};
+  return {frames.begin - stretch.frames.begin, frames.end - stretch.frames.begin};
 }
 
-Laid lay(const Stretch& stretch, const ConcatenateOptions& options, FrameRate rate, const Standing& home,
-         bool first_recording) {
+Laid lay(const Stretch& stretch, const ConcatenateOptions& options, FrameRate rate, const Standing& home, bool own) {
   Laid laid;
   laid.source = &stretch;
   laid.step =
@@ -67,8 +67,7 @@ Laid lay(const Stretch& stretch, const ConcatenateOptions& options, FrameRate ra
   laid.core_frames = std::max<std::int64_t>(1, std::llround(static_cast<double>(stretch.core.size()) / laid.step));
   laid.preparation = frames(stretch.core.begin - stretch.whole.begin);
   laid.retraction = frames(stretch.whole.end - stretch.core.end);
-  laid.aligned =
-      options.alignment == Alignment::ground || (options.alignment == Alignment::automatic && !first_recording);
+  laid.aligned = options.alignment == Alignment::ground || (options.alignment == Alignment::automatic && !own);
   if (laid.aligned) {
     laid.transform = align(standing_over(stretch.motion, within(stretch, stretch.core)), home);
   }
@@ -125,8 +124,9 @@ class Writer {
       out_.sources.push_back({FrameSource::kNone, static_cast<std::int32_t>(junction), 0});
     }
   }
-  void gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count, std::size_t junction) {
-    fill_gap(from, to, index, count, out_.motion.append());
+  void gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count, double ease,
+           std::size_t junction) {
+    fill_gap(from, to, index, count, ease, out_.motion.append());
     out_.sources.push_back({FrameSource::kNone, static_cast<std::int32_t>(junction), 0});
   }
 
@@ -141,7 +141,7 @@ class Writer {
 };
 
 /// The transition between two stretches: Algorithm 1, lines 3 to 6.
-void join(const Laid& a, const Laid& b, std::size_t index, const TransitionCut& cut, Writer& writer,
+void join(const Laid& a, const Laid& b, std::size_t index, const TransitionCut& cut, double hertz, Writer& writer,
           const Skeleton& skeleton) {
   const auto stretch = static_cast<std::int64_t>(index);
   const auto junction = static_cast<std::int32_t>(index);
@@ -167,7 +167,8 @@ void join(const Laid& a, const Laid& b, std::size_t index, const TransitionCut& 
     b.pose_at(first + after, right_context.view());
     const Border from{left.view(), left_context.view(), before};
     const Border to{right.view(), right_context.view(), after};
-    for (std::int64_t k = 0; k < gap; ++k) writer.gap(from, to, k, gap, index);
+    const double ease = kEaseSeconds * hertz;
+    for (std::int64_t k = 0; k < gap; ++k) writer.gap(from, to, k, gap, ease, index);
   }
   for (std::int64_t k = -cut.preparation_frames + overlap; k < 0; ++k) {
     writer.keep(b, static_cast<std::size_t>(stretch) + 1, k, junction);
@@ -182,6 +183,7 @@ Milliseconds time_of(std::int64_t frame, FrameRate rate) {
 /// Where a stretch's signs may lie: between the middles of the transitions on both sides.
 struct Room {
   TimeSpan span;
+  TimeSpan kept;               ///< where the frames are those of the recording
   bool joined_before = false;  ///< a junction is there, not the begin of the result
   bool joined_after = false;
 };
@@ -202,13 +204,29 @@ void place_signs(const Stretch& stretch, const Placed& placed, std::size_t index
     const bool last = i + 1 == stretch.signs.size();
     sign.sign.span = {first && room.joined_before ? room.span.begin : output_time(source.span.begin),
                       last && room.joined_after ? room.span.end : output_time(source.span.end)};
-    const auto recorded_stroke = source.stroke_span();
-    if (!recorded_stroke) continue;  // inside a run: nothing was kept of it as a sign of its own
-    TimeSpan stroke{output_time(recorded_stroke->begin), output_time(recorded_stroke->end)};
-    // At the stretch's ends the stroke begins and ends exactly with the core's frames.
-    if (first) stroke.begin = time_of(placed.core.begin, rate);
-    if (last) stroke.end = time_of(placed.core.end, rate);
     std::vector<Phase> phases;
+    if (!(first && room.joined_before) && !(last && room.joined_after)) {
+      // Nothing of it was made: it stays as it was annotated, holds and all.
+      for (const Phase& phase : source.phases) {
+        phases.push_back({phase.kind, {output_time(phase.span.begin), output_time(phase.span.end)}, phase.label, {}});
+        sign.sign.span = {std::min(sign.sign.span.begin, phases.back().span.begin),
+                          std::max(sign.sign.span.end, phases.back().span.end)};
+      }
+      std::erase_if(phases, [](const Phase& phase) { return phase.span.duration() <= Milliseconds(0); });
+      sign.sign.phases = std::move(phases);
+      out.signs.push_back(std::move(sign));
+      continue;
+    }
+    const auto recorded_stroke = source.stroke_span();
+    if (!recorded_stroke) continue;  // of a bare piece: cut through, and no part of it is whole
+    TimeSpan stroke{output_time(recorded_stroke->begin), output_time(recorded_stroke->end)};
+    // Where the core begins or ends with the stroke, so does the stroke with the core's frames.
+    const auto meets = [&](Milliseconds recorded, std::int64_t frame) {
+      return std::abs(stretch.clock.frame_at(recorded) - static_cast<double>(frame)) <= 1.0;
+    };
+    if (first && meets(recorded_stroke->begin, stretch.core.begin)) stroke.begin = time_of(placed.core.begin, rate);
+    if (last && meets(recorded_stroke->end, stretch.core.end)) stroke.end = time_of(placed.core.end, rate);
+    sign.sign.span = {std::min(sign.sign.span.begin, stroke.begin), std::max(sign.sign.span.end, stroke.end)};
     const auto add = [&](PhaseKind kind, TimeSpan span, const std::string& label) {
       if (span.begin < span.end) phases.push_back({kind, span, label, {}});
     };
@@ -218,7 +236,24 @@ void place_signs(const Stretch& stretch, const Placed& placed, std::size_t index
       }
       return std::string(otherwise);
     };
-    add(PhaseKind::preparation, {sign.sign.span.begin, stroke.begin}, label_of(PhaseKind::preparation, "Preparation"));
+    // Preparation and retraction fill what was made; a hold that is kept in them stays a hold.
+    const auto surround = [&](PhaseKind kind, const std::string& label, TimeSpan all) {
+      Milliseconds from = all.begin;
+      for (const Phase& phase : source.phases) {
+        const bool inside = kind == PhaseKind::preparation ? phase.span.end <= recorded_stroke->begin
+                                                           : phase.span.begin >= recorded_stroke->end;
+        if (!inside || phase.kind == PhaseKind::preparation || phase.kind == PhaseKind::retraction) continue;
+        const TimeSpan hold{std::max({from, output_time(phase.span.begin), room.kept.begin}),
+                            std::min({all.end, output_time(phase.span.end), room.kept.end})};
+        if (hold.begin >= hold.end) continue;
+        add(kind, {from, hold.begin}, label);
+        add(phase.kind, hold, phase.label);
+        from = hold.end;
+      }
+      add(kind, {from, all.end}, label);
+    };
+    surround(PhaseKind::preparation, label_of(PhaseKind::preparation, "Preparation"),
+             {sign.sign.span.begin, stroke.begin});
     Milliseconds at = stroke.begin;
     for (const Phase& phase : source.phases) {
       if (!recorded_stroke->contains(phase.span) || phase.span.duration() <= Milliseconds(0)) continue;
@@ -227,7 +262,7 @@ void place_signs(const Stretch& stretch, const Placed& placed, std::size_t index
       add(phase.kind, {at, end}, source.inferred ? "Stroke" : phase.label);
       at = std::max(at, end);
     }
-    add(PhaseKind::retraction, {stroke.end, sign.sign.span.end}, label_of(PhaseKind::retraction, "Retraction"));
+    surround(PhaseKind::retraction, label_of(PhaseKind::retraction, "Retraction"), {stroke.end, sign.sign.span.end});
     sign.sign.phases = std::move(phases);
     out.signs.push_back(std::move(sign));
   }
@@ -237,14 +272,15 @@ void place_signs(const Stretch& stretch, const Placed& placed, std::size_t index
 
 Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOptions& options) {
   if (stretches.empty()) throw Error(ErrorCode::bad_input, "nothing to join");
-  check_skeletons(stretches);
+  const Stretch& reference = stretches.at(options.reference);
+  check_skeletons(stretches, reference);
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
   const FrameRate rate = options.rate.numerator > 0 ? options.rate : highest_rate(stretches);
-  const Standing home = standing_over(stretches[0].motion, within(stretches[0], stretches[0].core));
+  const Standing home = standing_over(reference.motion, within(reference, reference.core));
 
   std::vector<Laid> laid;
   for (const Stretch& stretch : stretches) {
-    laid.push_back(lay(stretch, options, rate, home, stretch.recording == stretches[0].recording));
+    laid.push_back(lay(stretch, options, rate, home, stretch.recording == reference.recording));
   }
   std::vector<TransitionCut> cuts;
   std::int64_t total = laid.front().preparation + laid.back().retraction;
@@ -263,7 +299,7 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
   }
 
   Synthesis out;
-  out.motion = Motion(stretches[0].motion.shared_skeleton(), rate);
+  out.motion = Motion(reference.motion.shared_skeleton(), rate);
   out.motion.reserve(total);
   out.sources.reserve(static_cast<std::size_t>(total));
   Writer writer(out);
@@ -277,7 +313,7 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
     out.stretches.push_back(placed);
     if (i + 1 == laid.size()) break;
     const std::int64_t begin = writer.frame_count();
-    join(laid[i], laid[i + 1], i, cuts[i], writer, out.motion.skeleton());
+    join(laid[i], laid[i + 1], i, cuts[i], rate.hertz(), writer, out.motion.skeleton());
     out.junctions.push_back({.from = name_at_end(stretches[i]),
                              .to = name_at_begin(stretches[i + 1]),
                              .frames = {begin, writer.frame_count()},
@@ -301,7 +337,16 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
     const bool last = i + 1 == stretches.size();
     const TimeSpan span{i == 0 ? Milliseconds(0) : middle(i - 1),
                         last ? time_of(writer.frame_count(), rate) : middle(i)};
-    place_signs(stretches[i], out.stretches[i], i, {span, i > 0, !last}, out);
+    TimeSpan kept = span;
+    if (i > 0) {
+      const Junction& before = out.junctions[i - 1];
+      kept.begin = time_of(before.frames.end - before.cut.preparation_frames + before.cut.overlap(), rate);
+    }
+    if (!last) {
+      const Junction& after = out.junctions[i];
+      kept.end = time_of(after.frames.begin + after.cut.retraction_frames - after.cut.overlap(), rate);
+    }
+    place_signs(stretches[i], out.stretches[i], i, {span, kept, i > 0, !last}, out);
   }
   return out;
 }

@@ -17,8 +17,9 @@ namespace signweave {
 /// A stretch of a recording with its frames, ready to be joined.
 struct Stretch {
   std::string recording;
-  Motion motion;            ///< the frames `whole` (and no others) of the recording
-  FrameRange whole;         ///< which frames of the recording these are
+  Motion motion;            ///< the frames `frames` of the recording
+  FrameRange frames;        ///< `whole`, and one more where the recording has it, to interpolate towards
+  FrameRange whole;         ///< what may be used of it: the core with the first preparation and the last retraction
   FrameRange core;          ///< the frames of the recording that are kept as they are; inside `whole`, not empty
   FrameClock clock;         ///< of the recording
   std::vector<Sign> signs;  ///< in the recording's annotation time
@@ -71,9 +72,9 @@ struct Synthesis {
   std::vector<std::pair<std::string, std::string>> declarations;
 };
 
-/// How stretches from other recordings are brought to where the signer of the first stands.
+/// How stretches from other recordings are brought to where the signer of the reference stretch stands.
 enum class Alignment {
-  automatic,  ///< `ground` for stretches of other recordings than the first, none for its own
+  automatic,  ///< `ground` for stretches of other recordings than the reference, none for its own
   ground,     ///< every stretch: shift on the ground and turn about the vertical
   none,       ///< all sources come from one session
 };
@@ -84,12 +85,13 @@ struct ConcatenateOptions {
   double tempo = 1;                          ///< above 1 is faster; positive
   FrameRate rate{0, 1};                      ///< of the output; 0: the highest of the sources
   Alignment alignment = Alignment::automatic;
+  std::size_t reference = 0;  ///< the stretch that gives skeleton and standing: in an edit, one of the edited recording
 };
 
 /// Joins stretches (the paper's Algorithm 1 between each two of them). Every core is kept as captured: at the source's
 /// own rate and tempo 1 its rotations have the source's bits, up to the quaternion's sign and the root's alignment;
-/// else they are the source interpolated at the stated frame. Alignment always goes to where the first stretch's signer
-/// stands, so nothing drifts. The result has the first stretch's skeleton.
+/// else they are the source interpolated at the stated frame. Alignment always goes to where the reference's signer
+/// stands, so nothing drifts. The result has the reference's skeleton.
 ///
 /// Throws Error{bad_input} where skeletons differ in more than offsets (naming the joint), or nothing is to be joined.
 Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOptions& options);

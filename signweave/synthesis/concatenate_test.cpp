@@ -121,6 +121,22 @@ TEST_P(Concatenate, TheHighestRateWins) {
   EXPECT_EQ(concatenate(stretches, slower).stretches[1].core.size(), 60);
 }
 
+TEST_P(Concatenate, AtAnotherRateAStrokeIsItsSourceInterpolatedToTheLastFrame) {
+  const Stretch slow = stretch("A", 0.1f, 10, 20, 0, {50, 1});
+  const Synthesis made = concatenate({slow, stretch("B", 0.8f, 30, 33, 20)}, options());
+  const Motion recording = testing_motion::moving(45, {50, 1}, 0.1f);
+  Pose expected(recording.skeleton());
+  const Placed& placed = made.stretches[0];
+  ASSERT_EQ(placed.core.size(), 40);
+  for (std::int64_t k = 0; k < placed.core.size(); ++k) {
+    sample(recording, static_cast<double>(slow.core.begin) + 0.5 * static_cast<double>(k), expected.view());
+    const PoseView shown = made.motion.pose(placed.core.begin + k);
+    for (std::size_t joint = 1; joint < shown.rotations.size(); ++joint) {
+      EXPECT_LT(angle(shown.rotations[joint], expected.rotations[joint]), 1e-6) << k;
+    }
+  }
+}
+
 TEST_P(Concatenate, TempoScalesSignsAndTransitions) {
   const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 30, 20)};
   ConcatenateOptions twice = options(600ms);
@@ -220,6 +236,41 @@ TEST(Crossfading, DoesNotJumpWhereTheSidesPassHalfATurnApart) {
   for (std::int64_t frame = junction.frames.begin + 1; frame < junction.frames.end; ++frame) {
     EXPECT_LT(angle(made.motion.pose(frame - 1).rotations[2], made.motion.pose(frame).rotations[2]), 0.4) << frame;
   }
+}
+
+TEST_P(Concatenate, HoldsAreKeptAsAnnotated) {
+  std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 60), stretch("B", 0.8f, 30, 33, 20)};
+  Sign& sign = stretches[0].signs[0];
+  sign.phases.back().span.begin += 100ms;  // the hands wait before they leave
+  sign.phases.insert(sign.phases.end() - 1,
+                     {PhaseKind::hold, {sign.phases[1].span.end, sign.phases[1].span.end + 100ms}, "Hold", {}});
+  const Synthesis made = concatenate(stretches, options());
+  const std::vector<Phase>& phases = made.signs[0].sign.phases;
+  ASSERT_EQ(phases.size(), 4u);
+  EXPECT_EQ(phases[2].kind, PhaseKind::hold);
+  EXPECT_EQ(phases[2].span.duration(), 100ms);
+  EXPECT_EQ(phases[3].kind, PhaseKind::retraction);
+  EXPECT_EQ(phases[3].span.end, made.signs[0].sign.span.end);
+}
+
+TEST_P(Concatenate, APieceThatIsCutThroughASignSaysNothingFalseOfIt) {
+  std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 100, 25), stretch("B", 0.8f, 30, 33, 20)};
+  Sign& sign = stretches[0].signs[0];  // its stroke ends long before the piece does
+  sign.phases[1].span.end = sign.phases[1].span.begin + 400ms;
+  sign.phases.back().span.begin = sign.phases[1].span.end;
+  const Synthesis made = concatenate(stretches, options());
+  EXPECT_EQ(made.signs[0].sign.stroke_span()->duration(), 400ms);
+}
+
+TEST_P(Concatenate, TheReferenceGivesSkeletonAndStanding) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25, {100, 1}, small_skeleton(0.3f)),
+                                          stretch("B", 0.8f, 30, 33, 20, {100, 1}, small_skeleton(0.35f))};
+  ConcatenateOptions second = options();
+  second.reference = 1;
+  const Synthesis made = concatenate(stretches, second);
+  EXPECT_FLOAT_EQ(made.motion.skeleton().joint(2).offset.x(), 0.35f);
+  EXPECT_EQ(made.motion.pose(made.stretches[1].core.begin).translations[0],
+            stretches[1].motion.pose(30).translations[0]);
 }
 
 TEST(ConcatenateFaults, NothingToJoin) {

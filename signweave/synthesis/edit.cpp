@@ -13,23 +13,6 @@
 namespace signweave {
 namespace {
 
-/// The signs of the recording's main sign tier (the one with most signs), in time order.
-std::vector<Sign> main_signs(const Contents& contents, std::size_t recording) {
-  std::map<std::string, std::vector<Sign>> tiers;
-  const SegmentTable::RowRange rows = contents.segments.recording_rows(static_cast<std::uint32_t>(recording));
-  for (RowId row = rows.begin; row < rows.end; ++row) {
-    if (contents.segments.row(row).kind != RowKind::sign) continue;
-    Sign sign = sign_at(contents.segments, row);
-    tiers[sign.tier].push_back(std::move(sign));
-  }
-  std::vector<Sign> signs;
-  for (auto& [tier, list] : tiers) {
-    if (list.size() > signs.size()) signs = std::move(list);
-  }
-  std::sort(signs.begin(), signs.end(), [](const Sign& a, const Sign& b) { return a.span.begin < b.span.begin; });
-  return signs;
-}
-
 std::size_t find_sign(const std::vector<Sign>& signs, const GlossRef& wanted, const std::string& recording) {
   const std::string form = match_form(wanted.gloss);
   std::vector<std::size_t> found;
@@ -63,7 +46,7 @@ struct Item {
 
 std::vector<Item> items_for(const std::vector<Sign>& signs, const Edit& edit, const std::string& recording) {
   std::vector<Item> items;
-  if (!edit.swaps.empty()) {
+  if (edit.swap) {
     const auto run_of = [&](const SignRun& run) {
       const Item item{find_sign(signs, run.first, recording), find_sign(signs, run.last, recording)};
       if (item.last < item.first) {
@@ -72,8 +55,8 @@ std::vector<Item> items_for(const std::vector<Sign>& signs, const Edit& edit, co
       }
       return item;
     };
-    Item a = run_of(edit.swaps[0].first);
-    Item b = run_of(edit.swaps[0].second);
+    Item a = run_of(edit.swap->first);
+    Item b = run_of(edit.swap->second);
     if (b.first < a.first) std::swap(a, b);
     if (b.first <= a.last) throw Error(ErrorCode::bad_input, "the two runs to swap share signs");
     if (a.first > 0) items.push_back({0, a.first - 1});
@@ -133,7 +116,7 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
   const RecordingInfo& info = contents.at(recording);
   const auto index = static_cast<std::size_t>(&info - contents.recordings.data());
   if (!info.motion) throw Error(ErrorCode::not_found, fmt::format("recording '{}' has no motion", info.name));
-  const std::vector<Sign> signs = main_signs(contents, index);
+  const std::vector<Sign> signs = main_signs_of(contents.segments, static_cast<std::uint32_t>(index));
   if (signs.empty()) throw Error(ErrorCode::not_found, fmt::format("recording '{}' has no signs to edit", info.name));
 
   std::vector<Choice> choices;
@@ -151,16 +134,34 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
       std::optional<Candidate> candidate = candidate_of_run(contents, index, std::move(run));
       if (!candidate) {
         throw Error(ErrorCode::bad_input,
-                    fmt::format("'{}' to '{}' in recording '{}' cannot be kept: a sign at an end of it "
-                                "has no stroke inside the motion",
+                    fmt::format("'{}' to '{}' in recording '{}' cannot be kept: no sign of it has a stroke "
+                                "inside the motion",
                                 from, to, info.name));
       }
       // What lies before the first sign and after the last stays as captured.
-      if (i == 0 && item.first == 0) candidate->whole.begin = 0;
+      if (i == 0 && item.first == 0) {
+        candidate->whole.begin = 0;
+      }
       if (i + 1 == items.size() && item.last + 1 == signs.size()) candidate->whole.end = info.motion->frames;
       choice.candidates.push_back(std::move(*candidate));
     }
     choices.push_back(std::move(choice));
+  }
+  if (edit.swap) return choices;
+  // Where the first or the last sign is replaced, what lies before or after it stays, as a stretch without signs.
+  const auto bare = [&](FrameRange frames) {
+    const FrameRange inside = clamp(frames, info.motion->frames);
+    Choice choice;
+    if (!inside.empty()) choice.candidates.push_back({.recording = index, .whole = inside, .core = inside});
+    return choice;
+  };
+  if (items.front().replacement != nullptr) {
+    Choice before = bare({0, frames_of(signs.front().span, info.clock).begin});
+    if (!before.candidates.empty()) choices.insert(choices.begin(), std::move(before));
+  }
+  if (items.back().replacement != nullptr) {
+    Choice after = bare({frames_of(signs.back().span, info.clock).end, info.motion->frames});
+    if (!after.candidates.empty()) choices.push_back(std::move(after));
   }
   return choices;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "signweave/database/database.h"
@@ -23,10 +25,12 @@ struct SignRun {
   GlossRef last;
 };
 
-/// An edit of a recording: replacements, or two runs that change places (the paper's two scenarios, section 5.1).
+/// An edit of a recording: replacements, or two runs that change places (the paper's two scenarios, section 5.1). What
+/// lies before the first sign and after the last stays where that sign is kept or replaced; a swap that moves the sign
+/// leaves it out.
 struct Edit {
   std::vector<Replacement> replacements;
-  std::vector<std::pair<SignRun, SignRun>> swaps;  ///< at most one
+  std::optional<std::pair<SignRun, SignRun>> swap;
 };
 
 /// `A#1=B#2`, with quotes where a gloss holds '=' or ends like a token. Throws Error{bad_input}.
@@ -36,7 +40,7 @@ std::pair<SignRun, SignRun> parse_swap(std::string_view text);
 
 /// What fills each place of the edited recording: runs as captured, with the recording's begin and end, and candidates
 /// for what was replaced. Throws Error{not_found} with near matches, Error{bad_input} for a gloss that occurs more than
-/// once and has no token, for runs that overlap or are reversed, for a sign without stroke at a cut.
+/// once and has no token, for runs that overlap or are reversed, for a run without any stroke.
 std::vector<Choice> choices_for(const Contents& contents, std::string_view recording, const Edit& edit);
 
 }  // namespace signweave

@@ -48,7 +48,7 @@ AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& 
     const double frames = static_cast<double>(placed.output.end - placed.core.begin) * placed.step;
     const double before = static_cast<double>(placed.core.begin - placed.output.begin) * placed.step;
     source.annotations.push_back(annotation(span_of(placed.output, clock),
-                                            fmt::format("{} frames {:.6g}..{:.6g}", placed.recording,
+                                            fmt::format("{} frames {:.10g}..{:.10g}", placed.recording,
                                                         placed.first_frame - before, placed.first_frame + frames),
                                             new_id()));
   }

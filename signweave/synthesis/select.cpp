@@ -14,7 +14,7 @@ struct Ends {
   Pose last;   ///< the last stroke frame
 };
 
-Pose pose_at(const Database& database, const std::string& recording, std::int64_t frame) {
+Pose pose_at(const Database& database, const RecordingInfo& recording, std::int64_t frame) {
   return Pose(database.read(recording, {frame, frame + 1}).pose(0));
 }
 
@@ -58,8 +58,8 @@ Selection select(const Database& database, const Contents& contents, std::span<c
   const auto ends_of = [&](const Choice& choice) {
     std::vector<Ends> ends;
     for (const Candidate& candidate : choice.candidates) {
-      const std::string& name = contents.recordings[candidate.recording].name;
-      ends.push_back({pose_at(database, name, candidate.core.begin), pose_at(database, name, candidate.core.end - 1)});
+      const RecordingInfo& info = contents.recordings[candidate.recording];
+      ends.push_back({pose_at(database, info, candidate.core.begin), pose_at(database, info, candidate.core.end - 1)});
     }
     return ends;
   };

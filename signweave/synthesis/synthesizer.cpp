@@ -13,13 +13,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// What the documents of the recordings used declare of themselves.
-std::vector<std::pair<std::string, std::string>> declarations_of(const Database& database, const Contents& contents,
+std::vector<std::pair<std::string, std::string>> declarations_of(const Database& database,
                                                                  const std::vector<Stretch>& stretches) {
   std::set<std::string> recordings;
   for (const Stretch& stretch : stretches) recordings.insert(stretch.recording);
   std::set<std::pair<std::string, std::string>> declarations;
   for (const std::string& name : recordings) {
-    if (contents.at(name).document == 0) continue;
+    const std::optional<RecordingInfo> info = database.info(name);  // it may be gone meanwhile, or another
+    if (!info || info->document == 0) continue;
     for (const auto& [key, value] : database.document(name).properties) {
       if (key.starts_with("signweave:") && key != "signweave:synthesis") declarations.emplace(key, value);
     }
@@ -47,8 +48,9 @@ std::vector<Candidate> merge_neighbours(const Contents& contents, const std::vec
   return merged;
 }
 
+/// `edited` names the recording that an edit starts from; empty for an utterance.
 Synthesized run(const Database& database, const Contents& contents, std::vector<Choice> choices,
-                const SynthesisOptions& options, Clock::time_point start) {
+                std::string_view edited, const SynthesisOptions& options, Clock::time_point start) {
   if (!(options.tempo >= 0.25 && options.tempo <= 4.0)) {
     throw Error(ErrorCode::bad_input, fmt::format("tempo {} is outside 0.25 to 4", options.tempo));
   }
@@ -65,11 +67,18 @@ Synthesized run(const Database& database, const Contents& contents, std::vector<
   const auto selected = Clock::now();
 
   std::vector<Stretch> stretches;
+  std::vector<Notice> notices;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Candidate& candidate = candidates[i];
     const RecordingInfo& info = contents.recordings[candidate.recording];
+    const FrameRange frames = clamp({candidate.whole.begin, candidate.whole.end + 1}, info.motion->frames);
+    for (const Sign& sign : candidate.left_out) {
+      notices.push_back({info.name, fmt::format("'{}' at {} ms has no stroke and stands at a cut: it is left out",
+                                                sign.gloss, sign.span.begin.count())});
+    }
     stretches.push_back({.recording = info.name,
-                         .motion = database.read(info.name, candidate.whole),
+                         .motion = database.read(info, frames),
+                         .frames = frames,
                          .whole = candidate.whole,
                          .core = candidate.core,
                          .clock = info.clock,
@@ -78,19 +87,25 @@ Synthesized run(const Database& database, const Contents& contents, std::vector<
   }
   const auto retrieved = Clock::now();
 
+  std::size_t reference = 0;
+  for (std::size_t i = stretches.size(); i-- > 0;) {
+    if (stretches[i].recording == edited) reference = i;
+  }
   made.result = concatenate(stretches, {.method = options.method,
                                         .duration = duration,
                                         .tempo = options.tempo,
                                         .rate = options.rate.value_or(FrameRate{0, 1}),
-                                        .alignment = options.alignment});
-  made.layout_from = stretches.front().recording;
+                                        .alignment = options.alignment,
+                                        .reference = reference});
+  made.result.notices = std::move(notices);
+  made.layout_from = stretches[reference].recording;
   if (!options.duration.fixed && contents.transitions.count == 0 && !made.result.junctions.empty()) {
     made.result.notices.push_back(
         {"",
          fmt::format("no transition in this database to measure: {} ms taken; --duration sets it", duration.count())});
   }
   const auto done = Clock::now();
-  made.result.declarations = declarations_of(database, contents, stretches);
+  made.result.declarations = declarations_of(database, stretches);
   made.timings = {.semantic_query = queried - start,
                   .selection = selected - queried,
                   .retrieval = retrieved - selected,
@@ -99,23 +114,39 @@ Synthesized run(const Database& database, const Contents& contents, std::vector<
   return made;
 }
 
+/// Another process may replace a recording between the look at the contents and the reading of its frames. Then all is
+/// begun again with what is there now, a few times.
+template <typename Attempt>
+Synthesized with_fresh_contents(const Database& database, Attempt attempt) {
+  constexpr int kTries = 10;
+  for (int tries = 1;; ++tries) {
+    try {
+      return attempt(*database.contents());
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::conflict || tries == kTries) throw;
+    }
+  }
+}
+
 }  // namespace
 
 Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options) {
-  const std::shared_ptr<const Contents> contents = database.contents();
-  const auto start = Clock::now();
-  std::vector<Choice> choices;
-  for (const Place& place : utterance.places) {
-    choices.push_back({candidates_for(*contents, place), place.pause_before});
-  }
-  return run(database, *contents, std::move(choices), options, start);
+  return with_fresh_contents(database, [&](const Contents& contents) {
+    const auto start = Clock::now();
+    std::vector<Choice> choices;
+    for (const Place& place : utterance.places) {
+      choices.push_back({candidates_for(contents, place), place.pause_before});
+    }
+    return run(database, contents, std::move(choices), {}, options, start);
+  });
 }
 
 Synthesized synthesize(const Database& database, std::string_view recording, const Edit& edit,
                        const SynthesisOptions& options) {
-  const std::shared_ptr<const Contents> contents = database.contents();
-  const auto start = Clock::now();
-  return run(database, *contents, choices_for(*contents, recording, edit), options, start);
+  return with_fresh_contents(database, [&](const Contents& contents) {
+    const auto start = Clock::now();
+    return run(database, contents, choices_for(contents, recording, edit), recording, options, start);
+  });
 }
 
 }  // namespace signweave

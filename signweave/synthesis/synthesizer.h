@@ -36,7 +36,7 @@ struct Synthesized {
   std::vector<Choice> choices;  ///< what there was to choose from
   Selection selection;
   Timings timings;
-  /// The recording that the first stretch came from: its file layout serves for writing BVH.
+  /// The recording that gave the skeleton: its file layout serves for writing BVH.
   std::string layout_from;
 };
 

@@ -46,7 +46,8 @@ inline Stretch stretch(const std::string& name, float seed, std::int64_t prepara
   result.recording = name;
   result.whole = {kBefore, kBefore + preparation + stroke + retraction};
   result.core = {kBefore + preparation, kBefore + preparation + stroke};
-  result.motion = all.slice(result.whole);
+  result.frames = {result.whole.begin, result.whole.end + 1};
+  result.motion = all.slice(result.frames);
   result.clock = {rate.frame_time(), Seconds(0)};
   const auto ms = [&](std::int64_t frame) { return span_of({0, frame}, result.clock).end; };
   Sign sign{.gloss = name, .span = {ms(result.whole.begin), ms(result.whole.end)}, .tier = "Gloss"};

@@ -85,10 +85,13 @@ Eigen::Vector3f velocity(const Eigen::Quaternionf& earlier, const Eigen::Quatern
 
 Eigen::Quaternionf turned(const Eigen::Quaternionf& from, const Eigen::Vector3f& by) noexcept {
   const float angle = by.norm();
-  if (angle < 1e-9f) return from;
-  // More than a third of a turn would make the curve loop; a border that fast is cut short.
-  const float limited = std::min(angle, 2.0f);
-  return from * Eigen::Quaternionf(Eigen::AngleAxisf(limited, by / angle));
+  return angle < 1e-9f ? from : from * Eigen::Quaternionf(Eigen::AngleAxisf(angle, by / angle));
+}
+
+/// How far something has gone `frames` after it moved at 1 a frame, if it slows down evenly to rest within `ease`
+/// frames.
+float coasted(double frames, double ease) noexcept {
+  return static_cast<float>(frames >= ease ? ease / 2.0 : frames - frames * frames / (2.0 * ease));
 }
 
 }  // namespace
@@ -109,34 +112,29 @@ float crossfade_weight(std::int64_t index, std::int64_t count) noexcept {
   return t * t * (3.0f - 2.0f * t);
 }
 
-void fill_gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count,
+void fill_gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count, double ease,
               MutablePoseView out) noexcept {
-  const auto intervals = static_cast<float>(count + 1);
-  const float t = static_cast<float>(index + 1) / intervals;
-  // Shorter tangents than the full velocity keep a long gap from swinging out past its borders.
-  const float reach = std::min(intervals / 3.0f, 8.0f);
+  const auto intervals = static_cast<double>(count + 1);
+  const auto since = static_cast<double>(index + 1);  // frames from the left border
+  const double slowing = std::max(1.0, std::min(ease, intervals));
+  const float onward = coasted(since, slowing);
+  const float back = coasted(intervals - since, slowing);
+  const auto t = static_cast<float>(since / intervals);
+  const float weight = t * t * (3.0f - 2.0f * t);
   for (std::size_t i = 0; i < out.rotations.size(); ++i) {
-    const Eigen::Quaternionf& a = from.pose.rotations[i];
+    Eigen::Quaternionf a = from.pose.rotations[i];
     Eigen::Quaternionf b = to.pose.rotations[i];
-    if (a.dot(b) < 0) b.coeffs() *= -1.0f;
-    Eigen::Quaternionf leave = a;
-    Eigen::Quaternionf arrive = b;
-    if (from.span > 0) leave = turned(a, velocity(from.context.rotations[i], a, from.span) * reach);
-    if (to.span > 0) arrive = turned(b, -velocity(b, to.context.rotations[i], to.span) * reach);
-    const Eigen::Quaternionf ab = slerp(a, leave, t);
-    const Eigen::Quaternionf bc = slerp(leave, arrive, t);
-    const Eigen::Quaternionf cd = slerp(arrive, b, t);
-    out.rotations[i] = slerp(slerp(ab, bc, t), slerp(bc, cd, t), t);
+    if (a.dot(b) < 0) b.coeffs() *= -1.0f;  // chosen at the borders, so that it is the same for every frame
+    if (from.span > 0) a = turned(a, onward * velocity(from.context.rotations[i], from.pose.rotations[i], from.span));
+    if (to.span > 0) b = turned(b, -back * velocity(to.pose.rotations[i], to.context.rotations[i], to.span));
+    out.rotations[i] = slerp_as_signed(a, b, weight);
   }
   for (std::size_t i = 0; i < out.translations.size(); ++i) {
-    const Eigen::Vector3f& a = from.pose.translations[i];
-    const Eigen::Vector3f& b = to.pose.translations[i];
-    Eigen::Vector3f leave = a;
-    Eigen::Vector3f arrive = b;
-    if (from.span > 0) leave += (a - from.context.translations[i]) * (reach / static_cast<float>(from.span));
-    if (to.span > 0) arrive -= (to.context.translations[i] - b) * (reach / static_cast<float>(to.span));
-    const float s = 1.0f - t;
-    out.translations[i] = s * s * s * a + 3.0f * s * s * t * leave + 3.0f * s * t * t * arrive + t * t * t * b;
+    Eigen::Vector3f a = from.pose.translations[i];
+    Eigen::Vector3f b = to.pose.translations[i];
+    if (from.span > 0) a += (a - from.context.translations[i]) * (onward / static_cast<float>(from.span));
+    if (to.span > 0) b -= (to.context.translations[i] - b) * (back / static_cast<float>(to.span));
+    out.translations[i] = a + weight * (b - a);
   }
 }
 

@@ -69,10 +69,14 @@ struct Border {
   std::int64_t span = 0;  ///< p; 0: no context, the border counts as still
 };
 
-/// Fills `out` with frame `index` (from 0) of `count` frames between two borders: cubic Hermite interpolation of every
-/// translation, and for rotations the cubic Bézier curve of Shoemake (1985) with de Casteljau's slerps, so that
-/// position and velocity go on at both borders. Allocates nothing.
-void fill_gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count,
+/// How long a border's movement takes to come to rest in a gap, seconds.
+inline constexpr double kEaseSeconds = 0.15;
+
+/// Fills `out` with frame `index` (from 0) of `count` frames between two borders. Each side goes on as it moved and
+/// comes to rest within `ease` frames; the two are cross-faded over the whole gap with a weight that is flat at both
+/// ends. So position and velocity go on at both borders, and however long the gap, nothing swings out farther than half
+/// of what `ease` frames of that movement are. (ours) Allocates nothing.
+void fill_gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count, double ease,
               MutablePoseView out) noexcept;
 
 /// How long transitions last.

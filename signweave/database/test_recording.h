@@ -7,28 +7,11 @@
 
 #include "signweave/annotation/sign.h"
 #include "signweave/database/database.h"
+#include "signweave/kv/test_folder.h"
 
 namespace signweave::testing_database {
 
-/// A folder that is there for one test.
-class TestFolder {
- public:
-  TestFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "signweave-test-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~TestFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
+using kv::TestFolder;
 
 /// A motion of two joints whose every number depends on `seed`, so that no two are alike.
 inline Motion small_motion(std::int64_t frames, int seed) {

@@ -262,6 +262,22 @@ TEST(Utterances, SigningGoesOnWhileARecordingIsReplaced) {
   replacing.join();
 }
 
+TEST(Edits, SignsWithoutStrokeAtTheRecordingsEndsStay) {
+  const TestFolder folder;
+  Database::create(folder / "db", {});
+  Database database(folder / "db", kv::Access::read_write);
+  Recording recording = testing_database::small_recording("a", 1, {"N0", "A", "B", "C", "N4"}, 300);
+  for (Annotation& phase : recording.annotation->document.tiers[1].annotations) {  // the outer two are all hold
+    if (phase.span.begin < 400ms || phase.span.begin >= 1'600ms) phase.label = "Hold";
+  }
+  database.put(recording);
+  Edit edit;
+  edit.replacements.push_back(parse_replacement("B=A"));
+  EXPECT_THAT(glosses_of(synthesize(database, "a", edit).result), testing::ElementsAre("N0", "A", "A", "C", "N4"));
+  edit.replacements = {parse_replacement("A=B")};
+  EXPECT_THAT(glosses_of(synthesize(database, "a", edit).result), testing::ElementsAre("N0", "B", "B", "C", "N4"));
+}
+
 TEST(Edits, RunsThatShareSignsCannotBeSwapped) {
   Edit edit;
   edit.swap = parse_swap("BRETAGNE..PLUIE,NUAGES#1..DEMAIN");

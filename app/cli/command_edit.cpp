@@ -31,7 +31,7 @@ Run edit(CLI::App& verb) {
     const Database database(options->words.folder, kv::Access::read_only);
     report_damage(database, io);
     const Synthesized made = synthesize(database, options->recording, edit, synthesis_options(options->words));
-    deliver(database, made, options->words, options->recording + ", edited", io);
+    deliver(made, options->words, options->recording + ", edited", io);
   };
 }
 

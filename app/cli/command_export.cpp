@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -10,6 +11,7 @@
 #include "app/cli/output.h"
 #include "signweave/core/text.h"
 #include "signweave/database/database.h"
+#include "signweave/database/import.h"
 
 namespace signweave::cli {
 namespace {
@@ -45,8 +47,16 @@ JointSet joints_named(const std::string& names, const Skeleton& skeleton) {
 
 /// The part of a document inside a span, its times moved so that the span begins at 0. Annotations that reach over an
 /// end are cut; linked files keep their place in time. Everything else of the document is carried over.
-AnnotationDocument cut_document(const AnnotationDocument& document, TimeSpan span) {
+AnnotationDocument cut_document(const AnnotationDocument& document, TimeSpan span,
+                                const std::vector<std::string>& outputs) {
   AnnotationDocument cut = document;
+  // A file that is written now with the part in it begins where the part does.
+  std::erase_if(cut.linked_files, [&](const LinkedFile& linked) {
+    return std::any_of(outputs.begin(), outputs.end(), [&](const std::string& path) {
+      const std::string name = std::filesystem::path(path).filename().string();
+      return linked_file_name(linked.url) == name || linked_file_name(linked.relative_url) == name;
+    });
+  });
   for (LinkedFile& linked : cut.linked_files) linked.time_origin += span.begin;
   for (Tier& tier : cut.tiers) {
     std::erase_if(tier.annotations, [&](const Annotation& a) { return !a.span.overlaps(span); });
@@ -99,9 +109,12 @@ Run export_recording(CLI::App& verb) {
       motion = database.read(info.name, frames, joints);
     }
     std::optional<AnnotationDocument> document;
-    if (info.document != 0) document = database.document(info.name);
+    const bool needs_document = std::any_of(options->outputs.begin(), options->outputs.end(),
+                                            [](const std::string& path) { return fold_case(path).ends_with(".eaf"); });
+    if (info.document != 0 && needs_document) document = database.document(info.name);
     // The annotation is cut where the frames are, so that both begin together.
-    if (document && part) document = cut_document(*document, motion ? span_of(frames, info.clock) : span);
+    if (document && part)
+      document = cut_document(*document, motion ? span_of(frames, info.clock) : span, options->outputs);
     for (const std::string& path : options->outputs) {
       write_recording(path, motion ? &*motion : nullptr, info.layout, document ? &*document : nullptr, info.name);
     }

@@ -59,7 +59,7 @@ std::string_view name_of(ImportOutcome outcome) {
     case ImportOutcome::unchanged:
       return "unchanged";
     case ImportOutcome::clock_changed:
-      return "clock changed";
+      return "clock or signer changed";
     case ImportOutcome::annotation_added:
       return "annotation added";
     case ImportOutcome::motion_added:

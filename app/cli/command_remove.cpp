@@ -15,7 +15,9 @@ Run remove(CLI::App& verb) {
   };
   auto options = std::make_shared<Options>();
   verb.add_option("DB", options->folder, "the database")->required();
-  verb.add_option("RECORDING", options->recording, "name of the recording")->required();
+  verb.add_option("RECORDING", options->recording,
+                  "name of the recording, or 'catalogue entry N' for one that check finds damaged")
+      ->required();
   return [options](Io& io) {
     Database database(options->folder, kv::Access::read_write);
     database.remove(options->recording);

@@ -24,7 +24,7 @@ Run sign(CLI::App& verb) {
     const Database database(options->words.folder, kv::Access::read_only);
     report_damage(database, io);
     const Synthesized made = synthesize(database, utterance, synthesis_options(options->words));
-    deliver(database, made, options->words, to_string(utterance), io);
+    deliver(made, options->words, to_string(utterance), io);
   };
 }
 

@@ -98,7 +98,7 @@ void print_notices(Io& io, const std::vector<Notice>& notices) {
 
 void report_damage(const Database& database, Io& io) {
   for (const std::string& fault : database.contents()->faults) {
-    io.err << "signweave: " << fault << '\n';
+    io.err << "signweave: " << one_line(fault) << '\n';
     io.status = 1;
   }
 }

@@ -25,15 +25,14 @@ double ms_of(Seconds seconds) {
   return seconds.count() * 1000.0;
 }
 
-void explain(const Database& database, const Synthesized& made, Io& io) {
-  const std::shared_ptr<const Contents> contents = database.contents();
+void explain(const Synthesized& made, Io& io) {
   std::vector<std::vector<std::string>> rows = {
       {"place", "", "gloss", "token", "recording", "at ms", "target", "join"}};
   for (std::size_t place = 0; place < made.choices.size(); ++place) {
     const Choice& choice = made.choices[place];
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
       const Candidate& candidate = choice.candidates[i];
-      const RecordingInfo& info = contents->recordings[candidate.recording];
+      const RecordingInfo& info = made.contents->recordings[candidate.recording];
       const bool chosen = made.selection.chosen[place] == i;
       std::string name = candidate.signs.empty() ? "(piece)" : candidate.gloss();
       if (candidate.signs.size() > 1) name += ".." + candidate.signs.back().gloss;
@@ -57,12 +56,12 @@ void explain(const Database& database, const Synthesized& made, Io& io) {
   if (rows.size() > 1) io.out << '\n' << format_table(rows);
 }
 
-nlohmann::json places_of(const Contents& contents, const Synthesized& made) {
+nlohmann::json places_of(const Synthesized& made) {
   nlohmann::json places = nlohmann::json::array();
   for (std::size_t place = 0; place < made.choices.size(); ++place) {
     nlohmann::json candidates = nlohmann::json::array();
     for (const Candidate& candidate : made.choices[place].candidates) {
-      candidates.push_back({{"recording", contents.recordings[candidate.recording].name},
+      candidates.push_back({{"recording", made.contents->recordings[candidate.recording].name},
                             {"token", candidate.token},
                             {"frames", {{"begin", candidate.whole.begin}, {"end", candidate.whole.end}}},
                             {"target_cost", candidate.cost}});
@@ -114,8 +113,9 @@ void add_synthesis_options(CLI::App& verb, SynthesisWords& words) {
                    ? std::string()
                    : "'" + printable(text) + "' is no rate of 1 to 2000 frames a second";
       });
-  verb.add_option("--align", words.align,
-                  "bring signers to one place: auto (other recordings than the first), ground (all), none")
+  verb.add_option(
+          "--align", words.align,
+          "bring signers to one place: auto (other recordings than the first or the edited one), ground (all), none")
       ->check(CLI::IsMember({"auto", "ground", "none"}))
       ->capture_default_str();
   verb.add_flag("--explain", words.explain, "show candidates, costs and junctions");
@@ -134,11 +134,9 @@ SynthesisOptions synthesis_options(const SynthesisWords& words) {
   return options;
 }
 
-void deliver(const Database& database, const Synthesized& made, const SynthesisWords& words, const std::string& title,
-             Io& io) {
-  const std::shared_ptr<const Contents> contents = database.contents();
+void deliver(const Synthesized& made, const SynthesisWords& words, const std::string& title, Io& io) {
   std::optional<bvh::Layout> layout;
-  if (const RecordingInfo* source = contents->find(made.layout_from)) layout = source->layout;
+  if (const RecordingInfo* source = made.contents->find(made.layout_from)) layout = source->layout;
   if (layout) {  // of the source's file its axes, unit and orders, but not its oddities
     layout->root_columns = bvh::RootColumns::declared;
     layout->root_unit = layout->unit;
@@ -152,11 +150,11 @@ void deliver(const Database& database, const Synthesized& made, const SynthesisW
     nlohmann::json report = describe(result);
     report["files"] = words.outputs;
     report["timings"] = timings_of(made.timings);
-    if (words.explain) report["places"] = places_of(*contents, made);
+    if (words.explain) report["places"] = places_of(made);
     io.out << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return;
   }
-  if (words.explain) explain(database, made, io);
+  if (words.explain) explain(made, io);
   io.out << fmt::format("{}, {}, {:.2f} s at {} frames a second\n", counted(result.signs.size(), "sign"),
                         counted(result.junctions.size(), "junction"), result.motion.duration().count(),
                         to_string(result.motion.rate()));

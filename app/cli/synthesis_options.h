@@ -25,7 +25,6 @@ void add_synthesis_options(CLI::App& verb, SynthesisWords& words);
 SynthesisOptions synthesis_options(const SynthesisWords& words);
 
 /// Writes the files that were asked for, and what was asked to be told. `title` heads a contact sheet.
-void deliver(const Database& database, const Synthesized& made, const SynthesisWords& words, const std::string& title,
-             Io& io);
+void deliver(const Synthesized& made, const SynthesisWords& words, const std::string& title, Io& io);
 
 }  // namespace signweave::cli

@@ -118,7 +118,10 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
   info.name = in.text();
   info.signer = in.text();
   info.clock = decode_clock(in);
-  info.clock_given = in.number<std::uint8_t>() != 0;
+  const auto given = in.number<std::uint8_t>();
+  info.clock_given = (given & 1) != 0;
+  info.tiers_given = (given & 2) != 0;
+  info.signer_given = (given & 4) != 0;
   if (in.number<std::uint8_t>() != 0) info.motion = motion_db::decode(in);
   if (in.number<std::uint8_t>() != 0) info.layout = bvh::decode_layout(in);
   info.document = in.number<std::uint64_t>();
@@ -142,7 +145,8 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
   out.text(info.name);
   out.text(info.signer);
   encode(info.clock, out);
-  out.number(static_cast<std::uint8_t>(info.clock_given ? 1 : 0));
+  out.number(
+      static_cast<std::uint8_t>((info.clock_given ? 1 : 0) | (info.tiers_given ? 2 : 0) | (info.signer_given ? 4 : 0)));
   out.number(static_cast<std::uint8_t>(info.motion ? 1 : 0));
   if (info.motion) motion_db::encode(*info.motion, out);
   out.number(static_cast<std::uint8_t>(info.layout ? 1 : 0));

@@ -211,14 +211,15 @@ void Database::put(const Recording& recording, const Progress& progress) {
   catalogue::Head head = catalogue::read_head(*transaction);
   catalogue::SweepList list = catalogue::read_sweep_list(*transaction);
   const std::optional<std::uint32_t> known = slot_of(*transaction, recording.name);
-  // A new recording goes to the end, or over an entry that is damaged beyond reading.
-  const std::uint32_t slot = known.value_or(slot_of(*transaction, {}).value_or(head.recordings));
+  const std::uint32_t slot = known.value_or(head.recordings);
   RecordingInfo info;
   if (known) info = catalogue::read_recording(*transaction, slot);
   info.name = recording.name;
   info.signer = recording.signer;
   info.clock = recording.clock;
   info.clock_given = recording.clock_given;
+  info.tiers_given = recording.tiers_given;
+  info.signer_given = recording.signer_given;
   info.notices = recording.notices;
   if (recording.motion) {
     std::erase_if(list, [&](const motion_db::StoredMotion& motion) { return motion.generation == generation; });
@@ -254,14 +255,28 @@ void Database::put(const Recording& recording, const Progress& progress) {
   if (!list.empty()) sweep();
 }
 
+std::optional<std::uint32_t> Database::damaged_slot(const kv::ReadTransaction& snapshot, std::string_view name) const {
+  const std::uint32_t recordings = catalogue::read_head(snapshot).recordings;
+  for (std::uint32_t slot = 0; slot < recordings; ++slot) {
+    if (name != fmt::format("catalogue entry {}", slot)) continue;
+    try {
+      catalogue::read_recording(snapshot, slot);
+    } catch (const Error&) {
+      return slot;
+    }
+  }
+  return std::nullopt;
+}
+
 void Database::remove(std::string_view name) {
   require_writable();
-  contents()->at(name);  // the error with near matches
   const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
-  const std::optional<std::uint32_t> slot = slot_of(*transaction, name);
+  std::optional<std::uint32_t> slot = slot_of(*transaction, name);
+  const bool damaged = !slot && (slot = damaged_slot(*transaction, name)).has_value();
+  if (!slot) contents()->at(name);  // the error with near matches
   if (!slot) throw Error(ErrorCode::not_found, fmt::format("no recording '{}' in this database", printable(name)));
   catalogue::Head head = catalogue::read_head(*transaction);
-  const RecordingInfo info = catalogue::read_recording(*transaction, *slot);
+  const RecordingInfo info = damaged ? RecordingInfo{} : catalogue::read_recording(*transaction, *slot);
   if (info.document != 0) semantic_db::erase(*transaction, info.document);
   if (info.motion) {
     catalogue::SweepList list = catalogue::read_sweep_list(*transaction);

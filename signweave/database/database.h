@@ -81,7 +81,8 @@ class Database {
   /// Error{io}.
   void put(const Recording& recording, const Progress& progress = {});
 
-  /// Removes a recording. Throws Error{not_found}.
+  /// Removes a recording. One whose catalogue entry is damaged has no name: it goes by the words with which `check`
+  /// tells of it, "catalogue entry N". Throws Error{not_found}.
   void remove(std::string_view name);
 
   /// The segments that answer a query, by recording name and time.
@@ -118,6 +119,7 @@ class Database {
   void sweep();
   void require_writable() const;
   std::optional<std::uint32_t> slot_of(const kv::ReadTransaction& snapshot, std::string_view name) const;
+  std::optional<std::uint32_t> damaged_slot(const kv::ReadTransaction& snapshot, std::string_view name) const;
   RecordingInfo recording_in(const kv::ReadTransaction& snapshot, std::string_view name) const;
 
   std::filesystem::path folder_;

@@ -284,7 +284,7 @@ TEST_F(DatabaseTest, AMotionThatWasReplacedMeanwhileIsAConflictAndNoDamage) {
               HasSubstr("was replaced or removed while it was read"));
 }
 
-TEST_F(DatabaseTest, AnEntryBeyondReadingIsReplacedByTheNextNewRecording) {
+TEST_F(DatabaseTest, AnEntryBeyondReadingStaysReportedUntilItIsRemoved) {
   {
     Database database(path(), kv::Access::read_write);
     for (const char* name : {"a", "b", "c"}) database.put(small_recording(name, 1, {"A"}));
@@ -304,10 +304,14 @@ TEST_F(DatabaseTest, AnEntryBeyondReadingIsReplacedByTheNextNewRecording) {
   Database database(path(), kv::Access::read_write);
   EXPECT_THAT(names_in(database), ElementsAre("a", "c"));
   EXPECT_EQ(database.contents()->faults.size(), 1u);
+  database.put(small_recording("d", 2, {"B"}));
+  database.remove("d");
   database.remove("c");  // the damaged one is moved as it is
   EXPECT_THAT(names_in(database), ElementsAre("a"));
-  database.put(small_recording("d", 2, {"B"}));
-  EXPECT_THAT(names_in(database), ElementsAre("a", "d"));
+  ASSERT_THAT(database.check(), ElementsAre(HasSubstr("catalogue entry 1: ")));
+  EXPECT_THROW(database.remove("catalogue entry 0"), Error);
+  database.remove("catalogue entry 1");
+  EXPECT_THAT(names_in(database), ElementsAre("a"));
   EXPECT_TRUE(database.check().empty());
 }
 

@@ -21,13 +21,13 @@ bool reads_otherwise(const bvh::ReadOptions& options, const bvh::Layout& layout)
          (options.root_columns != bvh::RootColumns::declared && options.root_columns != layout.root_columns);
 }
 
-/// Which tiers hold signs and phases: as given; else as they were, where the document still has them; else guessed,
+/// Which tiers hold signs and phases: as given; else as given before, where the document still has them; else guessed,
 /// with a notice that tells.
 TierNames tier_names(const AnnotationDocument& document, const ImportOptions& options, const RecordingInfo* known,
                      const std::string& where, std::vector<Notice>& notices) {
   TierNames names{options.sign_tiers, options.phase_tiers, options.phase_labels};
   const bool as_before =
-      known != nullptr && known->document != 0 &&
+      known != nullptr && known->document != 0 && known->tiers_given &&
       std::all_of(known->tiers.sign_tiers.begin(), known->tiers.sign_tiers.end(),
                   [&](const TierNames::SignTier& tier) { return document.find_tier(tier.id) != nullptr; }) &&
       std::all_of(known->tiers.phase_tiers.begin(), known->tiers.phase_tiers.end(),
@@ -69,9 +69,7 @@ std::optional<Seconds> linked_origin(const AnnotationDocument& document, const s
 /// A clock that a person set, or none. Throws for one that no recording can have.
 std::optional<FrameClock> given_clock(const ImportJob& job, const ImportOptions& options, FrameRate rate) {
   FrameClock clock{rate.frame_time(), Seconds(0)};
-  const char* option = "--offset-ms";
   if (options.sync.size() == 2) {
-    option = "--sync";
     const SyncPoint& first = options.sync[0];
     const SyncPoint& second = options.sync[1];
     clock.frame_time = (second.time - first.time) / (second.frame - first.frame);
@@ -85,10 +83,13 @@ std::optional<FrameClock> given_clock(const ImportJob& job, const ImportOptions&
   }
   const double drift = clock.frame_time / rate.frame_time();
   if (!(std::abs(clock.origin.count()) <= 1e6) || !(drift > 0.5 && drift < 2.0)) {
+    if (options.sync.empty()) {
+      throw Error(ErrorCode::bad_input, "--offset-ms: an offset is a number of milliseconds, at most 1,000,000,000");
+    }
     throw Error(ErrorCode::bad_input,
-                fmt::format("{}: frame 0 would be at {:.6g} s and a frame {:.6g} times as long as in the "
+                fmt::format("--sync: frame 0 would be at {:.6g} s and a frame {:.6g} times as long as in the "
                             "motion file; give the two points in the order of their times",
-                            option, clock.origin.count(), drift));
+                            clock.origin.count(), drift));
   }
   return clock;
 }
@@ -132,8 +133,9 @@ std::optional<RecordingInfo> find_known(const Database& database, const ImportJo
   for (std::size_t from = job.name.rfind('/'); from != std::string::npos && from > 0;
        from = job.name.rfind('/', from - 1)) {
     std::optional<RecordingInfo> shorter = database.info(job.name.substr(from + 1));
-    if (shorter && (shorter->motion_fingerprint == motion_print || !job.motion) &&
-        (shorter->annotation_fingerprint == annotation_print || !job.annotation)) {
+    if (!shorter) continue;
+    if (job.motion ? shorter->motion_fingerprint == motion_print
+                   : shorter->annotation_fingerprint == annotation_print) {
       return shorter;
     }
   }
@@ -156,7 +158,8 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   ImportReport report;
   Recording recording;
   report.name = recording.name = known ? known->name : job.name;
-  recording.signer = !job.signer.empty() || !known ? job.signer : known->signer;
+  recording.signer_given = !job.signer.empty() || (known && known->signer_given);
+  recording.signer = !job.signer.empty() ? job.signer : recording.signer_given ? known->signer : "";
   if (new_motion && motion_known && !options.replace_motion) {
     throw Error(
         ErrorCode::conflict,
@@ -183,9 +186,18 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     document = std::move(file.document);
     new_annotation = !document_known || known->annotation_fingerprint != annotation_print || names != known->tiers;
   } else if (document_known) {
-    document = database.document(recording.name);
-    names = known->tiers;
+    try {
+      document = database.document(recording.name);
+      names = known->tiers;
+    } catch (const Error& error) {
+      // Damaged: the file, which is the same, takes its place.
+      if (error.code() != ErrorCode::corrupt || !job.annotation) throw;
+      document = eaf::read(*job.annotation).document;
+      names = known->tiers;
+      new_annotation = true;
+    }
   }
+  recording.tiers_given = options_about_tiers || (known && known->tiers_given);
   std::vector<Sign> signs;
   if (document) {
     const std::string where = job.annotation ? job.annotation->string() : recording.name;
@@ -235,12 +247,27 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     recording.clock = {rate.frame_time(), Seconds(0)};
     if (given) {
       recording.clock = *given;
-    } else if (recording.clock_given) {
-      recording.clock = known->clock;
+    } else if (recording.clock_given) {  // with the drift it had, whatever the rate now is
+      recording.clock.origin = known->clock.origin;
+      if (motion_known) recording.clock.frame_time *= known->clock.frame_time / known->motion->rate.frame_time();
     } else if (document) {
-      recording.clock.origin = linked_origin(*document, motion_file).value_or(Seconds(0));
+      std::optional<Seconds> origin = linked_origin(*document, motion_file);
+      if (!origin && known) origin = linked_origin(*document, known->motion_file);
+      recording.clock.origin = origin.value_or(Seconds(0));
     }
-    new_clock = motion_known && recording.clock != known->clock;
+  } else if (options.offset || job.offset) {  // for a motion that is to come
+    recording.clock = *given_clock(job, options, rate);
+    recording.clock_given = true;
+  } else if (!options.sync.empty()) {
+    throw Error(ErrorCode::bad_input, recording.name + ": --sync needs the motion; import it too, or give --offset-ms");
+  } else if (known) {
+    recording.clock = known->clock;
+    recording.clock_given = known->clock_given;
+  }
+  if (known && !new_motion) {
+    new_clock = std::abs((recording.clock.origin - known->clock.origin).count()) > 1e-9 ||
+                std::abs(recording.clock.frame_time / known->clock.frame_time - 1.0) > 1e-12 ||
+                recording.clock_given != known->clock_given;
   }
   if (known && !new_motion && !new_annotation && !new_clock && recording.signer == known->signer) return report;
 

@@ -61,7 +61,7 @@ struct ImportOptions {
 enum class ImportOutcome {
   added,
   unchanged,
-  clock_changed,
+  clock_changed,     ///< or the signer
   annotation_added,  ///< to a motion that was there
   annotation_replaced,
   motion_added,  ///< to an annotation that was there

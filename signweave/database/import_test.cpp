@@ -193,6 +193,60 @@ TEST_F(ImportTest, WhatAnEarlierImportWasToldHolds) {
   EXPECT_NEAR(Database(folder_ / "db", kv::Access::read_only).info("a")->clock.origin.count(), 0.0, 1e-9);
 }
 
+TEST_F(ImportTest, WhatWasGuessedIsGuessedAgain) {
+  write_motion("a.bvh", 1);
+  AnnotationDocument document = small_document({"A"});
+  document.tiers.pop_back();  // no phases yet
+  eaf::write(files() / "a.eaf", document);
+  import_all();
+  write_annotation("a.eaf", {"A"});
+  import_all();
+  EXPECT_EQ(Database(folder_ / "db", kv::Access::read_only).find(parse("phase = preparation")).size(), 1u);
+}
+
+TEST_F(ImportTest, AnOffsetGivenWithTheAnnotationWaitsForTheMotion) {
+  write_annotation("a.eaf", {"A"});
+  import_all({.offset = Seconds(0.7)});
+  write_motion("a.bvh", 1);
+  import_all();
+  const FrameClock clock = Database(folder_ / "db", kv::Access::read_only).info("a")->clock;
+  EXPECT_NEAR(clock.origin.count(), 0.7, 1e-9);
+  EXPECT_NEAR(clock.frame_time.count(), 0.01, 1e-9);
+}
+
+TEST_F(ImportTest, AMotionOfAnotherRateKeepsTheOffsetAndTakesItsOwnRate) {
+  write_motion("a.bvh", 1);
+  import_all({.offset = Seconds(0.1)});
+  Motion motion = small_motion(100, 1);
+  const Motion slower(motion.shared_skeleton(), {50, 1}, 100);
+  bvh::write(files() / "a.bvh", slower, bvh::default_layout(slower.skeleton()));
+  import_all({.replace_motion = true});
+  const FrameClock clock = Database(folder_ / "db", kv::Access::read_only).info("a")->clock;
+  EXPECT_NEAR(clock.frame_time.count(), 0.02, 1e-9);
+  EXPECT_NEAR(clock.origin.count(), 0.1, 1e-9);
+}
+
+TEST_F(ImportTest, ADamagedDocumentIsMendedByImportingItAgain) {
+  write_motion("a.bvh", 1);
+  write_annotation("a.eaf", {"A"});
+  import_all();
+  {
+    const auto store = kv::open(folder_ / "db", kv::Access::read_write);
+    const auto transaction = store->write();
+    ByteWriter key;
+    key.number('D');
+    key.number(Database(folder_ / "db", kv::Access::read_only).info("a")->document);
+    const ByteSpan value = *transaction->get(key.bytes());
+    Bytes damaged(value.begin(), value.end());
+    damaged[100] ^= std::byte{1};
+    transaction->put(key.bytes(), damaged);
+    transaction->commit();
+  }
+  EXPECT_FALSE(Database(folder_ / "db", kv::Access::read_only).check().empty());
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::annotation_replaced));
+  EXPECT_TRUE(Database(folder_ / "db", kv::Access::read_only).check().empty());
+}
+
 TEST_F(ImportTest, AClockThatNoRecordingCanHaveIsRefused) {
   write_motion("a.bvh", 1);
   EXPECT_THROW(import_all({.offset = Seconds(std::nan(""))}), Error);

@@ -40,6 +40,8 @@ struct Recording {
   std::optional<AnnotationPart> annotation;
   FrameClock clock;             ///< meaningful where there is a motion
   bool clock_given = false;     ///< somebody set the clock; else it follows from the files
+  bool tiers_given = false;     ///< the same of the tiers
+  bool signer_given = false;    ///< and of the signer
   std::vector<Notice> notices;  ///< what reading it reported; kept with the recording
 };
 
@@ -49,6 +51,8 @@ struct RecordingInfo {
   std::string signer;
   FrameClock clock;
   bool clock_given = false;  ///< see Recording
+  bool tiers_given = false;
+  bool signer_given = false;
   std::optional<motion_db::StoredMotion> motion;
   std::optional<bvh::Layout> layout;
   std::uint64_t document = 0;  ///< generation of the stored document; 0: none

@@ -200,8 +200,14 @@ void place_signs(const Stretch& stretch, const Placed& placed, std::size_t index
   for (std::size_t i = 0; i < stretch.signs.size(); ++i) {
     const Sign& source = stretch.signs[i];
     PlacedSign sign{.sign = source, .stretch = index, .recorded = source.span};
-    const bool first = i == 0;
-    const bool last = i + 1 == stretch.signs.size();
+    const auto recorded_stroke = source.stroke_span();
+    // Where the core begins or ends with the stroke. At a piece cut through a sign it does not: that sign stays as it
+    // was.
+    const auto meets = [&](Milliseconds recorded, std::int64_t frame) {
+      return std::abs(stretch.clock.frame_at(recorded) - static_cast<double>(frame)) <= 1.0;
+    };
+    const bool first = i == 0 && recorded_stroke && meets(recorded_stroke->begin, stretch.core.begin);
+    const bool last = i + 1 == stretch.signs.size() && recorded_stroke && meets(recorded_stroke->end, stretch.core.end);
     sign.sign.span = {first && room.joined_before ? room.span.begin : output_time(source.span.begin),
                       last && room.joined_after ? room.span.end : output_time(source.span.end)};
     std::vector<Phase> phases;
@@ -217,15 +223,9 @@ void place_signs(const Stretch& stretch, const Placed& placed, std::size_t index
       out.signs.push_back(std::move(sign));
       continue;
     }
-    const auto recorded_stroke = source.stroke_span();
-    if (!recorded_stroke) continue;  // of a bare piece: cut through, and no part of it is whole
     TimeSpan stroke{output_time(recorded_stroke->begin), output_time(recorded_stroke->end)};
-    // Where the core begins or ends with the stroke, so does the stroke with the core's frames.
-    const auto meets = [&](Milliseconds recorded, std::int64_t frame) {
-      return std::abs(stretch.clock.frame_at(recorded) - static_cast<double>(frame)) <= 1.0;
-    };
-    if (first && meets(recorded_stroke->begin, stretch.core.begin)) stroke.begin = time_of(placed.core.begin, rate);
-    if (last && meets(recorded_stroke->end, stretch.core.end)) stroke.end = time_of(placed.core.end, rate);
+    if (first) stroke.begin = time_of(placed.core.begin, rate);
+    if (last) stroke.end = time_of(placed.core.end, rate);
     sign.sign.span = {std::min(sign.sign.span.begin, stroke.begin), std::max(sign.sign.span.end, stroke.end)};
     const auto add = [&](PhaseKind kind, TimeSpan span, const std::string& label) {
       if (span.begin < span.end) phases.push_back({kind, span, label, {}});

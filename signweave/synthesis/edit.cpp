@@ -22,8 +22,9 @@ std::size_t find_sign(const std::vector<Sign>& signs, const GlossRef& wanted, co
     glosses.push_back(signs[i].gloss);
   }
   if (found.empty()) {
-    throw Error(ErrorCode::not_found, fmt::format("no sign '{}' in recording '{}'{}", printable(wanted.gloss),
-                                                  recording, did_you_mean(wanted.gloss, glosses)));
+    throw Error(ErrorCode::not_found,
+                fmt::format("no sign '{}' on tier '{}' of recording '{}'{}", printable(wanted.gloss),
+                            signs.front().tier, recording, did_you_mean(wanted.gloss, glosses)));
   }
   if (wanted.token == 0 && found.size() > 1) {
     throw Error(ErrorCode::bad_input,
@@ -131,7 +132,16 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
                             signs.begin() + static_cast<std::ptrdiff_t>(item.last) + 1);
       const std::string from = run.front().gloss;
       const std::string to = run.back().gloss;
-      std::optional<Candidate> candidate = candidate_of_run(contents, index, std::move(run));
+      const bool opens = i == 0 && item.first == 0;
+      const bool closes = i + 1 == items.size() && item.last + 1 == signs.size();
+      std::optional<Candidate> candidate = candidate_of_run(contents, index, run);
+      if (!candidate && (opens || closes)) {
+        // Nothing but signs without stroke at an end of the recording: their frames stay, as a stretch of their own.
+        const FrameRange frames = frames_of({run.front().span.begin, run.back().span.end}, info.clock);
+        const FrameRange inside =
+            clamp({opens ? 0 : frames.begin, closes ? info.motion->frames : frames.end}, info.motion->frames);
+        if (!inside.empty()) candidate = Candidate{.recording = index, .signs = run, .whole = inside, .core = inside};
+      }
       if (!candidate) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("'{}' to '{}' in recording '{}' cannot be kept: no sign of it has a stroke "
@@ -139,10 +149,19 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
                                 from, to, info.name));
       }
       // What lies before the first sign and after the last stays as captured.
-      if (i == 0 && item.first == 0) {
-        candidate->whole.begin = 0;
+      const auto has_stroke = [](const Sign& sign) { return sign.stroke_span().has_value(); };
+      if (opens) candidate->whole.begin = 0;
+      if (closes) candidate->whole.end = info.motion->frames;
+      // Signs without stroke at the recording's own ends stand at no cut.
+      const auto first = std::find_if(run.begin(), run.end(), has_stroke);
+      const auto last = std::find_if(run.rbegin(), run.rend(), has_stroke).base();
+      if (first != run.end()) {
+        candidate->left_out.clear();
+        std::vector<Sign>& before = opens ? candidate->signs : candidate->left_out;
+        before.insert(before.begin(), run.begin(), first);
+        std::vector<Sign>& after = closes ? candidate->signs : candidate->left_out;
+        after.insert(after.end(), last, run.end());
       }
-      if (i + 1 == items.size() && item.last + 1 == signs.size()) candidate->whole.end = info.motion->frames;
       choice.candidates.push_back(std::move(*candidate));
     }
     choices.push_back(std::move(choice));
@@ -152,7 +171,9 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
   const auto bare = [&](FrameRange frames) {
     const FrameRange inside = clamp(frames, info.motion->frames);
     Choice choice;
-    if (!inside.empty()) choice.candidates.push_back({.recording = index, .whole = inside, .core = inside});
+    // A few frames are not worth a junction.
+    if (static_cast<double>(inside.size()) < 0.1 * info.motion->rate.hertz()) return choice;
+    choice.candidates.push_back({.recording = index, .whole = inside, .core = inside});
     return choice;
   };
   if (items.front().replacement != nullptr) {

@@ -14,15 +14,20 @@ using Clock = std::chrono::steady_clock;
 
 /// What the documents of the recordings used declare of themselves.
 std::vector<std::pair<std::string, std::string>> declarations_of(const Database& database,
-                                                                 const std::vector<Stretch>& stretches) {
+                                                                 const std::vector<Stretch>& stretches,
+                                                                 std::vector<Notice>& notices) {
   std::set<std::string> recordings;
   for (const Stretch& stretch : stretches) recordings.insert(stretch.recording);
   std::set<std::pair<std::string, std::string>> declarations;
   for (const std::string& name : recordings) {
     const std::optional<RecordingInfo> info = database.info(name);  // it may be gone meanwhile, or another
     if (!info || info->document == 0) continue;
-    for (const auto& [key, value] : database.document(name).properties) {
-      if (key.starts_with("signweave:") && key != "signweave:synthesis") declarations.emplace(key, value);
+    try {
+      for (const auto& [key, value] : database.document(name).properties) {
+        if (key.starts_with("signweave:") && key != "signweave:synthesis") declarations.emplace(key, value);
+      }
+    } catch (const Error& error) {  // its motion is sound: a damaged document stops no signing
+      notices.push_back({"", error.what()});
     }
   }
   return {declarations.begin(), declarations.end()};
@@ -105,7 +110,7 @@ Synthesized run(const Database& database, const Contents& contents, std::vector<
          fmt::format("no transition in this database to measure: {} ms taken; --duration sets it", duration.count())});
   }
   const auto done = Clock::now();
-  made.result.declarations = declarations_of(database, stretches);
+  made.result.declarations = declarations_of(database, stretches, made.result.notices);
   made.timings = {.semantic_query = queried - start,
                   .selection = selected - queried,
                   .retrieval = retrieved - selected,
@@ -121,7 +126,10 @@ Synthesized with_fresh_contents(const Database& database, Attempt attempt) {
   constexpr int kTries = 10;
   for (int tries = 1;; ++tries) {
     try {
-      return attempt(*database.contents());
+      const std::shared_ptr<const Contents> contents = database.contents();
+      Synthesized made = attempt(*contents);
+      made.contents = contents;
+      return made;
     } catch (const Error& error) {
       if (error.code() != ErrorCode::conflict || tries == kTries) throw;
     }

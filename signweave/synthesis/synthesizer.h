@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,7 @@ struct Timings {
 
 /// A synthesis and how it came about.
 struct Synthesized {
+  std::shared_ptr<const Contents> contents;  ///< what it was made from: candidates name its recordings
   Synthesis result;
   std::vector<Choice> choices;  ///< what there was to choose from
   Selection selection;

@@ -16,7 +16,7 @@ if(SIGNWEAVE_SANITIZE)
   add_compile_options(-fsanitize=${SIGNWEAVE_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${SIGNWEAVE_SANITIZE})
   # Instrumented code confuses GCC's flow analysis; the release build has the warning.
-  target_compile_options(signweave_flags INTERFACE -Wno-maybe-uninitialized)
+  target_compile_options(signweave_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   if(SIGNWEAVE_SANITIZE MATCHES "undefined")
     add_compile_options(-fno-sanitize-recover=undefined)
   endif()

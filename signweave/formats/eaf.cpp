@@ -22,16 +22,16 @@ namespace {
 /// XML cannot hold control characters, written out or as references; the parser lets them pass, and would cut a label
 /// at &#0;.
 void refuse_control_characters(const std::string& name, std::string_view text) {
-  const bool wide = text.size() >= 2 && (text[0] == 0 || text[1] == 0 || text[0] == '\xFE' || text[0] == '\xFF');
-  if (wide) return;  // UTF-16 and UTF-32: checked where a label is written
   std::size_t line = 1;
   std::size_t plain_until = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     unsigned code = static_cast<unsigned char>(text[i]);
     if (code == '\n') ++line;
-    if (text.substr(i, 4) == "<!--") plain_until = text.find("-->", i);
-    if (text.substr(i, 9) == "<![CDATA[") plain_until = text.find("]]>", i);
-    if (i >= plain_until && text.substr(i, 2) == "&#") {  // in comments and CDATA it means nothing
+    if (i >= plain_until) {  // in comments and CDATA a reference means nothing
+      if (text.substr(i, 4) == "<!--") plain_until = text.find("-->", i);
+      if (text.substr(i, 9) == "<![CDATA[") plain_until = text.find("]]>", i);
+    }
+    if (i >= plain_until && text.substr(i, 2) == "&#") {
       const bool hexadecimal = text.substr(i + 2, 1) == "x";
       const char* begin = text.data() + i + (hexadecimal ? 3 : 2);
       if (std::from_chars(begin, text.data() + text.size(), code, hexadecimal ? 16 : 10).ec != std::errc()) code = '?';
@@ -48,7 +48,7 @@ void refuse_control_characters(const std::string& name, std::string_view text) {
 File read_text(std::string name, std::string_view text) {
   const std::string file_name = name;
   const Xml xml(std::move(name), text);
-  refuse_control_characters(file_name, text);
+  refuse_control_characters(file_name, xml.text());
   FileParts parts = parse(xml);
   File file{std::move(parts.head), std::move(parts.notices)};
   for (FileTier& from : parts.tiers) {

@@ -136,6 +136,10 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
     notice.text = in.text();
     info.notices.push_back(std::move(notice));
   }
+  for (std::size_t n = in.count(8); n > 0; --n) {
+    std::string name = in.text();
+    info.declarations.emplace_back(std::move(name), in.text());
+  }
   in.finish();
   return info;
 }
@@ -161,6 +165,11 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
   for (const Notice& notice : info.notices) {
     out.text(notice.where);
     out.text(notice.text);
+  }
+  out.number(static_cast<std::uint32_t>(info.declarations.size()));
+  for (const auto& [name, value] : info.declarations) {
+    out.text(name);
+    out.text(value);
   }
   transaction.put(slot_key(slot), kv::sealed(out.bytes()));
 }

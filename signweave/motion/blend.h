@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 
 #include "signweave/motion/motion.h"
 
@@ -15,6 +16,23 @@ Eigen::Quaternionf slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& 
 /// keeps continuous. Where the shorter arc is chosen anew for each frame, two rotations that pass half a turn apart
 /// make the blend jump. Exactly a at 0 and b at 1.
 Eigen::Quaternionf slerp_as_signed(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) noexcept;
+
+/// The same for many joints at once, t in [0, 1]; all three of one size, `out` may be a or b. Off by less than 1e-6
+/// radians from the exact arc, and so at t = 0 and 1.
+void slerp(std::span<const Eigen::Quaternionf> a, std::span<const Eigen::Quaternionf> b, float t,
+           std::span<Eigen::Quaternionf> out) noexcept;
+void slerp_as_signed(std::span<const Eigen::Quaternionf> a, std::span<const Eigen::Quaternionf> b, float t,
+                     std::span<Eigen::Quaternionf> out) noexcept;
+
+/// Rotations that go on turning.
+struct Coasting {
+  std::span<const Eigen::Quaternionf> rotations;
+  std::span<const Eigen::Vector4f> velocities;  ///< x, y, z: radians a frame about an axis in the joint's own space
+  float frames = 0;                             ///< for how long; |frames · velocity| is at most pi
+};
+
+/// out = the arc as signed, at t, from where a has come to where b has.
+void slerp_coasting(const Coasting& a, const Coasting& b, float t, std::span<Eigen::Quaternionf> out) noexcept;
 
 /// out = the pose at t between a and b: slerp of rotations, linear translations. `out` may be a or b.
 void blend(PoseView a, PoseView b, float t, MutablePoseView out) noexcept;

@@ -131,17 +131,22 @@ void for_each_packet(const StoredMotion& stored, FrameRange frames, const JointS
   }
 }
 
-void for_each_track_record(const StoredMotion& stored, FrameRange frames,
+void for_each_track_record(const StoredMotion& stored, std::size_t track, FrameRange frames,
                            const std::function<void(const Record&)>& visit) {
   if (frames.empty()) return;
   const std::int64_t p = kTrackFrames;
+  for (std::int64_t block = frames.begin / p; block * p < frames.end; ++block) {
+    visit({.kind = RecordKind::track,
+           .part = static_cast<std::uint16_t>(track),
+           .block = static_cast<std::uint32_t>(block),
+           .frames = {block * p, std::min((block + 1) * p, stored.frames)}});
+  }
+}
+
+void for_each_track_record(const StoredMotion& stored, FrameRange frames,
+                           const std::function<void(const Record&)>& visit) {
   for (std::size_t track = 0; track < stored.tracks.size(); ++track) {
-    for (std::int64_t block = frames.begin / p; block * p < frames.end; ++block) {
-      visit({.kind = RecordKind::track,
-             .part = static_cast<std::uint16_t>(track),
-             .block = static_cast<std::uint32_t>(block),
-             .frames = {block * p, std::min((block + 1) * p, stored.frames)}});
-    }
+    for_each_track_record(stored, track, frames, visit);
   }
 }
 

@@ -68,7 +68,9 @@ void check_packet_size(const StoredMotion& stored);
 /// they are written: by block of frames, then by joint.
 void for_each_packet(const StoredMotion& stored, FrameRange frames, const JointSet& joints,
                      const std::function<void(const Record&)>& visit);
-/// Likewise for the records of all scalar tracks, by track, then by block.
+/// Likewise for the records of one scalar track, and of all of them by track, then by block.
+void for_each_track_record(const StoredMotion& stored, std::size_t track, FrameRange frames,
+                           const std::function<void(const Record&)>& visit);
 void for_each_track_record(const StoredMotion& stored, FrameRange frames,
                            const std::function<void(const Record&)>& visit);
 

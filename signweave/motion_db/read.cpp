@@ -40,7 +40,7 @@ void check_asked(const StoredMotion& stored, const Skeleton& skeleton, FrameRang
 
 /// Copies the frames that a sound packet and `asked` share.
 void copy_frames(const Found& packet, const Skeleton& skeleton, FrameRange asked, const JointSet& joints,
-                 Motion& result) {
+                 MutablePoses out) {
   const Width width = width_of(skeleton, packet.record);
   const FrameRange has = packet.record.frames;
   const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
@@ -49,9 +49,8 @@ void copy_frames(const Found& packet, const Skeleton& skeleton, FrameRange asked
   const auto count = static_cast<std::size_t>(shared.size());
   const std::byte* const rotations = packet.value.data() + kHeaderSize;
   const std::byte* const translations = rotations + static_cast<std::size_t>(has.size()) * width.rotations * 16;
-  const MutablePoseView first = result.pose(0);  // of arrays that hold all frames
-  auto* const out_rotations = reinterpret_cast<std::byte*>(first.rotations.data());
-  auto* const out_translations = reinterpret_cast<std::byte*>(first.translations.data());
+  auto* const out_rotations = reinterpret_cast<std::byte*>(out.rotations.data());
+  auto* const out_translations = reinterpret_cast<std::byte*>(out.translations.data());
   const std::size_t joint_count = skeleton.joint_count();
   const std::size_t translation_count = skeleton.translation_count();
 
@@ -84,6 +83,15 @@ void copy_frames(const Found& packet, const Skeleton& skeleton, FrameRange asked
   }
 }
 
+/// Copies the values that a sound record of a track and `asked` share.
+void copy_values(const Found& found, FrameRange asked, std::span<float> out) {
+  const FrameRange has = found.record.frames;
+  const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
+  std::memcpy(out.data() + (shared.begin - asked.begin),
+              found.value.data() + kHeaderSize + static_cast<std::size_t>(shared.begin - has.begin) * sizeof(float),
+              static_cast<std::size_t>(shared.size()) * sizeof(float));
+}
+
 /// The values of some frames of all tracks; sizes were checked when the records were found.
 std::vector<ScalarTrack> tracks_of(const StoredMotion& stored, FrameRange asked, std::span<const Found> records) {
   std::vector<ScalarTrack> tracks;
@@ -94,11 +102,7 @@ std::vector<ScalarTrack> tracks_of(const StoredMotion& stored, FrameRange asked,
     if (const char* fault = fault_of(found.value, stored.generation, found.record, Width{})) {
       fail(stored, found.record, nullptr, fault);
     }
-    const FrameRange has = found.record.frames;
-    const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
-    std::memcpy(tracks[found.record.part].values.data() + (shared.begin - asked.begin),
-                found.value.data() + kHeaderSize + static_cast<std::size_t>(shared.begin - has.begin) * sizeof(float),
-                static_cast<std::size_t>(shared.size()) * sizeof(float));
+    copy_values(found, asked, tracks[found.record.part].values);
   }
   return tracks;
 }
@@ -147,13 +151,58 @@ Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
             fault_of(packet.value, stored.generation, packet.record, width_of(*skeleton, packet.record))) {
       fail(stored, packet.record, skeleton.get(), fault);
     }
-    copy_frames(packet, *skeleton, frames, joints, result);
+    copy_frames(packet, *skeleton, frames, joints, result.poses({0, frames.size()}));
   }
   if (joints.empty()) {
     for (ScalarTrack& track : tracks_of(stored, frames, track_records)) result.add_track(std::move(track));
   }
   if (cost) *cost = spent;
   return result;
+}
+
+KnownMotion::KnownMotion(const kv::ReadTransaction& snapshot, StoredMotion stored)
+    : stored_(std::move(stored)),
+      skeleton_(read_skeleton(snapshot, stored_)),
+      sound_((packet_count(stored_) + 63) / 64) {}
+
+bool KnownMotion::is_sound(std::uint64_t packet) const noexcept {
+  return (sound_[packet / 64].load(std::memory_order_relaxed) >> (packet % 64) & 1) != 0;
+}
+
+void KnownMotion::found_sound(std::uint64_t packet) const noexcept {
+  sound_[packet / 64].fetch_or(std::uint64_t{1} << (packet % 64), std::memory_order_relaxed);
+}
+
+void StoredSource::read(FrameRange frames, MutablePoses out) const {
+  const StoredMotion& stored = motion_->stored();
+  const Skeleton& skeleton = *motion_->skeleton();
+  check_asked(stored, skeleton, frames, {});
+  const std::uint64_t parts = cut_by_joint(stored.mode) ? stored.joints : 1;
+  for_each_packet(stored, frames, {}, [&](const Record& record) {
+    const Width width = width_of(skeleton, record);
+    const std::optional<ByteSpan> value = snapshot_->get(key_of(stored.generation, record));
+    if (!value) fail(stored, record, &skeleton, "it is missing");
+    if (value->size() != value_size(record, width)) fail(stored, record, &skeleton, "its size is wrong");
+    const std::uint64_t number = record.block * parts + (parts > 1 ? record.part : 0);
+    if (!motion_->is_sound(number)) {
+      if (const char* fault = fault_of(*value, stored.generation, record, width)) {
+        fail(stored, record, &skeleton, fault);
+      }
+      motion_->found_sound(number);
+    }
+    copy_frames({record, *value}, skeleton, frames, {}, out);
+  });
+}
+
+void StoredSource::read_track(std::size_t track, FrameRange frames, std::span<float> out) const {
+  const StoredMotion& stored = motion_->stored();
+  check_asked(stored, *motion_->skeleton(), frames, {});
+  for_each_track_record(stored, track, frames, [&](const Record& record) {
+    const std::optional<ByteSpan> value = snapshot_->get(key_of(stored.generation, record));
+    if (!value) fail(stored, record, nullptr, "it is missing");
+    if (const char* fault = fault_of(*value, stored.generation, record, Width{})) fail(stored, record, nullptr, fault);
+    copy_values({record, *value}, frames, out);
+  });
 }
 
 std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "signweave/core/time.h"
 #include "signweave/features/transition_stats.h"
@@ -72,12 +73,24 @@ struct Border {
 /// How long a border's movement takes to come to rest in a gap, seconds.
 inline constexpr double kEaseSeconds = 0.15;
 
-/// Fills `out` with frame `index` (from 0) of `count` frames between two borders. Each side goes on as it moved and
-/// comes to rest within `ease` frames; the two are cross-faded over the whole gap with a weight that is flat at both
-/// ends. So position and velocity go on at both borders, and however long the gap, nothing swings out farther than half
-/// of what `ease` frames of that movement are. (ours) Allocates nothing.
-void fill_gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count, double ease,
-              MutablePoseView out) noexcept;
+/// What lies in a gap. Each side goes on as it moved and comes to rest within `ease` frames; the two are cross-faded
+/// over the whole gap with a weight that is flat at both ends. So position and velocity go on at both borders, and
+/// however long the gap, nothing swings out farther than half of what `ease` frames of that movement are. (ours) Used
+/// for many gaps it allocates for the first only.
+class GapFiller {
+ public:
+  /// Between two borders lie `count` frames.
+  void between(const Border& from, const Border& to, std::int64_t count, double ease);
+  /// Fills `out` with frame `index`, from 0. Allocates nothing.
+  void fill(std::int64_t index, MutablePoseView out) const noexcept;
+
+ private:
+  Pose from_, to_;
+  std::vector<Eigen::Vector4f> from_turns_, to_turns_;    ///< [joint] rotation vector per frame, in the joint's space
+  std::vector<Eigen::Vector3f> from_shifts_, to_shifts_;  ///< [translated joint] metres per frame
+  std::int64_t count_ = 0;
+  double ease_ = 1;
+};
 
 /// How long transitions last.
 struct DurationModel {

@@ -64,8 +64,9 @@ Standing standing_over(const Motion& motion, FrameRange frames) noexcept {
     const double w = static_cast<double>(pose.rotations[0].w());
     const double square = y * y + w * w;
     if (square < 1e-12) continue;  // upside down: no heading
-    sine += 2.0 * y * w / square;
-    cosine += (w * w - y * y) / square;
+    const double inverse = 1.0 / square;
+    sine += 2.0 * y * w * inverse;
+    cosine += (w * w - y * y) * inverse;
   }
   Standing standing;
   if (!frames.empty()) {

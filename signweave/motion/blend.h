@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <span>
+#include <vector>
 
 #include "signweave/motion/motion.h"
 
@@ -24,15 +25,26 @@ void slerp(std::span<const Eigen::Quaternionf> a, std::span<const Eigen::Quatern
 void slerp_as_signed(std::span<const Eigen::Quaternionf> a, std::span<const Eigen::Quaternionf> b, float t,
                      std::span<Eigen::Quaternionf> out) noexcept;
 
-/// Rotations that go on turning.
-struct Coasting {
-  std::span<const Eigen::Quaternionf> rotations;
-  std::span<const Eigen::Vector4f> velocities;  ///< x, y, z: radians a frame about an axis in the joint's own space
-  float frames = 0;                             ///< for how long; |frames · velocity| is at most pi
+/// Rotations that go on turning, one array per number.
+class CoastingRotations {
+ public:
+  /// Velocities are radians a frame about an axis in the joint's own space. Allocates only where there are more joints
+  /// than before.
+  void assign(std::span<const Eigen::Quaternionf> rotations, std::span<const Eigen::Vector3f> velocities);
+  /// Turns every joint on by so many frames.
+  void coast(float frames);
+  /// The numbers of all joints: 0 to 3 the rotation's x, y, z, w, 4 to 6 the velocity's x, y, z.
+  const float* number(std::size_t which) const noexcept { return numbers_.data() + which * count_; }
+
+ private:
+  std::vector<float> numbers_;
+  std::size_t count_ = 0;
 };
 
-/// out = the arc as signed, at t, from where a has come to where b has.
-void slerp_coasting(const Coasting& a, const Coasting& b, float t, std::span<Eigen::Quaternionf> out) noexcept;
+/// out = the arc as signed, at t, from where a has come to in so many frames to where b has. |frames · velocity| is at
+/// most pi. Off by less than 1e-5 radians.
+void slerp_coasting(const CoastingRotations& a, float a_frames, const CoastingRotations& b, float b_frames, float t,
+                    std::span<Eigen::Quaternionf> out) noexcept;
 
 /// out = the pose at t between a and b: slerp of rotations, linear translations. `out` may be a or b.
 void blend(PoseView a, PoseView b, float t, MutablePoseView out) noexcept;

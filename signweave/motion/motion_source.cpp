@@ -18,9 +18,12 @@ void MemorySource::read(FrameRange frames, MutablePoses out) const {
   std::ranges::copy(motion_.translations().subspan(at * moved, out.translations.size()), out.translations.begin());
 }
 
-void MemorySource::read_track(std::size_t track, FrameRange frames, std::span<float> out) const {
-  const std::vector<float>& values = motion_.tracks()[track].values;
-  std::copy(values.begin() + frames.begin, values.begin() + frames.end, out.begin());
+void MemorySource::read_tracks(FrameRange frames, std::span<const std::span<float>> out) const {
+  for (std::size_t track = 0; track < out.size(); ++track) {
+    if (out[track].empty()) continue;
+    const std::vector<float>& values = motion_.tracks()[track].values;
+    std::copy(values.begin() + frames.begin, values.begin() + frames.end, out[track].begin());
+  }
 }
 
 }  // namespace signweave

@@ -26,8 +26,9 @@ class MotionSource {
   /// Copies frames, which must lie within the motion, to `out`, which must have room for just these.
   /// Throws Error{corrupt} where what is stored is damaged.
   virtual void read(FrameRange frames, MutablePoses out) const = 0;
-  /// The same for the scalar track of that number.
-  virtual void read_track(std::size_t track, FrameRange frames, std::span<float> out) const = 0;
+  /// The same for the scalar tracks: a span for each of them, in the order of `tracks()`; one that is empty is left
+  /// out.
+  virtual void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const = 0;
 };
 
 /// A motion in memory.
@@ -41,7 +42,7 @@ class MemorySource : public MotionSource {
   std::int64_t frame_count() const noexcept override { return motion_.frame_count(); }
   std::span<const std::string> tracks() const noexcept override { return tracks_; }
   void read(FrameRange frames, MutablePoses out) const override;
-  void read_track(std::size_t track, FrameRange frames, std::span<float> out) const override;
+  void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const override;
 
  private:
   Motion motion_;

@@ -101,18 +101,21 @@ TEST(SlerpCoasting, TurnsOnAndBlends) {
   const Pairs pairs = many_pairs(503);
   std::mt19937 random(9);
   std::uniform_real_distribution<float> uniform(-0.1f, 0.1f);
-  std::vector<Eigen::Vector4f> left(pairs.a.size()), right(pairs.a.size());
+  std::vector<Eigen::Vector3f> left(pairs.a.size()), right(pairs.a.size());
   for (std::size_t i = 0; i < left.size(); ++i) {
-    left[i] = {uniform(random), uniform(random), uniform(random), 0};
-    right[i] = {uniform(random), uniform(random), uniform(random), 0};
+    left[i] = {uniform(random), uniform(random), uniform(random)};
+    right[i] = {uniform(random), uniform(random), uniform(random)};
   }
   left[0].setZero();
   std::vector<Quaternionf> out(pairs.a.size());
   const float onward = 15.0f;  // up to 1.5 · √3 radians
   const float back = -7.0f;
-  slerp_coasting({pairs.a, left, onward}, {pairs.b, right, back}, 0.3f, out);
-  const auto turned = [](const Quaternionf& q, const Eigen::Vector4f& velocity, float frames) {
-    const Eigen::Vector3d by = velocity.head<3>().cast<double>() * static_cast<double>(frames);
+  CoastingRotations coasting_a, coasting_b;
+  coasting_a.assign(pairs.a, left);
+  coasting_b.assign(pairs.b, right);
+  slerp_coasting(coasting_a, onward, coasting_b, back, 0.3f, out);
+  const auto turned = [](const Quaternionf& q, const Eigen::Vector3f& velocity, float frames) {
+    const Eigen::Vector3d by = velocity.cast<double>() * static_cast<double>(frames);
     const double angle = by.norm();
     if (angle == 0) return q.cast<double>();
     return q.cast<double>() * Quaterniond(Eigen::AngleAxisd(angle, by / angle));

@@ -166,11 +166,11 @@ TEST_F(DamageTest, CheckListsEveryFaultWithJointsAndFrames) {
   Bytes value = value_of(*store_, stored, packet(4, 3, {90, 100}));
   value.back() ^= std::byte{0xFF};
   replace(*store_, stored, packet(4, 3, {90, 100}), value);
-  replace(*store_, stored, {.kind = RecordKind::track, .part = 0, .block = 0, .frames = {0, 100}}, {});
+  replace(*store_, stored, {.kind = RecordKind::tracks, .part = 0, .block = 0, .frames = {0, 100}}, {});
   EXPECT_THAT(check(*store_->read(), stored),
               ElementsAre("stored motion 71, joint 2 (Joint 2), frames [0, 30): it is missing",
                           "stored motion 71, joint 4 (Joint 4), frames [90, 100): its checksum is wrong",
-                          "stored motion 71, track 0 (face 0), frames [0, 100): it is cut short"));
+                          "stored motion 71, scalar tracks, frames [0, 100): it is cut short"));
 }
 
 TEST_F(DamageTest, ADamagedSkeletonIsOneFaultAndPacketsAreCheckedAllTheSame) {

@@ -20,6 +20,9 @@
 /// Its keys have 16 bytes and begin with 'm': the caller's own must not.
 namespace signweave::motion_db {
 
+struct Record;
+struct Width;
+
 /// What must be known to read, or to erase, a stored motion: the caller keeps it.
 struct StoredMotion {
   std::uint64_t generation = 0;  ///< unique in the database, never used again
@@ -70,8 +73,8 @@ Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
             const std::shared_ptr<const Skeleton>& skeleton, FrameRange frames, const JointSet& joints = {},
             ReadCost* cost = nullptr);
 
-/// What was learned of a stored motion by looking at it: its skeleton, and which packets have been found sound. Threads
-/// may share it. Generations are never used twice, so it holds as long as the motion is there.
+/// What was learned of a stored motion by looking at it: its skeleton, and which of its records have been found sound.
+/// Threads may share it. Generations are never used twice, so it holds as long as the motion is there.
 class KnownMotion {
  public:
   /// Throws as `read_skeleton`.
@@ -79,16 +82,17 @@ class KnownMotion {
 
   const StoredMotion& stored() const noexcept { return stored_; }
   const std::shared_ptr<const Skeleton>& skeleton() const noexcept { return skeleton_; }
-  bool is_sound(std::uint64_t packet) const noexcept;
-  void found_sound(std::uint64_t packet) const noexcept;
+  /// Packets are numbered as they are written, and after them the records of the scalar tracks.
+  bool is_sound(std::uint64_t record) const noexcept;
+  void found_sound(std::uint64_t record) const noexcept;
 
  private:
   StoredMotion stored_;
   std::shared_ptr<const Skeleton> skeleton_;
-  mutable std::vector<std::atomic<std::uint64_t>> sound_;  ///< a bit per packet
+  mutable std::vector<std::atomic<std::uint64_t>> sound_;  ///< a bit per record
 };
 
-/// Frames of a stored motion, read straight to where they are wanted. A packet's checksum is verified when it is read
+/// Frames of a stored motion, read straight to where they are wanted. A record's checksum is verified when it is read
 /// for the first time through the same KnownMotion; after that reading is a copy. Belongs to its snapshot's thread.
 class StoredSource : public MotionSource {
  public:
@@ -101,9 +105,11 @@ class StoredSource : public MotionSource {
   std::span<const std::string> tracks() const noexcept override { return motion_->stored().tracks; }
   /// Throws Error{corrupt} as `read` below does.
   void read(FrameRange frames, MutablePoses out) const override;
-  void read_track(std::size_t track, FrameRange frames, std::span<float> out) const override;
+  void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const override;
 
  private:
+  void verify(const Record& record, ByteSpan value, Width width, std::uint64_t number) const;
+
   std::shared_ptr<const kv::ReadTransaction> snapshot_;
   std::shared_ptr<const KnownMotion> motion_;
 };

@@ -83,26 +83,34 @@ void copy_frames(const Found& packet, const Skeleton& skeleton, FrameRange asked
   }
 }
 
-/// Copies the values that a sound record of a track and `asked` share.
-void copy_values(const Found& found, FrameRange asked, std::span<float> out) {
+/// Copies the values that a sound record of the tracks and `asked` share; tracks whose span is empty are left out.
+void copy_values(const Found& found, FrameRange asked, std::span<const std::span<float>> out) {
   const FrameRange has = found.record.frames;
   const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
-  std::memcpy(out.data() + (shared.begin - asked.begin),
-              found.value.data() + kHeaderSize + static_cast<std::size_t>(shared.begin - has.begin) * sizeof(float),
-              static_cast<std::size_t>(shared.size()) * sizeof(float));
+  const auto length = static_cast<std::size_t>(has.size());
+  const auto from = static_cast<std::size_t>(shared.begin - has.begin);
+  for (std::size_t track = 0; track < out.size(); ++track) {
+    if (out[track].empty()) continue;
+    std::memcpy(out[track].data() + (shared.begin - asked.begin),
+                found.value.data() + kHeaderSize + (track * length + from) * sizeof(float),
+                static_cast<std::size_t>(shared.size()) * sizeof(float));
+  }
 }
 
 /// The values of some frames of all tracks; sizes were checked when the records were found.
 std::vector<ScalarTrack> tracks_of(const StoredMotion& stored, FrameRange asked, std::span<const Found> records) {
   std::vector<ScalarTrack> tracks;
+  std::vector<std::span<float>> values;
+  tracks.reserve(stored.tracks.size());
   for (const std::string& name : stored.tracks) {
     tracks.push_back({name, std::vector<float>(static_cast<std::size_t>(asked.size()))});
+    values.emplace_back(tracks.back().values);
   }
   for (const Found& found : records) {
-    if (const char* fault = fault_of(found.value, stored.generation, found.record, Width{})) {
+    if (const char* fault = fault_of(found.value, stored.generation, found.record, track_width(stored))) {
       fail(stored, found.record, nullptr, fault);
     }
-    copy_values(found, asked, tracks[found.record.part].values);
+    copy_values(found, asked, values);
   }
   return tracks;
 }
@@ -142,7 +150,7 @@ Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
   std::vector<Found> track_records;
   if (joints.empty()) {
     for_each_track_record(stored, frames,
-                          [&](const Record& record) { track_records.push_back(find(record, Width{})); });
+                          [&](const Record& record) { track_records.push_back(find(record, track_width(stored))); });
   }
 
   Motion result(skeleton, stored.rate, frames.size());
@@ -160,17 +168,26 @@ Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
   return result;
 }
 
+namespace {
+
+/// So many records are remembered at most, 16 MiB of bits: the descriptor's counts are believed no further.
+constexpr std::uint64_t kMostKnown = std::uint64_t{1} << 27;
+
+}  // namespace
+
 KnownMotion::KnownMotion(const kv::ReadTransaction& snapshot, StoredMotion stored)
     : stored_(std::move(stored)),
       skeleton_(read_skeleton(snapshot, stored_)),
-      sound_((packet_count(stored_) + 63) / 64) {}
+      sound_((std::min(packet_count(stored_) + track_record_count(stored_), kMostKnown) + 63) / 64) {}
 
-bool KnownMotion::is_sound(std::uint64_t packet) const noexcept {
-  return (sound_[packet / 64].load(std::memory_order_relaxed) >> (packet % 64) & 1) != 0;
+bool KnownMotion::is_sound(std::uint64_t record) const noexcept {
+  if (record / 64 >= sound_.size()) return false;
+  return (sound_[record / 64].load(std::memory_order_relaxed) >> (record % 64) & 1) != 0;
 }
 
-void KnownMotion::found_sound(std::uint64_t packet) const noexcept {
-  sound_[packet / 64].fetch_or(std::uint64_t{1} << (packet % 64), std::memory_order_relaxed);
+void KnownMotion::found_sound(std::uint64_t record) const noexcept {
+  if (record / 64 >= sound_.size()) return;
+  sound_[record / 64].fetch_or(std::uint64_t{1} << (record % 64), std::memory_order_relaxed);
 }
 
 void StoredSource::read(FrameRange frames, MutablePoses out) const {
@@ -184,25 +201,31 @@ void StoredSource::read(FrameRange frames, MutablePoses out) const {
     if (!value) fail(stored, record, &skeleton, "it is missing");
     if (value->size() != value_size(record, width)) fail(stored, record, &skeleton, "its size is wrong");
     const std::uint64_t number = record.block * parts + (parts > 1 ? record.part : 0);
-    if (!motion_->is_sound(number)) {
-      if (const char* fault = fault_of(*value, stored.generation, record, width)) {
-        fail(stored, record, &skeleton, fault);
-      }
-      motion_->found_sound(number);
-    }
+    verify(record, *value, width, number);
     copy_frames({record, *value}, skeleton, frames, {}, out);
   });
 }
 
-void StoredSource::read_track(std::size_t track, FrameRange frames, std::span<float> out) const {
+void StoredSource::read_tracks(FrameRange frames, std::span<const std::span<float>> out) const {
   const StoredMotion& stored = motion_->stored();
   check_asked(stored, *motion_->skeleton(), frames, {});
-  for_each_track_record(stored, track, frames, [&](const Record& record) {
+  const Width width = track_width(stored);
+  const std::uint64_t packets = packet_count(stored);
+  for_each_track_record(stored, frames, [&](const Record& record) {
     const std::optional<ByteSpan> value = snapshot_->get(key_of(stored.generation, record));
     if (!value) fail(stored, record, nullptr, "it is missing");
-    if (const char* fault = fault_of(*value, stored.generation, record, Width{})) fail(stored, record, nullptr, fault);
+    if (value->size() != value_size(record, width)) fail(stored, record, nullptr, "its size is wrong");
+    verify(record, *value, width, packets + record.block);
     copy_values({record, *value}, frames, out);
   });
+}
+
+void StoredSource::verify(const Record& record, ByteSpan value, Width width, std::uint64_t number) const {
+  if (motion_->is_sound(number)) return;
+  if (const char* fault = fault_of(value, motion_->stored().generation, record, width)) {
+    fail(motion_->stored(), record, motion_->skeleton().get(), fault);
+  }
+  motion_->found_sound(number);
 }
 
 std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored) {
@@ -227,7 +250,8 @@ std::vector<std::string> check(const kv::ReadTransaction& snapshot, const Stored
     }
     check_record(record, width);
   });
-  for_each_track_record(stored, {0, stored.frames}, [&](const Record& record) { check_record(record, Width{}); });
+  for_each_track_record(stored, {0, stored.frames},
+                        [&](const Record& record) { check_record(record, track_width(stored)); });
   return faults;
 }
 

@@ -184,12 +184,19 @@ class Filler {
         at(frame) = {FrameSource::kNone, stretch - 1, 0};
       }
     }
-    for (std::int64_t frame = now.begin() + shared_before; frame < now.end() - shared_after; ++frame) {
-      std::int32_t junction = FrameSource::kNone;
-      if (frame < now.core && i > 0) junction = stretch - 1;
-      if (frame >= now.core_end() && i + 1 < plan_.laid.size()) junction = stretch;
-      at(frame) = {stretch, junction, now.frame_at(frame)};
-    }
+    const auto kept = [&](std::int64_t begin, std::int64_t end, std::int32_t junction) {
+      if (now.captured_as_is()) {
+        const std::int64_t shift = now.stretch->core.begin - now.core;
+        for (std::int64_t frame = begin; frame < end; ++frame) {
+          at(frame) = {stretch, junction, static_cast<double>(frame + shift)};
+        }
+      } else {
+        for (std::int64_t frame = begin; frame < end; ++frame) at(frame) = {stretch, junction, now.frame_at(frame)};
+      }
+    };
+    kept(now.begin() + shared_before, now.core, i > 0 ? stretch - 1 : FrameSource::kNone);
+    kept(now.core, now.core_end(), FrameSource::kNone);
+    kept(now.core_end(), now.end() - shared_after, i + 1 < plan_.laid.size() ? stretch : FrameSource::kNone);
   }
 
   const Plan& plan_;

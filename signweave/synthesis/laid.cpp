@@ -20,14 +20,13 @@ FrameRange needed(const Laid& laid, FrameRange output) {
 
 double Laid::frame_at(std::int64_t output) const noexcept {
   const double frame = static_cast<double>(stretch->core.begin) + static_cast<double>(output - core) * step;
-  // One frame more than the stretch, where there is one, to interpolate towards.
-  const std::int64_t last = std::min(stretch->whole.end, stretch->source->frame_count() - 1);
   return std::clamp(frame, static_cast<double>(stretch->whole.begin), static_cast<double>(last));
 }
 
 Laid lay(const Stretch& stretch, FrameRate rate, double tempo) {
   Laid laid;
   laid.stretch = &stretch;
+  laid.last = std::min(stretch.whole.end, stretch.source->frame_count() - 1);
   const FrameRate own = stretch.source->rate();
   laid.step = own == rate ? tempo : own.hertz() / rate.hertz() * tempo;
   const auto frames = [&](std::int64_t count) {
@@ -63,24 +62,34 @@ void read_frames(const Laid& laid, FrameRange output, MutablePoses out) {
   }
 }
 
-void read_track(const Laid& laid, std::size_t track, FrameRange output, std::span<float> out) {
+void read_tracks(const Laid& laid, FrameRange output, std::span<const std::span<float>> out) {
   if (output.empty()) return;
   const MotionSource& source = *laid.stretch->source;
   if (laid.captured_as_is()) {
     const std::int64_t first = laid.stretch->core.begin + output.begin - laid.core;
-    source.read_track(track, {first, first + output.size()}, out);
+    source.read_tracks({first, first + output.size()}, out);
     return;
   }
   const FrameRange frames = needed(laid, output);
-  std::vector<float> captured(static_cast<std::size_t>(frames.size()));
-  source.read_track(track, frames, captured);
-  for (std::int64_t frame = output.begin; frame < output.end; ++frame) {
-    const double at = laid.frame_at(frame) - static_cast<double>(frames.begin);
-    const auto before = static_cast<std::size_t>(at);
-    const std::size_t after = std::min(before + 1, captured.size() - 1);
-    const auto part = static_cast<float>(at - static_cast<double>(before));
-    out[static_cast<std::size_t>(frame - output.begin)] =
-        captured[before] + part * (captured[after] - captured[before]);
+  std::vector<std::vector<float>> captured(out.size());
+  std::vector<std::span<float>> spans(out.size());
+  for (std::size_t track = 0; track < out.size(); ++track) {
+    if (out[track].empty()) continue;
+    captured[track].resize(static_cast<std::size_t>(frames.size()));
+    spans[track] = captured[track];
+  }
+  source.read_tracks(frames, spans);
+  for (std::size_t track = 0; track < out.size(); ++track) {
+    const std::vector<float>& values = captured[track];
+    if (values.empty()) continue;
+    for (std::int64_t frame = output.begin; frame < output.end; ++frame) {
+      const double at = laid.frame_at(frame) - static_cast<double>(frames.begin);
+      const auto before = static_cast<std::size_t>(at);
+      const std::size_t after = std::min(before + 1, values.size() - 1);
+      const auto part = static_cast<float>(at - static_cast<double>(before));
+      out[track][static_cast<std::size_t>(frame - output.begin)] =
+          values[before] + part * (values[after] - values[before]);
+    }
   }
 }
 

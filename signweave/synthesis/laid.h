@@ -13,6 +13,8 @@ namespace signweave {
 struct Laid {
   const Stretch* stretch = nullptr;
   double step = 1;
+  std::int64_t last =
+      0;  ///< the recording's last frame that may be looked at: one beyond the stretch, where there is one
   std::int64_t preparation = 0;  ///< output frames before the core that were captured
   std::int64_t core_frames = 1;
   std::int64_t retraction = 0;  ///< output frames after it
@@ -36,7 +38,7 @@ Laid lay(const Stretch& stretch, FrameRate rate, double tempo);
 
 /// Puts some of its output frames where they are wanted, as captured, or interpolated where its own grid is another.
 void read_frames(const Laid& laid, FrameRange output, MutablePoses out);
-/// The same of one scalar track.
-void read_track(const Laid& laid, std::size_t track, FrameRange output, std::span<float> out);
+/// The same of its scalar tracks: a span for each, empty where the track is not wanted.
+void read_tracks(const Laid& laid, FrameRange output, std::span<const std::span<float>> out);
 
 }  // namespace signweave

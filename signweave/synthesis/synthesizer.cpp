@@ -39,9 +39,9 @@ class TimedSource : public MotionSource {
     source_->read(frames, out);
     spent_ += Clock::now() - start;
   }
-  void read_track(std::size_t track, FrameRange frames, std::span<float> out) const override {
+  void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const override {
     const auto start = Clock::now();
-    source_->read_track(track, frames, out);
+    source_->read_tracks(frames, out);
     spent_ += Clock::now() - start;
   }
 

@@ -74,16 +74,14 @@ constexpr TransitionMethod kMethods[] = {
 };
 
 /// The rotation per frame at a border, as a rotation vector in the joint's own space, no longer than `most` radians.
-Eigen::Vector4f velocity(const Eigen::Quaternionf& earlier, const Eigen::Quaternionf& later, std::int64_t span,
+Eigen::Vector3f velocity(const Eigen::Quaternionf& earlier, const Eigen::Quaternionf& later, std::int64_t span,
                          float most) noexcept {
   Eigen::Quaternionf step = earlier.conjugate() * later;
   if (step.w() < 0) step.coeffs() *= -1.0f;
   const float sine = step.vec().norm();
-  if (sine < 1e-7f) return Eigen::Vector4f::Zero();
+  if (sine < 1e-7f) return Eigen::Vector3f::Zero();
   const float speed = std::min(most, 2.0f * std::atan2(sine, step.w()) / static_cast<float>(span));
-  Eigen::Vector4f turn = Eigen::Vector4f::Zero();
-  turn.head<3>() = step.vec() * (speed / sine);
-  return turn;
+  return step.vec() * (speed / sine);
 }
 
 /// How far something has gone `frames` after it moved at 1 a frame, if it slows down evenly to rest within `ease`
@@ -117,20 +115,26 @@ void GapFiller::between(const Border& from, const Border& to, std::int64_t count
   const float most = std::numbers::pi_v<float> / (static_cast<float>(ease_) / 2.0f);
   const std::size_t joints = from.pose.rotations.size();
   const std::size_t moved = from.pose.translations.size();
-  from_.rotations.assign(from.pose.rotations.begin(), from.pose.rotations.end());
-  from_.translations.assign(from.pose.translations.begin(), from.pose.translations.end());
-  to_.rotations.assign(to.pose.rotations.begin(), to.pose.rotations.end());
-  to_.translations.assign(to.pose.translations.begin(), to.pose.translations.end());
-  from_turns_.assign(joints, Eigen::Vector4f::Zero());
-  to_turns_.assign(joints, Eigen::Vector4f::Zero());
+  signed_to_.assign(to.pose.rotations.begin(), to.pose.rotations.end());
+  from_places_.assign(from.pose.translations.begin(), from.pose.translations.end());
+  to_places_.assign(to.pose.translations.begin(), to.pose.translations.end());
+  from_turns_.assign(joints, Eigen::Vector3f::Zero());
+  to_turns_.assign(joints, Eigen::Vector3f::Zero());
   from_shifts_.assign(moved, Eigen::Vector3f::Zero());
   to_shifts_.assign(moved, Eigen::Vector3f::Zero());
   for (std::size_t i = 0; i < joints; ++i) {
     // Chosen at the borders, so that it is the same for every frame.
-    if (from_.rotations[i].dot(to_.rotations[i]) < 0) to_.rotations[i].coeffs() *= -1.0f;
+    if (from.pose.rotations[i].dot(signed_to_[i]) < 0) signed_to_[i].coeffs() *= -1.0f;
     if (from.span > 0) from_turns_[i] = velocity(from.context.rotations[i], from.pose.rotations[i], from.span, most);
     if (to.span > 0) to_turns_[i] = velocity(to.pose.rotations[i], to.context.rotations[i], to.span, most);
   }
+  from_.assign(from.pose.rotations, from_turns_);
+  to_.assign(signed_to_, to_turns_);
+  from_rest_.assign(from.pose.rotations, from_turns_);
+  to_rest_.assign(signed_to_, to_turns_);
+  const float whole = coasted(ease_, ease_);
+  from_rest_.coast(whole);
+  to_rest_.coast(-whole);
   for (std::size_t i = 0; i < moved; ++i) {
     const auto per_frame = [&](const Eigen::Vector3f& way, std::int64_t span) {
       return way / static_cast<float>(span);
@@ -148,10 +152,13 @@ void GapFiller::fill(std::int64_t index, MutablePoseView out) const noexcept {
   const float onward = coasted(since, ease_);
   const float back = coasted(intervals - since, ease_);
   const float weight = crossfade_weight(index, count_);
-  slerp_coasting({from_.rotations, from_turns_, onward}, {to_.rotations, to_turns_, -back}, weight, out.rotations);
+  const bool from_rests = since >= ease_;
+  const bool to_rests = intervals - since >= ease_;
+  slerp_coasting(from_rests ? from_rest_ : from_, from_rests ? 0.0f : onward, to_rests ? to_rest_ : to_,
+                 to_rests ? 0.0f : -back, weight, out.rotations);
   for (std::size_t i = 0; i < out.translations.size(); ++i) {
-    const Eigen::Vector3f a = from_.translations[i] + onward * from_shifts_[i];
-    const Eigen::Vector3f b = to_.translations[i] - back * to_shifts_[i];
+    const Eigen::Vector3f a = from_places_[i] + onward * from_shifts_[i];
+    const Eigen::Vector3f b = to_places_[i] - back * to_shifts_[i];
     out.translations[i] = a + weight * (b - a);
   }
 }

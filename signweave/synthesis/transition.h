@@ -8,6 +8,7 @@
 
 #include "signweave/core/time.h"
 #include "signweave/features/transition_stats.h"
+#include "signweave/motion/blend.h"
 #include "signweave/motion/motion.h"
 
 namespace signweave {
@@ -85,8 +86,11 @@ class GapFiller {
   void fill(std::int64_t index, MutablePoseView out) const noexcept;
 
  private:
-  Pose from_, to_;
-  std::vector<Eigen::Vector4f> from_turns_, to_turns_;    ///< [joint] rotation vector per frame, in the joint's space
+  CoastingRotations from_, to_;                           ///< at the borders
+  CoastingRotations from_rest_, to_rest_;                 ///< where they come to rest
+  std::vector<Eigen::Quaternionf> signed_to_;             ///< [joint] the right border, in the left one's hemisphere
+  std::vector<Eigen::Vector3f> from_turns_, to_turns_;    ///< [joint] rotation vector per frame, in the joint's space
+  std::vector<Eigen::Vector3f> from_places_, to_places_;  ///< [translated joint] metres
   std::vector<Eigen::Vector3f> from_shifts_, to_shifts_;  ///< [translated joint] metres per frame
   std::int64_t count_ = 0;
   double ease_ = 1;

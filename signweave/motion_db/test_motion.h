@@ -90,7 +90,8 @@ struct TestStore {
   std::unique_ptr<kv::KvStore> store;
 };
 
-inline StoredMotion put_motion(kv::KvStore& store, const Motion& motion, AccessMode mode, std::uint64_t generation = 1) {
+inline StoredMotion put_motion(kv::KvStore& store, const Motion& motion, AccessMode mode,
+                               std::uint64_t generation = 1) {
   const StoredMotion stored = describe(motion, mode, generation);
   put(store, stored, motion);
   return stored;

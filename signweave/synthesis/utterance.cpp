@@ -155,7 +155,8 @@ std::string to_string(const Utterance& utterance) {
     if (place.kind == Place::Kind::gloss) {
       text += to_string(place.gloss);
     } else {
-      text += fmt::format("{}@{}..{}", quoted_if_needed(place.recording), place.span.begin.count(), place.span.end.count());
+      text +=
+          fmt::format("{}@{}..{}", quoted_if_needed(place.recording), place.span.begin.count(), place.span.end.count());
     }
   }
   return text;

@@ -267,5 +267,15 @@ TEST(StoredMotion, ANewerLayoutSaysWhatWouldMendIt) {
   }
 }
 
+TEST(Damage, OfAThousandRecordsNamesNoMore) {
+  const TestStore store;
+  const Motion motion = test_motion(1'500, 3);
+  const StoredMotion stored = put_motion(*store, motion, {AccessMode::Kind::by_frame, 1});
+  erase(*store, stored);
+  const std::vector<std::string> faults = check(*store->read(), stored);
+  ASSERT_EQ(faults.size(), 1'001u);
+  EXPECT_THAT(faults.back(), testing::HasSubstr("more faults than these"));
+}
+
 }  // namespace
 }  // namespace signweave::motion_db

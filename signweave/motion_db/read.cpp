@@ -228,6 +228,14 @@ void StoredSource::verify(const Record& record, ByteSpan value, Width width, std
   motion_->found_sound(number);
 }
 
+namespace {
+
+/// So many faults of one motion are named: nobody reads more, and a damaged descriptor may tell of a billion packets.
+constexpr std::size_t kMostFaults = 1000;
+struct TooMany {};
+
+}  // namespace
+
 std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored) {
   std::vector<std::string> faults;
   std::shared_ptr<const Skeleton> skeleton;
@@ -237,21 +245,26 @@ std::vector<std::string> check(const kv::ReadTransaction& snapshot, const Stored
     faults.emplace_back(error.what());
   }
   const auto check_record = [&](const Record& record, std::optional<Width> width) {
+    if (faults.size() >= kMostFaults) throw TooMany{};
     const std::optional<ByteSpan> value = snapshot.get(key_of(stored.generation, record));
     const char* const fault = value ? fault_of(*value, stored.generation, record, width) : "it is missing";
     if (fault) faults.push_back(name_of(stored, record, skeleton.get()) + ": " + fault);
   };
-  for_each_packet(stored, {0, stored.frames}, {}, [&](const Record& record) {
-    std::optional<Width> width;
-    if (record.part == kAllJoints) {
-      width = {static_cast<std::uint16_t>(stored.joints), static_cast<std::uint16_t>(stored.translations)};
-    } else if (skeleton) {
-      width = width_of(*skeleton, record);
-    }
-    check_record(record, width);
-  });
-  for_each_track_record(stored, {0, stored.frames},
-                        [&](const Record& record) { check_record(record, track_width(stored)); });
+  try {
+    for_each_packet(stored, {0, stored.frames}, {}, [&](const Record& record) {
+      std::optional<Width> width;
+      if (record.part == kAllJoints) {
+        width = {static_cast<std::uint16_t>(stored.joints), static_cast<std::uint16_t>(stored.translations)};
+      } else if (skeleton) {
+        width = width_of(*skeleton, record);
+      }
+      check_record(record, width);
+    });
+    for_each_track_record(stored, {0, stored.frames},
+                          [&](const Record& record) { check_record(record, track_width(stored)); });
+  } catch (const TooMany&) {
+    faults.push_back("stored motion " + std::to_string(stored.generation) + ": more faults than these");
+  }
   return faults;
 }
 

@@ -38,6 +38,16 @@ class TextReader {
   /// The next word must be this one.
   void expect(std::string_view word);
 
+  /// Numbers one after the other, as read by `plain_numbers`.
+  struct NumberRun {
+    std::size_t count = 0;
+    std::size_t first_line = 0;  ///< the line of the first; `line()` is that of the last
+  };
+  /// Fills `numbers` with the next words, as long as they are plain numbers from -`most` to `most`, read as `number`
+  /// reads them; fast. Stops before any other word, and before some that lie at the window's edge, so no number at all
+  /// says nothing: go on with `number`.
+  NumberRun plain_numbers(std::span<double> numbers, double most);
+
   /// The line, from 1, of the word returned last.
   std::size_t line() const noexcept { return line_; }
   const std::string& name() const noexcept { return name_; }

@@ -1,0 +1,492 @@
+// Reading and writing files, against the least that such work can be: a bare scan of the same numbers with fast_float,
+// a bare loop of std::to_chars, a bare parse by pugixml; and against Assimp, which also reads BVH.
+//
+// Prints lines "name value unit yardstick ratio goal": medians of interleaved rounds. Of the files under ../shared/data
+// the median and the worst of each class, the worst one's name in the line's; with --each every file.
+//   --quick        small and made files alone, one round: proves that both sides do the same work
+//   --data FOLDER  instead of ../shared/data
+// What is read is compared with what the yardstick read, and anything else but the same ends the program with 1.
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <assimp/scene.h>
+#include <fast_float/fast_float.h>
+#include <assimp/Importer.hpp>
+#include <atomic>
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <pugixml.hpp>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "bench/measure.h"
+#include "demo/corpus.h"
+#include "signweave/core/atomic_file.h"
+#include "signweave/core/text_reader.h"
+#include "signweave/database/import.h"
+#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh_frames.h"
+#include "signweave/formats/bvh_hierarchy.h"
+#include "signweave/formats/eaf.h"
+
+namespace {
+
+using namespace signweave;
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMegabyte = 1'000'000;
+
+struct Settings {
+  fs::path data = SIGNWEAVE_SHARED_DATA;
+  bool each = false;
+  bool quick = false;
+};
+
+[[noreturn]] void differ(const std::string& name, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}: {}", name, what));
+}
+
+// --- lines ---
+
+/// The results of one kind of measurement over many files.
+class Table {
+ public:
+  Table(std::string what, std::string unit, double scale, std::string goal, bool each)
+      : what_(std::move(what)), unit_(std::move(unit)), scale_(scale), goal_(std::move(goal)), each_(each) {}
+
+  void add(const std::string& file, const bench::Compared& compared) {
+    if (each_) bench::print(fmt::format("{}/{}", what_, file), scale_, unit_, compared, goal_);
+    rows_.push_back({file, compared});
+  }
+  void print() {
+    if (rows_.empty()) return;
+    std::sort(rows_.begin(), rows_.end(),
+              [](const Row& a, const Row& b) { return a.compared.ratio < b.compared.ratio; });
+    if (rows_.size() > 1) {
+      bench::print(fmt::format("{}/median_of_{}", what_, rows_.size()), scale_, unit_, rows_[rows_.size() / 2].compared,
+                   goal_);
+    }
+    const std::string worst = rows_.size() > 1 ? "worst:" : "";
+    bench::print(fmt::format("{}/{}{}", what_, worst, rows_.back().file), scale_, unit_, rows_.back().compared, goal_);
+  }
+
+ private:
+  struct Row {
+    std::string file;
+    bench::Compared compared;
+  };
+  std::string what_, unit_;
+  double scale_;
+  std::string goal_;
+  bool each_;
+  std::vector<Row> rows_;
+};
+
+// --- BVH: yardsticks ---
+
+bool is_blank(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/// The text after the line "Frame Time: …".
+std::string_view frames_of(std::string_view text) {
+  const std::size_t at = text.find('\n', text.find("Frame Time"));
+  return at == text.npos ? std::string_view() : text.substr(at);
+}
+
+/// The bare scan: every number of the frames into `numbers`, which must be large enough. Returns how many there were.
+std::size_t scan(std::string_view text, std::vector<double>& numbers) {
+  text = frames_of(text);
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  double* out = numbers.data();
+  for (;;) {
+    while (at != end && is_blank(*at)) ++at;
+    if (at == end) return static_cast<std::size_t>(out - numbers.data());
+    const auto [next, error] = fast_float::from_chars(at, end, *out);
+    if (error != std::errc()) throw std::runtime_error("the scan met what is no number");
+    at = next;
+    ++out;
+  }
+}
+
+/// The same numbers by our reader: all that bvh::read does up to its channels.
+std::size_t read_channels(const std::string& name, std::string_view text, std::vector<double>& numbers) {
+  TextReader reader(name, text);
+  std::vector<Notice> notices;
+  const bvh::Hierarchy hierarchy = bvh::read_hierarchy(reader, notices);
+  const bvh::MotionHeader header = bvh::read_header(reader, notices);
+  const bvh::ReadOptions options;
+  bvh::FrameReader frames(reader, hierarchy, header, options);
+  std::size_t count = 0;
+  for (std::span<const double> row = frames.next(); !row.empty(); row = frames.next()) {
+    std::copy(row.begin(), row.end(), numbers.begin() + static_cast<std::ptrdiff_t>(count));
+    count += row.size();
+  }
+  return count;
+}
+
+// --- BVH: correctness ---
+
+/// The rotations of the file's first and last frame made from the scan's numbers, in the plainest way.
+void check_rotations(const std::string& name, const bvh::File& file, const std::vector<double>& numbers) {
+  const std::int64_t last = file.motion.frame_count() - 1;
+  std::size_t columns = 0;
+  for (const auto& channels : file.layout.channels) columns += channels.size();
+  for (const std::int64_t frame : {std::int64_t{0}, last / 2, last}) {
+    std::size_t at = static_cast<std::size_t>(frame) * columns;
+    for (std::size_t joint = 0; joint < file.layout.channels.size(); ++joint) {
+      Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+      for (const bvh::Channel channel : file.layout.channels[joint]) {
+        const double value = numbers[at++];
+        const int kind = static_cast<int>(channel);
+        if (kind < 3) continue;
+        rotation = rotation * Eigen::AngleAxisd(value * std::numbers::pi / 180, Eigen::Vector3d::Unit(kind - 3));
+      }
+      if (file.layout.up == bvh::UpAxis::z) {
+        rotation = Eigen::Quaterniond(rotation.w(), rotation.x(), rotation.z(), -rotation.y());
+      }
+      const Eigen::Quaterniond ours = file.motion.pose(frame).rotations[joint].cast<double>();
+      const double off = (ours.conjugate() * rotation).vec().norm() * 360 / std::numbers::pi;
+      if (!(off < 1e-4)) differ(name, fmt::format("joint {} of frame {} is {} degrees off", joint, frame, off));
+    }
+  }
+}
+
+// --- BVH: one file ---
+
+struct BvhFile {
+  std::string name;
+  fs::path path;
+};
+
+struct BvhTables {
+  Table channels, read, write, write_shortest, assimp;
+  BvhTables(const std::string& kind, const std::string& channel_goal, bool each)
+      : channels("bvh_to_channels/" + kind, "us", 1e6, channel_goal, each),
+        read("bvh_read/" + kind, "us", 1e6, "<= 1.8", each),
+        write("bvh_write/" + kind, "us", 1e6, "<= 1.2", each),
+        write_shortest("bvh_write_vs_shortest/" + kind, "us", 1e6, "-", each),
+        assimp("bvh_read_vs_assimp/" + kind, "us", 1e6, "<= 0.2", each) {}
+  void print() {
+    for (Table* table : {&channels, &read, &write, &write_shortest, &assimp}) table->print();
+  }
+};
+
+/// How often a round calls, so that it takes some milliseconds, and how many rounds there are.
+struct Effort {
+  int calls = 1;
+  int rounds = 1;
+};
+Effort effort_for(std::size_t bytes, bool quick) {
+  if (quick) return {};
+  return {static_cast<int>(std::clamp<std::size_t>(2 * kMegabyte / bytes, 1, 50)), bytes > 10 * kMegabyte ? 9 : 15};
+}
+
+/// The numbers of a written file, each with its count of decimals.
+struct Printed {
+  std::vector<double> numbers;
+  std::vector<int> decimals;
+};
+Printed printed_in(std::string_view written) {
+  Printed printed;
+  written = frames_of(written);
+  for (std::size_t at = 0; at < written.size();) {
+    if (is_blank(written[at])) {
+      ++at;
+      continue;
+    }
+    std::size_t end = at;
+    while (end < written.size() && !is_blank(written[end])) ++end;
+    const std::string_view word = written.substr(at, end - at);
+    double value = 0;
+    fast_float::from_chars(word.data(), word.data() + word.size(), value);
+    const std::size_t point = word.find('.');
+    printed.numbers.push_back(value);
+    printed.decimals.push_back(point == word.npos ? 0 : static_cast<int>(word.size() - point - 1));
+    at = end;
+  }
+  return printed;
+}
+
+void measure_write(const std::string& name, const bvh::File& file, const Effort& effort, BvhTables& tables) {
+  const std::string written = bvh::write_text(file.motion, file.layout);
+  const Printed printed = printed_in(written);
+  std::string buffer(written.size() + 64, ' ');
+  // Line ends are blanks here; both print the same digits.
+  std::size_t used = 0;
+  const auto fixed = [&] {
+    char* at = buffer.data();
+    for (std::size_t i = 0; i < printed.numbers.size(); ++i) {
+      at = std::to_chars(at, buffer.data() + buffer.size(), printed.numbers[i], std::chars_format::fixed,
+                         printed.decimals[i])
+               .ptr;
+      *at++ = ' ';
+    }
+    used = static_cast<std::size_t>(at - buffer.data());
+  };
+  const auto shortest = [&] {
+    char* at = buffer.data();
+    for (const double value : printed.numbers) {
+      at = std::to_chars(at, buffer.data() + buffer.size(), value, std::chars_format::fixed).ptr;
+      *at++ = ' ';
+    }
+    used = static_cast<std::size_t>(at - buffer.data());
+  };
+  const auto check = [&] {
+    std::string expected(frames_of(written).substr(1));
+    std::replace(expected.begin(), expected.end(), '\n', ' ');
+    if (std::string_view(buffer).substr(0, used) != expected) differ(name, "to_chars printed other digits");
+  };
+  const auto ours = [&] { bench::keep(bvh::write_text(file.motion, file.layout)); };
+  fixed();
+  check();
+  shortest();
+  check();
+  tables.write.add(name, bench::compare(effort.rounds, ours, fixed, effort.calls));
+  tables.write_shortest.add(name, bench::compare(effort.rounds, ours, shortest, effort.calls));
+}
+
+void measure_assimp(const BvhFile& from, const bvh::File& file, const Effort& effort, BvhTables& tables) {
+  Assimp::Importer importer;
+  const auto theirs = [&] { return importer.ReadFile(from.path.string(), 0); };
+  const aiScene* scene = theirs();
+  if (scene == nullptr || scene->mNumAnimations == 0) {
+    fmt::print(stderr, "Assimp refuses {}: {}\n", from.name,
+               scene == nullptr ? importer.GetErrorString() : "no frames");
+    bench::print("bvh_read_vs_assimp/refused:" + from.name, 0, "us", 0, 0, "-");
+    return;
+  }
+  const unsigned keys = scene->mAnimations[0]->mChannels[0]->mNumRotationKeys;
+  if (keys != file.motion.frame_count()) {
+    differ(from.name, fmt::format("Assimp reads {} frames, we {}", keys, file.motion.frame_count()));
+  }
+  const int rounds = std::min(effort.rounds, 5);
+  tables.assimp.add(from.name, bench::compare(
+                                   rounds, [&] { bench::keep(bvh::read(from.path)); }, theirs));
+}
+
+void measure_bvh(const BvhFile& from, bool quick, BvhTables& tables) {
+  const std::string text = read_file(from.path);
+  const Effort effort = effort_for(text.size(), quick);
+  std::vector<double> scanned(text.size() / 2 + 1);
+  std::vector<double> ours(scanned.size());
+  const std::size_t count = scan(text, scanned);
+  if (read_channels(from.name, text, ours) != count) differ(from.name, "we read another count of numbers");
+  for (std::size_t i = 0; i < count; ++i) {
+    if (ours[i] != scanned[i])
+      differ(from.name, fmt::format("number {} is {}, the scan says {}", i, ours[i], scanned[i]));
+  }
+  const bvh::File file = bvh::read(from.path);
+  check_rotations(from.name, file, scanned);
+
+  const auto yardstick = [&] { bench::keep(scan(text, scanned)); };
+  tables.channels.add(from.name, bench::compare(
+                                     effort.rounds, [&] { bench::keep(read_channels(from.name, text, ours)); },
+                                     yardstick, effort.calls));
+  tables.read.add(from.name, bench::compare(
+                                 effort.rounds, [&] { bench::keep(bvh::read(from.path)); }, yardstick, effort.calls));
+  measure_write(from.name, file, effort, tables);
+  measure_assimp(from, file, effort, tables);
+}
+
+// --- EAF ---
+
+struct Count : pugi::xml_tree_walker {
+  std::size_t annotations = 0;
+  bool for_each(pugi::xml_node& node) override {
+    const std::string_view name = node.name();
+    annotations += name == "ALIGNABLE_ANNOTATION" || name == "REF_ANNOTATION" ? 1 : 0;
+    return true;
+  }
+};
+
+void measure_eaf(const fs::path& path, const std::string& name, bool quick, Table& table) {
+  const std::string text = read_file(path);
+  const Effort effort = effort_for(text.size(), quick);
+  const auto theirs = [&] {
+    pugi::xml_document document;
+    if (!document.load_buffer(text.data(), text.size(), pugi::parse_full | pugi::parse_ws_pcdata,
+                              pugi::encoding_utf8)) {
+      differ(name, "pugixml refuses it");
+    }
+    return document;
+  };
+  Count count;
+  pugi::xml_document document = theirs();
+  document.traverse(count);
+  std::size_t ours = 0;
+  for (const Tier& tier : eaf::read(path).document.tiers) ours += tier.annotations.size();
+  if (ours != count.annotations) differ(name, fmt::format("{} annotations, the file has {}", ours, count.annotations));
+  table.add(name, bench::compare(
+                      effort.rounds, [&] { bench::keep(eaf::read_text(name, text)); }, [&] { bench::keep(theirs()); },
+                      effort.calls));
+}
+
+// --- memory ---
+
+/// Anonymous memory of this process in bytes: what it took for itself, without the pages of files that it maps.
+std::size_t anonymous_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("RssAnon:")) return std::stoull(line.substr(8)) * 1024;
+  }
+  throw std::runtime_error("/proc/self/status does not tell RssAnon");
+}
+
+/// Run as a program of its own: imports a file and prints by how much anonymous memory grew at most, and what the
+/// motion takes, in bytes. Looked at every half a millisecond.
+int import_and_tell(const fs::path& bvh_path, const fs::path& folder) {
+  Database::create(folder, {});
+  Database database(folder, kv::Access::read_write);
+  const std::size_t before = anonymous_memory();
+  std::atomic<std::size_t> most = before;
+  std::atomic<bool> done = false;
+  std::thread watcher([&] {
+    while (!done) {
+      most = std::max<std::size_t>(most, anonymous_memory());
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+  });
+  const ImportReport report = import_recording(database, {.name = "long", .motion = bvh_path, .annotation = {}}, {});
+  done = true;
+  watcher.join();
+  const auto skeleton = database.skeleton("long");
+  const std::size_t motion =
+      static_cast<std::size_t>(report.frames) *
+      (skeleton->joint_count() * sizeof(Eigen::Quaternionf) + skeleton->translation_count() * sizeof(Eigen::Vector3f));
+  fmt::print("{} {} {}\n", most - before, motion, report.frames);
+  return 0;
+}
+
+void measure_memory(const fs::path& bvh_path, const std::string& name, std::int64_t frames) {
+  const bench::Folder folder("import_memory");
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const std::string command = fmt::format("'{}' --import-memory '{}' '{}'", program.string(), bvh_path.string(),
+                                          (folder.path() / "db").string());
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("no process for the import");
+  std::size_t grown = 0;
+  std::size_t motion = 0;
+  long long imported = 0;
+  const int read = std::fscanf(pipe, "%zu %zu %lld", &grown, &motion, &imported);
+  if (::pclose(pipe) != 0 || read != 3) throw std::runtime_error("the import in a process of its own failed");
+  if (imported != frames) differ(name, "another count of frames was imported");
+  const double mega = 1e-6;
+  bench::print("import_memory/" + name, static_cast<double>(grown) * mega, "MB", static_cast<double>(motion) * mega,
+               static_cast<double>(grown) / static_cast<double>(motion), "<= 1.5");
+}
+
+// --- made files ---
+
+/// `frames` frames of the demo's weather forecast, said again and again.
+void write_long(const fs::path& path, const std::string& once, std::int64_t frames) {
+  const std::size_t count_at = once.find("Frames: ") + 8;
+  const std::size_t first = once.find('\n', once.find("Frame Time")) + 1;
+  std::ofstream out(path, std::ios::binary);
+  out << once.substr(0, count_at) << frames
+      << once.substr(once.find('\n', count_at), first - once.find('\n', count_at));
+  std::size_t at = first;
+  for (std::int64_t i = 0; i < frames; ++i) {
+    if (at == once.size()) at = first;
+    const std::size_t end = once.find('\n', at) + 1;
+    out.write(once.data() + at, static_cast<std::streamsize>(end - at));
+    at = end;
+  }
+  if (!out) throw std::runtime_error(path.string() + " cannot be written");
+}
+
+std::vector<fs::path> files_in(const fs::path& folder, const char* extension) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// As a word in a line of results.
+std::string word_of(const fs::path& path, const fs::path& folder) {
+  std::string name = path.lexically_relative(folder).string();
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+void measure_shared(const Settings& settings) {
+  if (!fs::is_directory(settings.data)) {
+    fmt::print("not run: no shared data\n");
+    return;
+  }
+  BvhTables small("under_1MB", "<= 1.5", settings.each);
+  BvhTables large("over_1MB", "<= 1.3", settings.each);
+  for (const fs::path& path : files_in(settings.data / "bvh", ".bvh")) {
+    measure_bvh({word_of(path, settings.data / "bvh"), path}, settings.quick,
+                fs::file_size(path) < kMegabyte ? small : large);
+  }
+  small.print();
+  large.print();
+  Table annotations("eaf_read/shared", "us", 1e6, "<= 3", settings.each);
+  for (const fs::path& path : files_in(settings.data, ".eaf")) {
+    measure_eaf(path, word_of(path, settings.data), settings.quick, annotations);
+  }
+  annotations.print();
+}
+
+void run(const Settings& settings) {
+  const bench::Folder folder("import");
+  const demo::SyntheticRecording recording = demo::make_recording(demo::meteo(), FrameRate{100, 1}, 1);
+  const bvh::Layout layout = bvh::default_layout(recording.motion.skeleton());
+  const std::string once = bvh::write_text(recording.motion, layout);
+  const auto size = [&](std::int64_t quick, std::int64_t whole) { return settings.quick ? quick : whole; };
+
+  const std::int64_t long_frames = size(200, 12'000);
+  const fs::path made = folder.path() / "made.bvh";
+  write_long(made, once, long_frames);
+  BvhTables tables("made", "<= 1.3", settings.each);
+  measure_bvh({fmt::format("{}_frames_of_56_joints", long_frames), made}, settings.quick, tables);
+  tables.print();
+
+  const fs::path eaf_path = folder.path() / "made.eaf";
+  eaf::write(eaf_path, recording.document);
+  Table annotations("eaf_read", "us", 1e6, "<= 3", settings.each);
+  measure_eaf(eaf_path, "made", settings.quick, annotations);
+  annotations.print();
+
+  if (!settings.quick) measure_shared(settings);
+
+  const std::int64_t session = size(500, 44 * 60 * 60);  // the paper's 44 minutes, at 60 frames a second
+  write_long(made, once, session);
+  measure_memory(made, fmt::format("{}_frames_of_56_joints", session), session);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    Settings settings;
+    for (int i = 1; i < count; ++i) {
+      const std::string_view word = arguments[i];
+      if (word == "--each") {
+        settings.each = true;
+      } else if (word == "--quick") {
+        settings.quick = true;
+      } else if (word == "--data" && i + 1 < count) {
+        settings.data = arguments[++i];
+      } else if (word == "--import-memory" && i + 2 < count) {
+        return import_and_tell(arguments[i + 1], arguments[i + 2]);
+      } else {
+        fmt::print(stderr, "import: no option '{}'; there are --each, --quick and --data FOLDER\n", word);
+        return 2;
+      }
+    }
+    run(settings);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "import: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -40,4 +40,20 @@ using Angles = std::array<double, 3>;
 /// gimbal lock the combination of first and last that is free stays as it was.
 Angles angles_of(const Eigen::Quaterniond& rotation, const RotationOrder& order, const Angles* before) noexcept;
 
+/// The same for frame after frame of all joints, faster.
+class AngleFinder {
+ public:
+  /// `orders` is [joint].
+  explicit AngleFinder(std::vector<RotationOrder> orders);
+
+  /// The angles of the next frame's rotations, both [joint]. Valid until the next call.
+  std::span<const Angles> next(std::span<const Eigen::Quaterniond> rotations) noexcept;
+
+ private:
+  std::vector<RotationOrder> orders_;
+  std::vector<Angles> angles_;  ///< of the frame before
+  bool is_first_ = true;
+  std::vector<double> rises_, runs_, found_;  ///< [joint][3]
+};
+
 }  // namespace signweave::bvh

@@ -127,7 +127,7 @@ std::span<const double> FrameReader::next() {
   }
   permuted_.see(numbers_);
   last_line_ = reader_.line();
-  if (last_line_ != first_line_) note_odd_line(last_line_);
+  if (last_line_ != first_line_) note_odd_line(first_line_);
   ++frame_;
   report();
   return numbers_;

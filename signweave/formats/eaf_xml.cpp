@@ -91,7 +91,8 @@ std::string declared_encoding(std::string_view bytes) {
   if (open == std::string_view::npos) return {};
   const std::size_t close = head.find(head[open], open + 1);
   if (close == std::string_view::npos) return {};
-  return fold_case(head.substr(open + 1, close - open - 1));
+  const std::string_view name = head.substr(open + 1, close - open - 1);
+  return name == "UTF-8" ? "utf-8" : fold_case(name);
 }
 
 }  // namespace

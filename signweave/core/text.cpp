@@ -95,6 +95,13 @@ bool is_utf8(std::string_view text) noexcept {
 }
 
 std::string fold_case(std::string_view text) {
+  // ASCII is its own normal form, and most names are ASCII.
+  const auto plain = [](char c) { return static_cast<unsigned char>(c - 1) < 0x7F; };
+  if (std::all_of(text.begin(), text.end(), plain)) {
+    std::string folded(text);
+    for (char& c : folded) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return folded;
+  }
   return mapped(text, UTF8PROC_COMPOSE | UTF8PROC_CASEFOLD);
 }
 

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "signweave/core/error.h"
 
@@ -67,8 +66,9 @@ class TextReader {
   void step_over(char c) noexcept;
 
   std::string name_;
-  std::FILE* file_ = nullptr;
-  std::vector<char> window_;
+  int file_ = -1;  ///< the descriptor; none where the text is borrowed
+  std::unique_ptr<char[]> window_;
+  std::size_t window_size_ = 0;
   std::string_view text_;  ///< what is left of the window, or of the borrowed text
   std::size_t total_bytes_ = 0;
   std::size_t consumed_ = 0;

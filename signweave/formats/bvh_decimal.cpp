@@ -89,14 +89,13 @@ char* print_any(char* at, double value, int decimals) {
   return last;
 }
 
-/// ⌊log10⌋ of a positive number.
+/// ⌊log10⌋ of a positive number; just below a power of ten it may tell that power.
 int magnitude(double value) noexcept {
-  if (value >= 1 && value < 1e6) {
-    int power = 0;
-    while (value >= kPowers[static_cast<std::size_t>(power) + 1]) ++power;
-    return power;
-  }
-  return static_cast<int>(std::floor(std::log10(value)));
+  if (!(value >= 1e-14 && value < 1e14)) return static_cast<int>(std::floor(std::log10(value)));
+  int power = 0;
+  while (value >= kPowers[static_cast<std::size_t>(power) + 1]) ++power;
+  while (value * kPowers[static_cast<std::size_t>(-std::min(power, 0))] < 1) --power;
+  return power;
 }
 
 }  // namespace

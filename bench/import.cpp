@@ -369,7 +369,7 @@ int import_and_tell(const fs::path& bvh_path, const fs::path& folder) {
   return 0;
 }
 
-void measure_memory(const fs::path& bvh_path, const std::string& name, std::int64_t frames) {
+void measure_memory(const fs::path& bvh_path, const std::string& name, std::int64_t frames, const std::string& goal) {
   const bench::Folder folder("import_memory");
   const fs::path program = fs::read_symlink("/proc/self/exe");
   const std::string command = fmt::format("'{}' --import-memory '{}' '{}'", program.string(), bvh_path.string(),
@@ -384,7 +384,7 @@ void measure_memory(const fs::path& bvh_path, const std::string& name, std::int6
   if (imported != frames) differ(name, "another count of frames was imported");
   const double mega = 1e-6;
   bench::print("import_memory/" + name, static_cast<double>(grown) * mega, "MB", static_cast<double>(motion) * mega,
-               static_cast<double>(grown) / static_cast<double>(motion), "<= 1.5");
+               static_cast<double>(grown) / static_cast<double>(motion), goal);
 }
 
 // --- made files ---
@@ -473,7 +473,7 @@ void run(const Settings& settings) {
   if (settings.wants("memory")) {
     const std::int64_t frames = settings.quick ? 500 : 44 * 60 * 60;  // the paper's 44 minutes, at 60 frames a second
     write_long(made, once, frames);
-    measure_memory(made, fmt::format("{}_frames_of_56_joints", frames), frames);
+    measure_memory(made, fmt::format("{}_frames_of_56_joints", frames), frames, settings.quick ? "-" : "<= 1.5");
   }
 }
 

@@ -136,7 +136,10 @@ void DecimalText::length(float metres, double unit) {
     size_ += static_cast<std::size_t>(end - at);
     return;
   }
-  fixed(value, last);
+  // The float nearest to it is the one that the file had, if it came from a file; nine digits of another number near it
+  // may name its neighbour.
+  const auto nearest = static_cast<float>(value);
+  fixed(std::isfinite(nearest) ? static_cast<double>(nearest) : value, last);
 }
 
 }  // namespace signweave::bvh

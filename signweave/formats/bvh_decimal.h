@@ -18,7 +18,7 @@ class DecimalText {
   /// `value`, finite, rounded correctly to at most `decimals` decimals.
   void fixed(double value, int decimals);
   /// A length in the file's unit: of four decimals or more the fewest that a reader takes back to the same bits of
-  /// metres.
+  /// metres, or nine digits where none does.
   void length(float metres, double unit);
 
  private:

@@ -175,19 +175,6 @@ Angles settled(const double* found, const double* rises, const double* runs, con
 
 }  // namespace
 
-void turn(Eigen::Quaterniond& rotation, int axis, double radians) noexcept {
-  const double c = std::cos(radians / 2);
-  const double s = std::sin(radians / 2);
-  const int next = (axis + 1) % 3;
-  const int last = (axis + 2) % 3;
-  const double w = rotation.w();
-  const Eigen::Vector3d v = rotation.vec();
-  rotation.w() = c * w - s * v[axis];
-  rotation.vec()[axis] = c * v[axis] + s * w;
-  rotation.vec()[next] = c * v[next] + s * v[last];
-  rotation.vec()[last] = c * v[last] - s * v[next];
-}
-
 RotationOrder rotation_order(std::span<const Channel> channels) noexcept {
   RotationOrder order;
   for (const Channel channel : channels) {

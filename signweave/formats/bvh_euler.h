@@ -21,9 +21,6 @@ inline int axis_of(Channel channel) noexcept {
 /// True for three positions followed by three rotations: the only root whose columns can be read rotation first.
 bool has_positions_then_rotations(const std::vector<Channel>& channels) noexcept;
 
-/// Turns `rotation` by `radians` about its own axis 0, 1 or 2: what the next rotation channel of a joint does.
-void turn(Eigen::Quaterniond& rotation, int axis, double radians) noexcept;
-
 /// The axes of a joint's rotation channels in file order: none, or up to three different ones.
 struct RotationOrder {
   std::array<int, 3> axes{};

@@ -30,13 +30,12 @@ constexpr double kCommonSmallest = 1.3;  // bones end at ankle and head joint in
 constexpr double kCommonTallest = 2.1;
 constexpr std::int64_t kFramesSeen = 50;
 
-/// Joints whose names hold one of these parts, in any case.
-JointSet joints_named(const Skeleton& skeleton, std::initializer_list<std::string_view> parts) {
+/// Joints whose names, in lower case, hold one of these parts.
+JointSet joints_named(const std::vector<std::string>& names, std::initializer_list<std::string_view> parts) {
   JointSet found;
-  for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
-    const std::string name = fold_case(skeleton.joints()[i].name);
+  for (std::size_t i = 0; i < names.size(); ++i) {
     const bool named = std::any_of(parts.begin(), parts.end(),
-                                   [&](std::string_view part) { return name.find(part) != std::string::npos; });
+                                   [&](std::string_view part) { return names[i].find(part) != std::string::npos; });
     if (named) found.push_back(static_cast<JointIndex>(i));
   }
   return found;
@@ -195,8 +194,11 @@ double stature(const Skeleton& skeleton, const std::vector<double>& bones, const
 
 Guess guess_space(const Motion& motion, std::optional<UpAxis> up) {
   const Skeleton& skeleton = motion.skeleton();
-  const JointSet head = first_of({joints_named(skeleton, {"head"}), joints_named(skeleton, {"neck"})});
-  const JointSet feet = first_of({joints_named(skeleton, {"foot", "ankle"}), joints_named(skeleton, {"toe"})});
+  std::vector<std::string> names;
+  names.reserve(skeleton.joint_count());
+  for (const Joint& joint : skeleton.joints()) names.push_back(fold_case(joint.name));
+  const JointSet head = first_of({joints_named(names, {"head"}), joints_named(names, {"neck"})});
+  const JointSet feet = first_of({joints_named(names, {"foot", "ankle"}), joints_named(names, {"toe"})});
   const Measures measures = measure(motion, head, feet);
 
   Guess guess;

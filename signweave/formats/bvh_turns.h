@@ -10,7 +10,7 @@
 /// From the angles of a frame to its rotations. Part of formats/bvh, not for others.
 namespace signweave::bvh {
 
-/// Sines and cosines of half of many angles. Of degrees up to ±10^9 each lies within 3e-16 of the exact value: full
+/// Sines and cosines of half of many angles. Of degrees up to ±10^9 each lies within 1e-15 of the exact value: full
 /// turns are taken off without rounding, then a polynomial over half a turn serves, so that the compiler does several
 /// at once. `sines` and `cosines` must be as long as `degrees`.
 void half_angles(std::span<const double> degrees, std::span<double> sines, std::span<double> cosines) noexcept;

@@ -8,27 +8,22 @@
 //   --data FOLDER  instead of ../shared/data
 // What is read is compared with what the yardstick read, and anything else but the same ends the program with 1.
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <assimp/scene.h>
 #include <fast_float/fast_float.h>
 #include <assimp/Importer.hpp>
-#include <atomic>
 #include <charconv>
 #include <fstream>
-#include <map>
 #include <numbers>
 #include <pugixml.hpp>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
+#include "bench/import_memory.h"
 #include "bench/measure.h"
+#include "bench/table.h"
 #include "demo/corpus.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text_reader.h"
-#include "signweave/database/import.h"
 #include "signweave/formats/bvh.h"
 #include "signweave/formats/bvh_frames.h"
 #include "signweave/formats/bvh_hierarchy.h"
@@ -53,42 +48,6 @@ struct Settings {
 [[noreturn]] void differ(const std::string& name, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", name, what));
 }
-
-// --- lines ---
-
-/// The results of one kind of measurement over many files.
-class Table {
- public:
-  Table(std::string what, std::string unit, double scale, std::string goal, bool each)
-      : what_(std::move(what)), unit_(std::move(unit)), scale_(scale), goal_(std::move(goal)), each_(each) {}
-
-  void add(const std::string& file, const bench::Compared& compared) {
-    if (each_) bench::print(fmt::format("{}/{}", what_, file), scale_, unit_, compared, goal_);
-    rows_.push_back({file, compared});
-  }
-  void print() {
-    if (rows_.empty()) return;
-    std::sort(rows_.begin(), rows_.end(),
-              [](const Row& a, const Row& b) { return a.compared.ratio < b.compared.ratio; });
-    if (rows_.size() > 1) {
-      bench::print(fmt::format("{}/median_of_{}", what_, rows_.size()), scale_, unit_, rows_[rows_.size() / 2].compared,
-                   goal_);
-    }
-    const std::string worst = rows_.size() > 1 ? "worst:" : "";
-    bench::print(fmt::format("{}/{}{}", what_, worst, rows_.back().file), scale_, unit_, rows_.back().compared, goal_);
-  }
-
- private:
-  struct Row {
-    std::string file;
-    bench::Compared compared;
-  };
-  std::string what_, unit_;
-  double scale_;
-  std::string goal_;
-  bool each_;
-  std::vector<Row> rows_;
-};
 
 // --- BVH: yardsticks ---
 
@@ -169,7 +128,7 @@ struct BvhFile {
 };
 
 struct BvhTables {
-  Table channels, read, write, write_shortest, assimp;
+  bench::Table channels, read, write, write_shortest, assimp;
   BvhTables(const std::string& kind, const std::string& channel_goal, const std::string& read_goal,
             const std::string& write_goal, bool each)
       : channels("bvh_to_channels/" + kind, "us", 1e6, channel_goal, each),
@@ -178,7 +137,7 @@ struct BvhTables {
         write_shortest("bvh_write_vs_shortest/" + kind, "us", 1e6, "-", each),
         assimp("bvh_read_vs_assimp/" + kind, "us", 1e6, "<= 0.2", each) {}
   void print() {
-    for (Table* table : {&channels, &read, &write, &write_shortest, &assimp}) table->print();
+    for (bench::Table* table : {&channels, &read, &write, &write_shortest, &assimp}) table->print();
   }
 };
 
@@ -311,7 +270,7 @@ struct Count : pugi::xml_tree_walker {
   }
 };
 
-void measure_eaf(const fs::path& path, const std::string& name, bool quick, Table& table) {
+void measure_eaf(const fs::path& path, const std::string& name, bool quick, bench::Table& table) {
   const std::string text = read_file(path);
   const Effort effort = effort_for(text.size(), quick);
   const auto theirs = [&] {
@@ -331,60 +290,6 @@ void measure_eaf(const fs::path& path, const std::string& name, bool quick, Tabl
   table.add(name, bench::compare(
                       effort.rounds, [&] { bench::keep(eaf::read_text(name, text)); }, [&] { bench::keep(theirs()); },
                       effort.calls));
-}
-
-// --- memory ---
-
-/// Anonymous memory of this process in bytes: what it took for itself, without the pages of files that it maps.
-std::size_t anonymous_memory() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("RssAnon:")) return std::stoull(line.substr(8)) * 1024;
-  }
-  throw std::runtime_error("/proc/self/status does not tell RssAnon");
-}
-
-/// Run as a program of its own: imports a file and prints by how much anonymous memory grew at most, and what the
-/// motion takes, in bytes. Looked at every half a millisecond.
-int import_and_tell(const fs::path& bvh_path, const fs::path& folder) {
-  Database::create(folder, {});
-  Database database(folder, kv::Access::read_write);
-  const std::size_t before = anonymous_memory();
-  std::atomic<std::size_t> most = before;
-  std::atomic<bool> done = false;
-  std::thread watcher([&] {
-    while (!done) {
-      most = std::max<std::size_t>(most, anonymous_memory());
-      std::this_thread::sleep_for(std::chrono::microseconds(500));
-    }
-  });
-  const ImportReport report = import_recording(database, {.name = "long", .motion = bvh_path, .annotation = {}}, {});
-  done = true;
-  watcher.join();
-  const auto skeleton = database.skeleton("long");
-  const std::size_t motion =
-      static_cast<std::size_t>(report.frames) *
-      (skeleton->joint_count() * sizeof(Eigen::Quaternionf) + skeleton->translation_count() * sizeof(Eigen::Vector3f));
-  fmt::print("{} {} {}\n", most - before, motion, report.frames);
-  return 0;
-}
-
-void measure_memory(const fs::path& bvh_path, const std::string& name, std::int64_t frames, const std::string& goal) {
-  const bench::Folder folder("import_memory");
-  const fs::path program = fs::read_symlink("/proc/self/exe");
-  const std::string command = fmt::format("'{}' --import-memory '{}' '{}'", program.string(), bvh_path.string(),
-                                          (folder.path() / "db").string());
-  std::FILE* const pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("no process for the import");
-  std::size_t grown = 0;
-  std::size_t motion = 0;
-  long long imported = 0;
-  const int read = std::fscanf(pipe, "%zu %zu %lld", &grown, &motion, &imported);
-  if (::pclose(pipe) != 0 || read != 3) throw std::runtime_error("the import in a process of its own failed");
-  if (imported != frames) differ(name, "another count of frames was imported");
-  const double mega = 1e-6;
-  bench::print("import_memory/" + name, static_cast<double>(grown) * mega, "MB", static_cast<double>(motion) * mega,
-               static_cast<double>(grown) / static_cast<double>(motion), goal);
 }
 
 // --- made files ---
@@ -442,7 +347,7 @@ void measure_shared(const Settings& settings) {
     for (BvhTables* tables : {&tiny, &small, &large}) tables->print();
   }
   if (settings.wants("eaf")) {
-    Table annotations("eaf_read/shared", "us", 1e6, "<= 3", settings.each);
+    bench::Table annotations("eaf_read/shared", "us", 1e6, "<= 3", settings.each);
     for (const fs::path& path : files_in(settings.data, ".eaf")) {
       measure_eaf(path, word_of(path, settings.data), settings.quick, annotations);
     }
@@ -465,7 +370,7 @@ void run(const Settings& settings) {
   if (settings.wants("eaf")) {
     const fs::path path = folder.path() / "made.eaf";
     eaf::write(path, recording.document);
-    Table annotations("eaf_read", "us", 1e6, "<= 3", settings.each);
+    bench::Table annotations("eaf_read", "us", 1e6, "<= 3", settings.each);
     measure_eaf(path, "made", settings.quick, annotations);
     annotations.print();
   }
@@ -473,7 +378,7 @@ void run(const Settings& settings) {
   if (settings.wants("memory")) {
     const std::int64_t frames = settings.quick ? 500 : 44 * 60 * 60;  // the paper's 44 minutes, at 60 frames a second
     write_long(made, once, frames);
-    measure_memory(made, fmt::format("{}_frames_of_56_joints", frames), frames, settings.quick ? "-" : "<= 1.5");
+    bench::measure_memory(made, fmt::format("{}_frames_of_56_joints", frames), frames, settings.quick ? "-" : "<= 1.5");
   }
 }
 
@@ -492,8 +397,12 @@ int main(int count, char** arguments) {
         settings.data = arguments[++i];
       } else if (word == "--only" && i + 1 < count) {
         settings.only = arguments[++i];
+        if (settings.only != "bvh" && settings.only != "eaf" && settings.only != "memory") {
+          fmt::print(stderr, "import: --only takes bvh, eaf or memory\n");
+          return 2;
+        }
       } else if (word == "--import-memory" && i + 2 < count) {
-        return import_and_tell(arguments[i + 1], arguments[i + 2]);
+        return bench::import_and_tell(arguments[i + 1], arguments[i + 2]);
       } else {
         fmt::print(stderr, "import: no option '{}'; there are --each, --quick, --only and --data\n", word);
         return 2;

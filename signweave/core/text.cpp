@@ -4,7 +4,9 @@
 #include <utf8proc.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <numeric>
 
@@ -75,6 +77,14 @@ bool is_utf8(std::string_view text) noexcept {
   const auto* at = reinterpret_cast<const utf8proc_uint8_t*>(text.data());
   auto left = static_cast<utf8proc_ssize_t>(text.size());
   while (left > 0) {
+    // Eight letters of ASCII at a time, which most text is.
+    std::uint64_t eight = 0;
+    for (; left >= 8; at += 8, left -= 8) {
+      std::memcpy(&eight, at, sizeof eight);
+      if ((eight & 0x8080808080808080u) != 0) break;
+    }
+    for (; left > 0 && *at < 0x80; ++at) --left;
+    if (left == 0) break;
     utf8proc_int32_t letter = -1;
     const utf8proc_ssize_t used = utf8proc_iterate(at, left, &letter);
     if (used < 1) return false;
@@ -85,6 +95,13 @@ bool is_utf8(std::string_view text) noexcept {
 }
 
 std::string fold_case(std::string_view text) {
+  // ASCII is its own normal form, and most names are ASCII.
+  const auto plain = [](char c) { return static_cast<unsigned char>(c - 1) < 0x7F; };
+  if (std::all_of(text.begin(), text.end(), plain)) {
+    std::string folded(text);
+    for (char& c : folded) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return folded;
+  }
   return mapped(text, UTF8PROC_COMPOSE | UTF8PROC_CASEFOLD);
 }
 

@@ -1,7 +1,11 @@
 #include "signweave/core/text_reader.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -60,18 +64,23 @@ bool underflows(std::string_view text) noexcept {
 }  // namespace
 
 TextReader::TextReader(const std::filesystem::path& path) : name_(path.string()) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw Error(ErrorCode::bad_input, name_ + ": is a folder, expected a file");
-  }
-  file_ = std::fopen(path.c_str(), "rb");
-  if (file_ == nullptr) {
+  file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file_ < 0) {
     const ErrorCode code = errno == ENOENT ? ErrorCode::not_found : ErrorCode::io;
     throw Error(code, fmt::format("{}: cannot be read: {}", name_, std::strerror(errno)));
   }
-  const auto size = std::filesystem::file_size(path, ignored);
-  total_bytes_ = ignored ? 0 : size;
-  window_.resize(kWindow);
+  struct ::stat about {};
+  if (::fstat(file_, &about) == 0) {
+    if (S_ISDIR(about.st_mode)) {
+      ::close(file_);
+      throw Error(ErrorCode::bad_input, name_ + ": is a folder, expected a file");
+    }
+    if (S_ISREG(about.st_mode)) total_bytes_ = static_cast<std::size_t>(about.st_size);
+  }
+  // No larger than the file, so that small ones cost little. One byte more: the read that fills the window ends the
+  // file.
+  window_size_ = total_bytes_ == 0 ? kWindow : std::min(kWindow, total_bytes_ + 1);
+  window_ = std::make_unique_for_overwrite<char[]>(window_size_);
   fill();
   if (text_.starts_with("\xEF\xBB\xBF")) consume(3);
 }
@@ -82,16 +91,22 @@ TextReader::TextReader(std::string name, std::string_view text)
 }
 
 TextReader::~TextReader() {
-  if (file_ != nullptr) std::fclose(file_);
+  if (file_ >= 0) ::close(file_);
 }
 
 bool TextReader::fill() {
-  if (file_ == nullptr) return false;
-  const std::size_t got = std::fread(window_.data(), 1, window_.size(), file_);
-  if (got == 0 && std::ferror(file_) != 0) {
-    throw Error(ErrorCode::io, fmt::format("{}: cannot be read: {}", name_, std::strerror(errno)));
+  if (file_ < 0) return false;
+  ssize_t got = 0;
+  do {
+    got = ::read(file_, window_.get(), window_size_);
+  } while (got < 0 && errno == EINTR);
+  if (got < 0) {
+    const std::string reason = std::strerror(errno);
+    ::close(file_);
+    file_ = -1;
+    throw Error(ErrorCode::io, fmt::format("{}: cannot be read: {}", name_, reason));
   }
-  text_ = {window_.data(), got};
+  text_ = {window_.get(), static_cast<std::size_t>(got)};
   return got > 0;
 }
 
@@ -118,7 +133,9 @@ std::string_view TextReader::word() {
   }
   do {
     std::size_t blanks = 0;
-    for (; blanks < text_.size() && kind_of(text_[blanks]) == Kind::blank; ++blanks) step_over(text_[blanks]);
+    for (; blanks < text_.size() && kind_of(text_[blanks]) == Kind::blank; ++blanks) {
+      step_over(text_[blanks]);
+    }
     consume(blanks);
   } while (text_.empty() && fill());
   line_ = current_line_;
@@ -135,7 +152,7 @@ std::string_view TextReader::word() {
       fail("a word of more than 64 KiB: this is no file of the expected kind");
     }
     const std::string_view part = text_.substr(0, size);
-    const bool whole = size < text_.size() || file_ == nullptr;
+    const bool whole = size < text_.size() || file_ < 0;
     if (whole && !joined) {
       word_ = part;
     } else {
@@ -162,6 +179,12 @@ std::string_view TextReader::rest_of_line() {
   std::string line = peeked_ ? std::string(word_) : std::string();
   if (!peeked_) line_ = current_line_;
   peeked_ = false;
+  // Nearly every line ends in the window. What does not, and the line's end, is read letter by letter.
+  const std::size_t plain = std::min(text_.size(), kLongestWord - std::min(kLongestWord, line.size()));
+  std::size_t size = 0;
+  while (size < plain && text_[size] != '\n' && text_[size] != '\r' && text_[size] != '\0') ++size;
+  line += text_.substr(0, size);
+  consume(size);
   int c = look();
   for (; c >= 0 && c != '\n' && c != '\r'; c = look()) {
     if (c == 0) fail("a NUL byte: this is no text file");

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "signweave/core/error.h"
 
@@ -38,6 +37,16 @@ class TextReader {
   /// The next word must be this one.
   void expect(std::string_view word);
 
+  /// Numbers one after the other, as read by `plain_numbers`.
+  struct NumberRun {
+    std::size_t count = 0;
+    std::size_t first_line = 0;  ///< the line of the first; `line()` is that of the last
+  };
+  /// Fills `numbers` with the next words, as long as they are plain numbers from -`most` to `most`, read as `number`
+  /// reads them; fast. Stops before any other word, and before some that lie at the window's edge, so no number at all
+  /// says nothing: go on with `number`.
+  NumberRun plain_numbers(std::span<double> numbers, double most);
+
   /// The line, from 1, of the word returned last.
   std::size_t line() const noexcept { return line_; }
   const std::string& name() const noexcept { return name_; }
@@ -57,8 +66,9 @@ class TextReader {
   void step_over(char c) noexcept;
 
   std::string name_;
-  std::FILE* file_ = nullptr;
-  std::vector<char> window_;
+  int file_ = -1;  ///< the descriptor; none where the text is borrowed
+  std::unique_ptr<char[]> window_;
+  std::size_t window_size_ = 0;
   std::string_view text_;  ///< what is left of the window, or of the borrowed text
   std::size_t total_bytes_ = 0;
   std::size_t consumed_ = 0;

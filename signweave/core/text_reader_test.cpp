@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -161,6 +162,118 @@ TEST(TextReader, ExpectNamesWhatItFound) {
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "f:2: expected c, found 'b'");
   }
+}
+
+/// All numbers of a text, by runs of at most `most_at_once` and, where they stop, one by one. Counts those in runs.
+struct NumbersFound {
+  std::vector<double> numbers;
+  std::vector<std::size_t> lines;
+  std::size_t in_runs = 0;
+};
+NumbersFound numbers_of(TextReader& reader, std::size_t most_at_once) {
+  NumbersFound found;
+  std::vector<double> buffer(most_at_once);
+  for (;;) {
+    const TextReader::NumberRun run = reader.plain_numbers(buffer, 1e300);
+    found.numbers.insert(found.numbers.end(), buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(run.count));
+    found.lines.resize(found.numbers.size());
+    if (run.count > 0) {
+      found.lines[found.lines.size() - run.count] = run.first_line;
+      found.lines.back() = reader.line();
+    }
+    found.in_runs += run.count;
+    if (run.count == most_at_once) continue;
+    if (reader.peek().empty()) return found;
+    found.numbers.push_back(reader.number("a number"));
+    found.lines.push_back(reader.line());
+  }
+}
+
+// What a run reads must be the same bits as number by number: rounded once, from every way to write a number.
+RC_GTEST_PROP(TextReader, ARunOfNumbersReadsAsTheNumbersDo, ()) {
+  auto state = static_cast<std::uint32_t>(*rc::gen::inRange(0, 1 << 30));
+  const auto next = [&](std::uint32_t most) {
+    state = state * 1'664'525u + 1'013'904'223u;
+    return (state >> 8) % most;
+  };
+  const std::vector<std::string> gaps = {" ", " ", " ", "\t", "  ", "\n", "\r\n", "\r", " \r \n"};
+  const auto digits = [&](std::uint32_t count) {
+    std::string text;
+    for (std::uint32_t i = 0; i < count; ++i) text += static_cast<char>('0' + (next(4) == 0 ? 0 : next(10)));
+    return text;
+  };
+  std::string text;
+  for (int i = 0; i < 3'000; ++i) {
+    const std::uint32_t form = next(16);
+    if (next(2) == 0) text += '-';
+    if (form == 0) text.append(text.ends_with('-') ? 0 : 1, '+');
+    text += digits(form == 1 ? 0 : 1 + next(form == 2 ? 25 : 9));
+    if (form == 1 || form > 3) text += '.' + digits(form == 1 ? 1 + next(5) : next(form == 4 ? 25 : 10));
+    if (form == 5 || form == 6) text += (form == 5 ? "e-" : "E+") + std::to_string(next(form == 5 ? 45 : 30));
+    text += gaps[next(static_cast<std::uint32_t>(gaps.size()))];
+  }
+  TextReader reader("text", text);
+  const NumbersFound found = numbers_of(reader, 1 + next(40));
+  RC_ASSERT(found.numbers.size() == 3'000u);
+  RC_ASSERT(found.in_runs > 2'000u);
+  TextReader slow("text", text);
+  for (std::size_t i = 0; i < found.numbers.size(); ++i) {
+    const double expected = slow.number("a number");
+    RC_ASSERT(found.numbers[i] == expected);
+    RC_ASSERT(std::signbit(found.numbers[i]) == std::signbit(expected));
+    if (found.lines[i] != 0) RC_ASSERT(found.lines[i] == slow.line());
+  }
+  RC_ASSERT(slow.peek().empty());
+  RC_ASSERT(reader.bytes_read() == slow.bytes_read());
+}
+
+TEST(TextReader, RunsOfNumbersCrossTheEdgesOfTheWindow) {
+  std::string text;
+  std::size_t count = 0;
+  for (; text.size() < 900'000; ++count)
+    text += fmt::format("{}.{:04}{}", count % 1000, count % 7919, count % 50 == 0 ? "\r\n" : " ");
+  const TemporaryFile file(text);
+  TextReader reader(file.path());
+  const NumbersFound found = numbers_of(reader, 168);
+  ASSERT_EQ(found.numbers.size(), count);
+  EXPECT_GT(found.in_runs, count - 100);
+  TextReader slow("text", text);
+  for (const double number : found.numbers) ASSERT_EQ(number, slow.number("a number"));
+  EXPECT_EQ(reader.line(), slow.line());
+}
+
+TEST(TextReader, ARunStopsBeforeWhatIsNoPlainNumber) {
+  const std::string rest(64, ' ');
+  for (const std::string word : {"nan", "inf", "1,5", "1.5f", "1.5.5", "--5", "-", ".", "-.", "e5", "1e", "1e+", "0x10",
+                                 "1e999", "5-", "twelve"}) {
+    SCOPED_TRACE(word);
+    const std::string text = "1 -2.5\n3 " + word + " 4" + rest;
+    TextReader reader("f", text);
+    std::vector<double> numbers(8);
+    const TextReader::NumberRun run = reader.plain_numbers(numbers, 1e9);
+    EXPECT_EQ(run.count, 3u);
+    EXPECT_EQ(run.first_line, 1u);
+    EXPECT_EQ(reader.line(), 2u);
+    EXPECT_EQ(reader.word(), word);
+  }
+}
+
+TEST(TextReader, ARunHoldsNoNumberThatIsTooLarge) {
+  const std::string text = "999 -1000 1000.001 5" + std::string(64, ' ');
+  TextReader reader("f", text);
+  std::vector<double> numbers(4);
+  EXPECT_EQ(reader.plain_numbers(numbers, 1000).count, 2u);
+  EXPECT_EQ(reader.word(), "1000.001");
+}
+
+TEST(TextReader, ARunWaitsForAPeekedWord) {
+  const std::string text = "1 2 3" + std::string(64, ' ');
+  TextReader reader("f", text);
+  EXPECT_EQ(reader.peek(), "1");
+  std::vector<double> numbers(3);
+  EXPECT_EQ(reader.plain_numbers(numbers, 10).count, 0u);
+  EXPECT_EQ(reader.word(), "1");
+  EXPECT_EQ(reader.plain_numbers(numbers, 10).count, 2u);
 }
 
 TEST(TextReader, AFileThatIsNotThereIsNotFound) {

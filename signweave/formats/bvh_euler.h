@@ -21,9 +21,6 @@ inline int axis_of(Channel channel) noexcept {
 /// True for three positions followed by three rotations: the only root whose columns can be read rotation first.
 bool has_positions_then_rotations(const std::vector<Channel>& channels) noexcept;
 
-/// Turns `rotation` by `radians` about its own axis 0, 1 or 2: what the next rotation channel of a joint does.
-void turn(Eigen::Quaterniond& rotation, int axis, double radians) noexcept;
-
 /// The axes of a joint's rotation channels in file order: none, or up to three different ones.
 struct RotationOrder {
   std::array<int, 3> axes{};
@@ -39,5 +36,21 @@ using Angles = std::array<double, 3>;
 /// and the last one 0 at gimbal lock. With them: of all that give the same rotation those nearest to `before`; at
 /// gimbal lock the combination of first and last that is free stays as it was.
 Angles angles_of(const Eigen::Quaterniond& rotation, const RotationOrder& order, const Angles* before) noexcept;
+
+/// The same for frame after frame of all joints, faster.
+class AngleFinder {
+ public:
+  /// `orders` is [joint].
+  explicit AngleFinder(std::vector<RotationOrder> orders);
+
+  /// The angles of the next frame's rotations, both [joint]. Valid until the next call.
+  std::span<const Angles> next(std::span<const Eigen::Quaterniond> rotations) noexcept;
+
+ private:
+  std::vector<RotationOrder> orders_;
+  std::vector<Angles> angles_;  ///< of the frame before
+  bool is_first_ = true;
+  std::vector<double> rises_, runs_, found_;  ///< [joint][3]
+};
 
 }  // namespace signweave::bvh

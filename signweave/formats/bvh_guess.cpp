@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "signweave/core/text.h"
@@ -29,13 +30,12 @@ constexpr double kCommonSmallest = 1.3;  // bones end at ankle and head joint in
 constexpr double kCommonTallest = 2.1;
 constexpr std::int64_t kFramesSeen = 50;
 
-/// Joints whose names hold one of these parts, in any case.
-JointSet joints_named(const Skeleton& skeleton, std::initializer_list<std::string_view> parts) {
+/// Joints whose names, in lower case, hold one of these parts.
+JointSet joints_named(const std::vector<std::string>& names, std::initializer_list<std::string_view> parts) {
   JointSet found;
-  for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
-    const std::string name = fold_case(skeleton.joints()[i].name);
+  for (std::size_t i = 0; i < names.size(); ++i) {
     const bool named = std::any_of(parts.begin(), parts.end(),
-                                   [&](std::string_view part) { return name.find(part) != std::string::npos; });
+                                   [&](std::string_view part) { return names[i].find(part) != std::string::npos; });
     if (named) found.push_back(static_cast<JointIndex>(i));
   }
   return found;
@@ -48,11 +48,10 @@ JointSet first_of(std::initializer_list<JointSet> choices) {
   return {};
 }
 
-/// How long each bone is (the way from a joint's parent), and how high and wide the posed body is, in file units.
+/// How long each bone is (the way from a joint's parent), in file units, and how the posed body stands.
 struct Measures {
   std::vector<double> bones;                          ///< [joint]
   Eigen::Vector3d upright = Eigen::Vector3d::Zero();  ///< mean direction from the feet to the head
-  Eigen::Vector3d extent = Eigen::Vector3d::Zero();   ///< mean size of the box around all joints and tips
 };
 
 Eigen::Vector3d centre(const JointSet& joints, const ModelPose& pose) {
@@ -61,42 +60,99 @@ Eigen::Vector3d centre(const JointSet& joints, const ModelPose& pose) {
   return sum / static_cast<double>(joints.size());
 }
 
+/// The frames that are looked at: some, evenly spread.
+std::int64_t frame_step(const Motion& motion) noexcept {
+  return std::max<std::int64_t>(1, motion.frame_count() / kFramesSeen);
+}
+
+/// A joint on the way from the root to the head or to a foot.
+struct WayJoint {
+  std::size_t joint;
+  std::size_t parent;  ///< the joint itself for the root
+  std::optional<std::size_t> translation;
+};
+
+/// All joints from the root to those given, parents first.
+std::vector<WayJoint> ways_to(const Skeleton& skeleton, const JointSet& head, const JointSet& feet) {
+  std::vector<bool> wanted(skeleton.joint_count(), false);
+  for (const JointSet* ends : {&head, &feet}) {
+    for (JointIndex joint : *ends) {
+      for (; joint != kNoJoint && !wanted[static_cast<std::size_t>(joint)]; joint = skeleton.joint(joint).parent) {
+        wanted[static_cast<std::size_t>(joint)] = true;
+      }
+    }
+  }
+  std::vector<WayJoint> ways;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!wanted[i]) continue;
+    const JointIndex parent = skeleton.joints()[i].parent;
+    ways.push_back({i, parent == kNoJoint ? i : static_cast<std::size_t>(parent),
+                    skeleton.translation_of(static_cast<JointIndex>(i))});
+  }
+  return ways;
+}
+
 Measures measure(const Motion& motion, const JointSet& head, const JointSet& feet) {
   const Skeleton& skeleton = motion.skeleton();
   Measures result;
   result.bones.assign(skeleton.joint_count(), 0.0);
-  const std::int64_t step = std::max<std::int64_t>(1, motion.frame_count() / kFramesSeen);
+  const bool named = !head.empty() && !feet.empty();
+  const std::vector<WayJoint> ways = named ? ways_to(skeleton, head, feet) : std::vector<WayJoint>();
   double seen = 0;
   ModelPose model;
-  for (std::int64_t frame = 0; frame < motion.frame_count(); frame += step) {
+  model.rotations.resize(skeleton.joint_count());
+  model.positions.resize(skeleton.joint_count());
+  for (std::int64_t frame = 0; frame < motion.frame_count(); frame += frame_step(motion)) {
     const PoseView pose = motion.pose(frame);
-    to_model_space(skeleton, pose, model);
-    std::size_t translation = 0;
-    for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
-      const Joint& joint = skeleton.joints()[i];
-      // Where the file moves a joint, its OFFSET need not be a bone at all.
-      const Eigen::Vector3f& local = joint.translated ? pose.translations[translation++] : joint.offset;
-      if (i > 0) result.bones[i] += local.cast<double>().norm();
+    // Where the file moves a joint, its OFFSET need not be a bone at all.
+    for (std::size_t i = 0; i < pose.translations.size(); ++i) {
+      result.bones[static_cast<std::size_t>(skeleton.translated_joints()[i])] +=
+          pose.translations[i].cast<double>().norm();
     }
-    Eigen::Vector3d low = model.positions[0].cast<double>();
-    Eigen::Vector3d high = low;
-    const auto include = [&](const Eigen::Vector3f& point) {
-      low = low.cwiseMin(point.cast<double>());
-      high = high.cwiseMax(point.cast<double>());
-    };
-    for (const Eigen::Vector3f& position : model.positions) include(position);
-    for (const Tip& tip : skeleton.tips()) include(position_of(tip, model));
-    result.extent += high - low;
-    if (!head.empty() && !feet.empty()) {
+    for (const WayJoint& way : ways) {  // forward kinematics of these alone
+      const Eigen::Vector3f& local =
+          way.translation ? pose.translations[*way.translation] : skeleton.joints()[way.joint].offset;
+      const bool root = way.parent == way.joint;
+      model.positions[way.joint] =
+          root ? local : Eigen::Vector3f(model.positions[way.parent] + model.rotations[way.parent] * local);
+      model.rotations[way.joint] =
+          root ? pose.rotations[way.joint] : model.rotations[way.parent] * pose.rotations[way.joint];
+    }
+    if (named) {
       const Eigen::Vector3d upright = centre(head, model) - centre(feet, model);
       if (upright.norm() > 0) result.upright += upright.normalized();
     }
     seen += 1;
   }
-  for (double& bone : result.bones) bone /= seen;
-  result.extent /= seen;
+  for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
+    const Joint& joint = skeleton.joints()[i];
+    result.bones[i] = joint.translated ? result.bones[i] / seen : joint.offset.cast<double>().norm();
+  }
+  result.bones[0] = 0;  // from nowhere
   result.upright /= seen;
   return result;
+}
+
+/// The mean size of the box around all joints and tips: how high and wide the posed body is, in file units.
+Eigen::Vector3d measure_extent(const Motion& motion) {
+  const Skeleton& skeleton = motion.skeleton();
+  Eigen::Vector3d extent = Eigen::Vector3d::Zero();
+  double seen = 0;
+  ModelPose model;
+  for (std::int64_t frame = 0; frame < motion.frame_count(); frame += frame_step(motion)) {
+    to_model_space(skeleton, motion.pose(frame), model);
+    Eigen::Vector3f low = model.positions[0];
+    Eigen::Vector3f high = low;
+    const auto include = [&](const Eigen::Vector3f& point) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    };
+    for (const Eigen::Vector3f& position : model.positions) include(position);
+    for (const Tip& tip : skeleton.tips()) include(position_of(tip, model));
+    extent += high.cast<double>() - low.cast<double>();
+    seen += 1;
+  }
+  return extent / seen;
 }
 
 /// The summed bones between two joints.
@@ -138,22 +194,26 @@ double stature(const Skeleton& skeleton, const std::vector<double>& bones, const
 
 Guess guess_space(const Motion& motion, std::optional<UpAxis> up) {
   const Skeleton& skeleton = motion.skeleton();
-  const JointSet head = first_of({joints_named(skeleton, {"head"}), joints_named(skeleton, {"neck"})});
-  const JointSet feet = first_of({joints_named(skeleton, {"foot", "ankle"}), joints_named(skeleton, {"toe"})});
+  std::vector<std::string> names;
+  names.reserve(skeleton.joint_count());
+  for (const Joint& joint : skeleton.joints()) names.push_back(fold_case(joint.name));
+  const JointSet head = first_of({joints_named(names, {"head"}), joints_named(names, {"neck"})});
+  const JointSet feet = first_of({joints_named(names, {"foot", "ankle"}), joints_named(names, {"toe"})});
   const Measures measures = measure(motion, head, feet);
 
   Guess guess;
   const bool named = measures.upright.norm() > 0;
-  const double along_y = named ? measures.upright.y() : measures.extent.y();
-  const double along_z = named ? measures.upright.z() : measures.extent.z();
+  const double by_bones = stature(skeleton, measures.bones, head, feet);
+  const Eigen::Vector3d extent = named && by_bones > 0 ? Eigen::Vector3d::Zero() : measure_extent(motion);
+  const double along_y = named ? measures.upright.y() : extent.y();
+  const double along_z = named ? measures.upright.z() : extent.z();
   guess.up = up.value_or(std::abs(along_z) > std::abs(along_y) ? UpAxis::z : UpAxis::y);
   const double lesser = std::min(std::abs(along_y), std::abs(along_z));
   const double greater = std::max(std::abs(along_y), std::abs(along_z));
   guess.up_certain = named ? lesser < 0.7 * greater && greater > 0.4 : lesser < 0.7 * greater;
   guess.upside_down = named && (guess.up == UpAxis::z ? along_z : along_y) < 0;
 
-  const double by_bones = stature(skeleton, measures.bones, head, feet);
-  const double length = by_bones > 0 ? by_bones : guess.up == UpAxis::z ? measures.extent.z() : measures.extent.y();
+  const double length = by_bones > 0 ? by_bones : guess.up == UpAxis::z ? extent.z() : extent.y();
   guess.has_bones = by_bones > 0;
   guess.unit_plausible = false;
   double nearest = std::numeric_limits<double>::infinity();

@@ -132,9 +132,11 @@ class HierarchyReader {
   }
 
   Eigen::Vector3f read_vector() {
-    Eigen::Vector3f vector;
-    for (float& value : vector) value = static_cast<float>(checked_number(reader_, "a number of OFFSET"));
-    return vector;
+    std::array<double, 3> numbers{};
+    for (std::size_t read = reader_.plain_numbers(numbers, kLargest).count; read < numbers.size(); ++read) {
+      numbers[read] = checked_number(reader_, "a number of OFFSET");
+    }
+    return Eigen::Vector3d(numbers[0], numbers[1], numbers[2]).cast<float>();
   }
 
   void read_offset() {

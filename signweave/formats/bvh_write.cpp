@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <numbers>
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh_decimal.h"
 #include "signweave/formats/bvh_euler.h"
 #include "signweave/formats/bvh_space.h"
 
@@ -19,43 +18,12 @@ namespace {
 
 constexpr std::size_t kFlushAt = std::size_t{1} << 16;
 constexpr std::size_t kDeepestIndent = 24;  ///< a chain of 60,000 joints would be all tabs otherwise
-constexpr int kAngleDecimals = 5;           ///< degrees; what follows is the rounding of float quaternions
+constexpr std::size_t kNotTranslated = static_cast<std::size_t>(-1);
+constexpr int kAngleDecimals = 5;  ///< degrees; what follows is the rounding of float quaternions
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
 
 using Sink = std::function<void(std::string_view)>;
-
-/// Appends `value` with at most `decimals` decimals and none that say nothing. Never in scientific notation, which not
-/// every reader of BVH knows.
-void append_fixed(std::string& out, double value, int decimals) {
-  const std::size_t begin = out.size();
-  fmt::format_to(std::back_inserter(out), "{:.{}f}", value, decimals);
-  if (decimals > 0) {
-    out.erase(out.find_last_not_of('0') + 1);
-    if (out.back() == '.') out.pop_back();
-  }
-  if (std::string_view(out).substr(begin) == "-0") out.erase(begin, 1);
-}
-
-/// A length in the file's unit: the shortest decimals that a reader takes back to the same bits of metres.
-void append_length(std::string& out, float metres, double unit) {
-  const double value = static_cast<double>(metres) / unit;
-  if (value == 0) {
-    out += '0';
-    return;
-  }
-  // Nine significant digits name every float.
-  const int last = std::max(4, 8 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
-  const std::size_t begin = out.size();
-  for (int decimals = std::max(4, last - 5); decimals < last; ++decimals) {
-    append_fixed(out, value, decimals);
-    double read = 0;
-    std::from_chars(out.data() + begin, out.data() + out.size(), read);
-    if (to_metres(static_cast<float>(read), unit) == metres) return;
-    out.resize(begin);
-  }
-  append_fixed(out, value, last);
-}
 
 /// The shortest decimal of six places or more that reads back as this rate, or comes nearest to it.
 std::string frame_time_text(FrameRate rate) {
@@ -67,6 +35,12 @@ std::string frame_time_text(FrameRate rate) {
   return fmt::format("{:.15f}", rate.frame_time().count());
 }
 
+std::vector<RotationOrder> rotation_orders(const std::vector<std::vector<Channel>>& channels) {
+  std::vector<RotationOrder> orders;
+  for (const std::vector<Channel>& of_joint : channels) orders.push_back(rotation_order(of_joint));
+  return orders;
+}
+
 class Writer {
  public:
   Writer(const Motion& motion, const Layout& layout, const Sink& sink)
@@ -75,7 +49,9 @@ class Writer {
         layout_(layout),
         space_{.up = layout.up, .mirrored = layout.mirrored},
         sink_(sink),
-        columns_(layout.channels) {
+        columns_(layout.channels),
+        finder_(rotation_orders(layout.channels)),
+        rotations_(layout.channels.size()) {
     if (!fits(layout, skeleton_)) {
       throw Error(ErrorCode::bad_input,
                   "this BVH layout does not fit the motion's skeleton: it needs the same joints, and positions for "
@@ -91,8 +67,9 @@ class Writer {
                                                       printable(joint.name)));
       }
     }
-    for (const std::vector<Channel>& channels : columns_) orders_.push_back(rotation_order(channels));
-    before_.resize(columns_.size());
+    for (std::size_t joint = 0; joint < columns_.size(); ++joint) {
+      translations_.push_back(skeleton_.translation_of(static_cast<JointIndex>(joint)).value_or(kNotTranslated));
+    }
   }
 
   void write() {
@@ -116,10 +93,12 @@ class Writer {
   void write_offset(const Eigen::Vector3f& offset, double unit) {
     const Eigen::Vector3f turned = space_.to_file(offset);
     text_ += "OFFSET";
+    numbers_.clear();
     for (const float value : turned) {
-      text_ += ' ';
-      append_length(text_, value, unit);
+      numbers_.letter(' ');
+      numbers_.length(value, unit);
     }
+    text_ += numbers_.view();
     text_ += '\n';
   }
 
@@ -200,28 +179,34 @@ class Writer {
 
   void write_frame(std::int64_t frame) {
     const PoseView pose = motion_.pose(frame);
-    bool first = true;
+    numbers_.clear();
+    for (std::size_t joint = 0; joint < rotations_.size(); ++joint) {
+      rotations_[joint] = of_length_1(space_.to_file(pose.rotations[joint]).cast<double>());
+    }
+    const std::span<const Angles> found = finder_.next(rotations_);
     for (const std::size_t joint : order_) {
-      const RotationOrder& order = orders_[joint];
-      const Eigen::Quaterniond rotation = space_.to_file(pose.rotations[joint]).cast<double>().normalized();
-      const Angles angles = angles_of(rotation, order, frame == 0 ? nullptr : &before_[joint]);
-      before_[joint] = angles;
-      const std::optional<std::size_t> translation = skeleton_.translation_of(static_cast<JointIndex>(joint));
-      const Eigen::Vector3f position =
-          space_.to_file(translation ? pose.translations[*translation] : skeleton_.joints()[joint].offset);
+      const Angles& angles = found[joint];
+      const std::size_t translation = translations_[joint];
+      const Eigen::Vector3f position = space_.to_file(translation != kNotTranslated ? pose.translations[translation]
+                                                                                    : skeleton_.joints()[joint].offset);
       std::size_t rotations = 0;
       for (const Channel channel : columns_[joint]) {
-        if (!first) text_ += ' ';
-        first = false;
         if (is_rotation(channel)) {
-          append_fixed(text_, angles[rotations++] * (180 / std::numbers::pi), kAngleDecimals);
+          numbers_.fixed(angles[rotations++] * (180 / std::numbers::pi), kAngleDecimals);
         } else {
-          append_length(text_, position[axis_of(channel)], unit_of(joint));
+          numbers_.length(position[axis_of(channel)], unit_of(joint));
         }
+        numbers_.letter(' ');
       }
     }
-    text_ += '\n';
+    text_ += numbers_.view();
+    text_.back() = '\n';
     flush();
+  }
+
+  /// Float quaternions have length 1 to within rounding, and angles do not ask for more.
+  static Eigen::Quaterniond of_length_1(const Eigen::Quaterniond& rotation) noexcept {
+    return std::abs(rotation.squaredNorm() - 1) < 1e-5 ? rotation : rotation.normalized();
   }
 
   const Motion& motion_;
@@ -230,9 +215,11 @@ class Writer {
   Space space_;
   const Sink& sink_;
   std::vector<std::vector<Channel>> columns_;  ///< [joint], as they stand in a frame
-  std::vector<RotationOrder> orders_;          ///< [joint]
-  std::vector<Angles> before_;                 ///< [joint], of the frame before
+  AngleFinder finder_;
+  std::vector<Eigen::Quaterniond> rotations_;  ///< [joint], of the frame that is being written
   std::vector<std::size_t> order_;             ///< joints in the file's order
+  std::vector<std::size_t> translations_;      ///< [joint], or kNotTranslated
+  DecimalText numbers_;                        ///< of the line that is being written
   std::string text_;
 };
 

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <iterator>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "signweave/core/text.h"
+#include "signweave/formats/eaf_ids.h"
 #include "signweave/formats/eaf_times.h"
 
 namespace signweave::eaf {
@@ -101,7 +103,12 @@ class Parser {
   }
 
   void read_slots(pugi::xml_node order) {
-    for (const pugi::xml_node child : order.children("TIME_SLOT")) {
+    const pugi::xml_object_range<pugi::xml_named_node_iterator> all = order.children("TIME_SLOT");
+    const auto count = parts_.slots.size() + static_cast<std::size_t>(std::distance(all.begin(), all.end()));
+    slots_.reserve(count);
+    annotations_.reserve(count);  // about as many, as a rule
+    parts_.slots.reserve(count);
+    for (const pugi::xml_node child : all) {
       Slot slot;
       slot.element = child;
       slot.id = xml_.required(child, "TIME_SLOT_ID");
@@ -112,7 +119,7 @@ class Parser {
                                        printable(value.value()), kLatest));
         }
       }
-      if (!slots_.emplace(slot.id, parts_.slots.size()).second) {
+      if (!slots_.add(slot.id, parts_.slots.size())) {
         xml_.fail(child, fmt::format("a second time slot '{}'; give it an id of its own", printable(slot.id)));
       }
       parts_.slots.push_back(slot);
@@ -216,15 +223,17 @@ class Parser {
 
   std::size_t slot_of(pugi::xml_node element, const char* attribute) {
     const std::string_view id = xml_.required(element, attribute);
-    const auto slot = slots_.find(id);
-    if (slot == slots_.end()) {
+    const std::size_t slot = slots_.find(id);
+    if (slot == Ids::kMissing) {
       xml_.fail(element, fmt::format("annotation '{}' uses the time slot '{}', which TIME_ORDER does not have; add it",
                                      printable(element.attribute("ANNOTATION_ID").value()), printable(id)));
     }
-    return slot->second;
+    return slot;
   }
 
   void read_annotations(FileTier& tier) {
+    const pugi::xml_object_range<pugi::xml_node_iterator> children = tier.element.children();
+    tier.annotations.reserve(static_cast<std::size_t>(std::distance(children.begin(), children.end())));
     for (const pugi::xml_node holder : tier.element.children("ANNOTATION")) {
       pugi::xml_node element;
       for (const pugi::xml_node child : holder.children()) {
@@ -250,7 +259,7 @@ class Parser {
     const std::string_view id = xml_.required(element, "ANNOTATION_ID");
     one.annotation.id = id;
     one.annotation.label = xml_.content(element.child("ANNOTATION_VALUE"));
-    if (!annotations_.emplace(id, static_cast<std::size_t>(&tier - parts_.tiers.data())).second) {
+    if (!annotations_.add(id, static_cast<std::size_t>(&tier - parts_.tiers.data()))) {
       xml_.fail(element, fmt::format("a second annotation '{}'; give it an id of its own", printable(id)));
     }
     if (has_slots) {
@@ -272,19 +281,19 @@ class Parser {
         xml_.fail(one.element, fmt::format("annotation '{}' refers to annotation '{}', {}",
                                            printable(one.annotation.id), printable(id), fault));
       };
-      const auto parent = annotations_.find(one.annotation.parent);
-      if (parent == annotations_.end()) {
+      const std::size_t parent_tier = annotations_.find(one.annotation.parent);
+      if (parent_tier == Ids::kMissing) {
         refuse(one.annotation.parent, "which is not in the file; add it or remove this one");
       }
       if (tier.parent == kNone) {
         refuse(one.annotation.parent, "though its tier has no parent; give the tier a PARENT_REF");
       }
-      if (parent->second != tier.parent) {
+      if (parent_tier != tier.parent) {
         refuse(one.annotation.parent,
                fmt::format("which is on tier '{}' and not on the parent tier '{}'; refer to one that is",
-                           printable(parts_.tiers[parent->second].tier.id), printable(tier.tier.parent)));
+                           printable(parts_.tiers[parent_tier].tier.id), printable(tier.tier.parent)));
       }
-      if (!one.previous.empty() && annotations_.find(one.previous) == annotations_.end()) {
+      if (!one.previous.empty() && annotations_.find(one.previous) == Ids::kMissing) {
         refuse(one.previous, "which is not in the file; correct its PREVIOUS_ANNOTATION");
       }
     }
@@ -292,10 +301,10 @@ class Parser {
 
   const Xml& xml_;
   FileParts parts_;
-  Index slots_;
+  Ids slots_;
   Index types_;
   Index tiers_;
-  Index annotations_;  ///< id -> tier
+  Ids annotations_;  ///< id -> tier
 };
 
 }  // namespace

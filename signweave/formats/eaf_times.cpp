@@ -7,13 +7,25 @@
 #include <unordered_map>
 
 #include "signweave/core/text.h"
+#include "signweave/formats/eaf_ids.h"
 
 namespace signweave::eaf {
 namespace {
 
+/// A stable sort; most tiers are in order as they come, and annotations are heavy to move.
+template <typename Iterator, typename Before>
+void sort_unless_sorted(Iterator begin, Iterator end, const Before& before) {
+  if (!std::is_sorted(begin, end, before)) std::stable_sort(begin, end, before);
+}
+
 class Settler {
  public:
-  Settler(const Xml& xml, FileParts& parts) : xml_(xml), parts_(parts), times_(parts.slots.size()) {}
+  Settler(const Xml& xml, FileParts& parts)
+      : xml_(xml),
+        parts_(parts),
+        times_(parts.slots.size()),
+        begins_(parts.slots.size(), kNone),
+        ends_(parts.slots.size(), kNone) {}
 
   void run(const std::vector<std::size_t>& tier_order) {
     rank_slots();
@@ -48,8 +60,8 @@ class Settler {
     }
     order_.resize(count);
     std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::size_t a, std::size_t b) { return reached[a] < reached[b]; });
+    sort_unless_sorted(order_.begin(), order_.end(),
+                       [&](std::size_t a, std::size_t b) { return reached[a] < reached[b]; });
     for (std::size_t i = 0; i < count; ++i) parts_.slots[order_[i]].rank = i;
   }
 
@@ -58,30 +70,30 @@ class Settler {
   /// Those with slots first, in the order of their slots; the others as in the file.
   void sort_by_slots(FileTier& tier) {
     const auto key = [&](const FileAnnotation& one) { return one.has_slots() ? rank(one.begin) : kNone; };
-    std::stable_sort(tier.annotations.begin(), tier.annotations.end(),
-                     [&](const FileAnnotation& a, const FileAnnotation& b) { return key(a) < key(b); });
+    sort_unless_sorted(tier.annotations.begin(), tier.annotations.end(),
+                       [&](const FileAnnotation& a, const FileAnnotation& b) { return key(a) < key(b); });
     parents_.assign(tier.annotations.size(), kNone);
   }
 
   void find_parents_by_slots(const FileTier& tier) {
     const std::vector<FileAnnotation>& above = parts_.tiers[tier.parent].annotations;
-    std::unordered_map<std::size_t, std::size_t> by_begin;
-    std::unordered_map<std::size_t, std::size_t> by_end;
     std::vector<std::size_t> by_rank;  // parents with slots
     for (std::size_t i = 0; i < above.size(); ++i) {
       if (!above[i].has_slots()) continue;
-      by_begin.emplace(above[i].begin, i);
-      by_end.emplace(above[i].end, i);
+      std::size_t& begins = begins_[above[i].begin];
+      std::size_t& ends = ends_[above[i].end];
+      begins = std::min(begins, i);  // of several the first; kNone is past all
+      ends = std::min(ends, i);
       by_rank.push_back(i);
     }
-    std::sort(by_rank.begin(), by_rank.end(),
-              [&](std::size_t a, std::size_t b) { return rank(above[a].begin) < rank(above[b].begin); });
+    sort_unless_sorted(by_rank.begin(), by_rank.end(),
+                       [&](std::size_t a, std::size_t b) { return rank(above[a].begin) < rank(above[b].begin); });
     for (std::size_t i = 0; i < tier.annotations.size() && tier.annotations[i].has_slots(); ++i) {
       const FileAnnotation& one = tier.annotations[i];
-      if (const auto same = by_begin.find(one.begin); same != by_begin.end()) {
-        parents_[i] = same->second;
-      } else if (const auto same_end = by_end.find(one.end); same_end != by_end.end()) {
-        parents_[i] = same_end->second;
+      if (begins_[one.begin] != kNone) {
+        parents_[i] = begins_[one.begin];
+      } else if (ends_[one.end] != kNone) {
+        parents_[i] = ends_[one.end];
       } else {
         const auto after =
             std::upper_bound(by_rank.begin(), by_rank.end(), rank(one.begin),
@@ -93,6 +105,7 @@ class Settler {
         if (fits && rank(one.end) <= rank(around.end)) parents_[i] = *(after - 1);
       }
     }
+    for (const std::size_t i : by_rank) begins_[above[i].begin] = ends_[above[i].end] = kNone;
   }
 
   /// The span of an annotation whose slots both have times.
@@ -243,11 +256,12 @@ class Settler {
                                     [](const FileAnnotation& one) { return !one.has_slots(); });
     if (first == tier.annotations.end()) return;
     const std::vector<FileAnnotation>& above = parts_.tiers[tier.parent].annotations;
-    std::unordered_map<std::string_view, std::size_t> parent_of;
-    for (std::size_t i = 0; i < above.size(); ++i) parent_of.emplace(above[i].annotation.id, i);
-    const auto parent = [&](const FileAnnotation& one) { return parent_of.at(one.annotation.parent); };
-    std::stable_sort(first, tier.annotations.end(),
-                     [&](const FileAnnotation& a, const FileAnnotation& b) { return parent(a) < parent(b); });
+    Ids parent_of;
+    parent_of.reserve(above.size());
+    for (std::size_t i = 0; i < above.size(); ++i) parent_of.add(above[i].annotation.id, i);
+    const auto parent = [&](const FileAnnotation& one) { return parent_of.find(one.annotation.parent); };
+    sort_unless_sorted(first, tier.annotations.end(),
+                       [&](const FileAnnotation& a, const FileAnnotation& b) { return parent(a) < parent(b); });
     for (auto begin = first; begin != tier.annotations.end();) {
       auto end = begin;
       while (end != tier.annotations.end() && end->annotation.parent == begin->annotation.parent) ++end;
@@ -271,6 +285,7 @@ class Settler {
   /// Brings the children of one parent into the order of their PREVIOUS_ANNOTATION; file order where that says nothing.
   void follow_chain(Place begin, Place end) {
     const auto count = static_cast<std::size_t>(end - begin);
+    if (count == 1 && begin->previous.empty()) return;
     std::unordered_map<std::string_view, std::size_t> places;
     for (std::size_t i = 0; i < count; ++i) places.emplace(begin[static_cast<std::ptrdiff_t>(i)].annotation.id, i);
     std::vector<std::size_t> next(count, kNone);
@@ -304,6 +319,7 @@ class Settler {
                                        "fit is in file order",
                                        printable(begin->annotation.parent)));
     }
+    if (std::is_sorted(order.begin(), order.end())) return;
     std::vector<FileAnnotation> sorted;
     sorted.reserve(count);
     for (const std::size_t at : order) sorted.push_back(std::move(begin[static_cast<std::ptrdiff_t>(at)]));
@@ -311,12 +327,12 @@ class Settler {
   }
 
   void sort_by_time(FileTier& tier) {
-    std::stable_sort(tier.annotations.begin(), tier.annotations.end(),
-                     [](const FileAnnotation& a, const FileAnnotation& b) {
-                       const TimeSpan x = a.annotation.span;
-                       const TimeSpan y = b.annotation.span;
-                       return x.begin != y.begin ? x.begin < y.begin : x.end < y.end;
-                     });
+    sort_unless_sorted(tier.annotations.begin(), tier.annotations.end(),
+                       [](const FileAnnotation& a, const FileAnnotation& b) {
+                         const TimeSpan x = a.annotation.span;
+                         const TimeSpan y = b.annotation.span;
+                         return x.begin != y.begin ? x.begin < y.begin : x.end < y.end;
+                       });
   }
 
   void report(const FileTier& tier) {
@@ -342,6 +358,8 @@ class Settler {
   std::vector<std::optional<std::int64_t>> times_;  ///< [slot]
   std::vector<std::optional<std::int64_t>> rest_;   ///< [slot], see spread_the_rest
   bool rest_is_spread_ = false;
+  std::vector<std::size_t> begins_;   ///< [slot] the parent that begins there, while a tier's parents are looked for
+  std::vector<std::size_t> ends_;     ///< [slot] the same of ends
   std::vector<std::size_t> order_;    ///< slots by rank
   std::vector<std::size_t> parents_;  ///< [annotation of the tier at hand], an index into the parent tier
 };

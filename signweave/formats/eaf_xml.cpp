@@ -91,7 +91,8 @@ std::string declared_encoding(std::string_view bytes) {
   if (open == std::string_view::npos) return {};
   const std::size_t close = head.find(head[open], open + 1);
   if (close == std::string_view::npos) return {};
-  return fold_case(head.substr(open + 1, close - open - 1));
+  const std::string_view name = head.substr(open + 1, close - open - 1);
+  return name == "UTF-8" ? "utf-8" : fold_case(name);
 }
 
 }  // namespace
@@ -126,29 +127,36 @@ void Xml::decode(std::string_view bytes) {
     converted_ = to_utf8(bytes, encoding);
     text_ = converted_;
   }
-  for (std::size_t at = 0; at < text_.size(); ++at) {
-    if (text_[at] == '\n') line_starts_.push_back(at + 1);
-  }
   const std::string_view start = trimmed(text_.substr(text_.starts_with(kUtf8Mark) ? kUtf8Mark.size() : 0));
   if (text_.find('\0') != std::string_view::npos || !start.starts_with('<')) {
     fail_at(0, "this is no XML; give an EAF file as ELAN saves it");
   }
+  has_references_ = text_.find("&#") != std::string_view::npos;
   if (is_utf8(text_)) return;
   if (!declared.empty() && declared != "utf-8" && declared != "utf8") {
     fail_at(0, fmt::format("the encoding '{}' is not read here; save the file as UTF-8", printable(declared)));
   }
   std::size_t begin = 0;
-  for (std::size_t next : line_starts_) {
+  for (std::size_t next : line_starts()) {
     if (!is_utf8(text_.substr(begin, next - begin))) break;
     begin = next;
   }
   fail_at(begin, "a byte here is not UTF-8; save the file as UTF-8, or name its encoding in the first line");
 }
 
+const std::vector<std::size_t>& Xml::line_starts() const {
+  if (line_starts_.empty()) {
+    line_starts_.push_back(0);
+    for (std::size_t at = text_.find('\n'); at != std::string_view::npos; at = text_.find('\n', at + 1)) {
+      line_starts_.push_back(at + 1);
+    }
+  }
+  return line_starts_;
+}
+
 std::size_t Xml::line_at(std::size_t offset) const {
-  return static_cast<std::size_t>(std::upper_bound(line_starts_.begin(), line_starts_.end(), offset) -
-                                  line_starts_.begin()) +
-         1;
+  const std::vector<std::size_t>& starts = line_starts();
+  return static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), offset) - starts.begin());
 }
 
 std::size_t Xml::line_of(pugi::xml_node node) const {
@@ -164,7 +172,7 @@ std::string Xml::where(pugi::xml_node node) const {
 std::string_view Xml::attribute(pugi::xml_node node, const char* name) const {
   const std::string_view value = node.attribute(name).value();
   // A character reference may name half a surrogate pair.
-  if (!is_utf8(value)) fail(node, fmt::format("{} is no Unicode text; write it again", name));
+  if (has_references_ && !is_utf8(value)) fail(node, fmt::format("{} is no Unicode text; write it again", name));
   return value;
 }
 
@@ -179,7 +187,8 @@ std::string Xml::content(pugi::xml_node node) const {
   for (const pugi::xml_node child : node.children()) {
     if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) text += child.value();
   }
-  if (!is_utf8(text)) fail(node, fmt::format("the text of <{}> is no Unicode text; write it again", node.name()));
+  if (has_references_ && !is_utf8(text))
+    fail(node, fmt::format("the text of <{}> is no Unicode text; write it again", node.name()));
   return text;
 }
 

@@ -30,6 +30,8 @@ class Xml {
   std::string_view text() const noexcept { return text_; }
   /// True where the bytes were not UTF-8.
   bool converted() const noexcept { return !converted_.empty(); }
+  /// True where the text names characters by number ("&#10;").
+  bool has_references() const noexcept { return has_references_; }
   /// From 1; 0 where the node has no place.
   std::size_t line_of(pugi::xml_node node) const;
 
@@ -46,13 +48,15 @@ class Xml {
  private:
   [[noreturn]] void fail_at(std::size_t offset, std::string_view what) const;
   void decode(std::string_view bytes);
+  const std::vector<std::size_t>& line_starts() const;
   std::size_t line_at(std::size_t offset) const;
   std::string where(pugi::xml_node node) const;
 
   std::string name_;
   std::string converted_;  ///< where the bytes were no UTF-8
   std::string_view text_;
-  std::vector<std::size_t> line_starts_;
+  bool has_references_ = false;                   ///< to characters by number, which may name half a surrogate pair
+  mutable std::vector<std::size_t> line_starts_;  ///< made when the first line is asked for: most files are in order
   pugi::xml_document document_;
 };
 

@@ -1,0 +1,72 @@
+#pragma once
+
+// How much memory an import takes for itself.
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "bench/measure.h"
+#include "signweave/database/import.h"
+
+namespace signweave::bench {
+
+/// Anonymous memory of this process in bytes: what it took for itself, without the pages of files that it maps.
+inline std::size_t anonymous_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("RssAnon:")) return std::stoull(line.substr(8)) * 1024;
+  }
+  throw std::runtime_error("/proc/self/status does not tell RssAnon");
+}
+
+/// Run as a program of its own: imports a file and prints by how much anonymous memory grew at most, and what the
+/// motion takes, in bytes. Looked at every half a millisecond.
+inline int import_and_tell(const std::filesystem::path& bvh_path, const std::filesystem::path& folder) {
+  Database::create(folder, {});
+  Database database(folder, kv::Access::read_write);
+  const std::size_t before = anonymous_memory();
+  std::atomic<std::size_t> most = before;
+  std::atomic<bool> done = false;
+  std::thread watcher([&] {
+    while (!done) {
+      most = std::max<std::size_t>(most, anonymous_memory());
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+  });
+  const ImportReport report = import_recording(database, {.name = "long", .motion = bvh_path, .annotation = {}}, {});
+  done = true;
+  watcher.join();
+  const auto skeleton = database.skeleton("long");
+  const std::size_t motion =
+      static_cast<std::size_t>(report.frames) *
+      (skeleton->joint_count() * sizeof(Eigen::Quaternionf) + skeleton->translation_count() * sizeof(Eigen::Vector3f));
+  fmt::print("{} {} {}\n", most - before, motion, report.frames);
+  return 0;
+}
+
+inline void measure_memory(const std::filesystem::path& bvh_path, const std::string& name, std::int64_t frames,
+                           const std::string& goal) {
+  const Folder folder("import_memory");
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+  const std::string command = fmt::format("'{}' --import-memory '{}' '{}'", program.string(), bvh_path.string(),
+                                          (folder.path() / "db").string());
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("no process for the import");
+  std::size_t grown = 0;
+  std::size_t motion = 0;
+  long long imported = 0;
+  const int read = std::fscanf(pipe, "%zu %zu %lld", &grown, &motion, &imported);
+  if (::pclose(pipe) != 0 || read != 3) throw std::runtime_error("the import in a process of its own failed");
+  if (imported != frames) throw std::runtime_error(name + ": another count of frames was imported");
+  const double mega = 1e-6;
+  print("import_memory/" + name, static_cast<double>(grown) * mega, "MB", static_cast<double>(motion) * mega,
+        static_cast<double>(grown) / static_cast<double>(motion), goal);
+}
+
+}  // namespace signweave::bench

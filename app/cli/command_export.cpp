@@ -75,7 +75,7 @@ Run export_recording(CLI::App& verb) {
   verb.add_option("DB", options->folder, "the database")->required();
   verb.add_option("RECORDING", options->recording, "name of the recording")->required();
   verb.add_option("-o,--output", options->outputs,
-                  "file to write: .bvh .eaf .json .csv .svg; may be given several times")
+                  "file to write: " + writable_endings() + "; may be given several times")
       ->required()
       ->allow_extra_args(false)
       ->check([](const std::string& path) { return check_output(path); });
@@ -109,15 +109,26 @@ Run export_recording(CLI::App& verb) {
       motion = database.read(info.name, frames, joints);
     }
     std::optional<AnnotationDocument> document;
-    const bool needs_document = std::any_of(options->outputs.begin(), options->outputs.end(),
-                                            [](const std::string& path) { return fold_case(path).ends_with(".eaf"); });
+    const bool needs_document =
+        std::any_of(options->outputs.begin(), options->outputs.end(), [](const std::string& path) {
+          const std::string name = fold_case(path);
+          return name.ends_with(".eaf") || name.ends_with(".glb") || name.ends_with(".gltf");
+        });
     if (info.document != 0 && needs_document) document = database.document(info.name);
     // The annotation is cut where the frames are, so that both begin together.
     if (document && part)
       document = cut_document(*document, motion ? span_of(frames, info.clock) : span, options->outputs);
-    for (const std::string& path : options->outputs) {
-      write_recording(path, motion ? &*motion : nullptr, info.layout, document ? &*document : nullptr, info.name);
+    Outgoing recording{.motion = motion ? &*motion : nullptr,
+                       .layout = info.layout,
+                       .document = document ? &*document : nullptr,
+                       .title = info.name,
+                       .declarations = {}};
+    if (document) {
+      for (const auto& [name, value] : document->properties) {
+        if (name.starts_with("signweave:")) recording.declarations.emplace_back(name, value);
+      }
     }
+    for (const std::string& path : options->outputs) write_recording(path, recording);
     if (io.json) {
       io.out << nlohmann::json{{"recording", info.name}, {"files", options->outputs}, {"frames", frames.size()}}.dump(
                     2, ' ', false, nlohmann::json::error_handler_t::replace)

@@ -109,7 +109,7 @@ void add_limb(BodyMesh& mesh, JointIndex joint, const Vector3f& from, const Vect
   builder.finish();
 }
 
-void add_ellipsoid(BodyMesh& mesh, const HeadShape& head, const Vector3f& origin) {
+void add_ellipsoid(BodyMesh& mesh, const HeadShape& head) {
   constexpr int kRings = 12;
   std::vector<Ring> rings;
   for (int i = 0; i <= kRings; ++i) {
@@ -122,7 +122,7 @@ void add_ellipsoid(BodyMesh& mesh, const HeadShape& head, const Vector3f& origin
   Builder skull(head.joint, mesh);
   // turned() goes from `side` to axis × side: from forward to up × forward, which is left.
   for (Ring& ring : rings) std::swap(ring.wide, ring.deep);
-  skull.turned(origin + head.centre, head.up, head.forward, rings, 20);
+  skull.turned(head.centre, head.up, head.forward, rings, 20);
   skull.finish();
 }
 
@@ -150,9 +150,9 @@ std::vector<Vector2f> hull_of(std::vector<Vector2f> points) {
 
 /// A flat box around wrist and knuckles, so that the hand has a palm and a back.
 void add_palm(BodyMesh& mesh, const BodyPlan& plan, const HandShape& hand) {
-  const Vector3f wrist = plan.positions[at(hand.joint)];
+  const Vector3f wrist = plan.place(hand.joint);
   std::vector<Vector3f> points = {wrist};
-  for (const JointIndex knuckle : hand.knuckles) points.push_back(plan.positions[at(knuckle)]);
+  for (const JointIndex knuckle : hand.knuckles) points.push_back(plan.place(knuckle));
   Vector3f middle = Vector3f::Zero();
   for (const Vector3f& point : points) middle += point / static_cast<float>(points.size());
   Eigen::Matrix3f spread = Eigen::Matrix3f::Zero();
@@ -214,16 +214,15 @@ void add_trunk(BodyMesh& mesh, const BodyPlan& plan) {
   const float deep = 0.62f;
   std::vector<JointIndex> joints = plan.trunk;
   joints.push_back(plan.neck);
-  const float whole = (plan.positions[at(plan.trunk.back())] - plan.positions[at(plan.trunk.front())]).norm();
+  const float whole = (plan.place(plan.trunk.back()) - plan.place(plan.trunk.front())).norm();
   const auto width_at = [&](std::size_t i) {
     if (i + 1 == joints.size()) return 0.5f * ribs;
-    const float part =
-        (plan.positions[at(joints[i])] - plan.positions[at(plan.trunk.front())]).norm() / std::max(whole, 1e-6f);
+    const float part = (plan.place(joints[i]) - plan.place(plan.trunk.front())).norm() / std::max(whole, 1e-6f);
     return hips + (ribs - hips) * part - 0.3f * std::min(hips, ribs) * part * (1 - part);  // a waist
   };
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
-    const Vector3f from = plan.positions[at(joints[i])];
-    const Vector3f way = plan.positions[at(joints[i + 1])] - from;
+    const Vector3f from = plan.place(joints[i]);
+    const Vector3f way = plan.place(joints[i + 1]) - from;
     const float length = way.norm();
     if (length < 1e-4f * plan.size) continue;
     const Vector3f axis = way / length;
@@ -242,8 +241,8 @@ void add_trunk(BodyMesh& mesh, const BodyPlan& plan) {
   }
 }
 
-void add_nose(BodyMesh& mesh, const HeadShape& head, const Vector3f& origin) {
-  const Vector3f front = origin + head.centre + 0.96f * head.half.z() * head.forward;
+void add_nose(BodyMesh& mesh, const HeadShape& head) {
+  const Vector3f front = head.centre + 0.96f * head.half.z() * head.forward;
   const float scale = head.half.y();
   add_limb(mesh, head.joint, front + 0.12f * scale * head.up,
            front - 0.14f * scale * head.up + 0.1f * scale * head.forward, 0.07f * scale, 0.12f * scale);
@@ -254,8 +253,10 @@ void add_nose(BodyMesh& mesh, const HeadShape& head, const Vector3f& origin) {
 BodyMesh body_mesh(const Skeleton& skeleton, const BodyPlan& plan) {
   // Bones that a larger solid stands for.
   std::vector<bool> covered(skeleton.joint_count());
-  for (const JointIndex joint : plan.trunk) covered[at(joint)] = joint != plan.trunk.front();
-  if (!plan.trunk.empty()) covered[at(plan.neck)] = true;
+  if (!plan.trunk.empty()) {  // up to the root: what is above the hips is no part of the body
+    for (JointIndex joint = plan.neck; joint != kNoJoint; joint = skeleton.joint(joint).parent)
+      covered[at(joint)] = true;
+  }
   for (const HandShape& hand : plan.hands) {
     for (JointIndex joint : hand.knuckles) {
       for (; joint != hand.joint; joint = skeleton.joint(joint).parent) covered[at(joint)] = true;
@@ -273,29 +274,36 @@ BodyMesh body_mesh(const Skeleton& skeleton, const BodyPlan& plan) {
     if (joint == plan.neck) in_neck[at(joint)] = true;
   }
 
+  const auto thickness = [&](JointIndex joint, float length) {
+    if (in_neck[at(joint)]) return 0.031f * plan.size;
+    const bool collar = std::find(plan.collars.begin(), plan.collars.end(), joint) != plan.collars.end();
+    return collar ? 0.026f * plan.size : 0.12f * length + 0.0026f * plan.size;
+  };
   BodyMesh mesh;
-  const auto add_bone = [&](JointIndex joint, const Vector3f& end) {
-    const Vector3f from = plan.positions[at(joint)];
+  const auto add_bone = [&](JointIndex joint, const Vector3f& end, float next) {
+    const Vector3f from = plan.place(joint);
     const float length = (end - from).norm();
     if (length < 1e-4f * plan.size) return;
-    float thick = 0.12f * length + 0.0026f * plan.size;
-    float thin = 0.7f * thick;
-    if (in_neck[at(joint)]) thick = thin = 0.031f * plan.size;
-    add_limb(mesh, joint, from, end, thick, thin);
+    const float thick = thickness(joint, length);
+    add_limb(mesh, joint, from, end, thick, next > 0 ? std::clamp(next, 0.6f * thick, thick) : 0.7f * thick);
   };
   for (JointIndex joint = 1; at(joint) < skeleton.joint_count(); ++joint) {
-    const JointIndex parent = skeleton.joint(joint).parent;
-    if (!covered[at(joint)] && !in_head[at(joint)]) add_bone(parent, plan.positions[at(joint)]);
+    if (covered[at(joint)] || in_head[at(joint)]) continue;
+    // A limb ends as thick as the next begins.
+    const auto& children = plan.children[at(joint)];
+    const float next = children.size() == 1 ? thickness(joint, plan.bones[at(children[0])].norm()) : 0;
+    add_bone(skeleton.joint(joint).parent, plan.place(joint), next);
   }
-  for (const Tip& tip : skeleton.tips()) {
-    const bool skull = plan.head && (tip.joint == plan.head->joint || in_head[at(tip.joint)]);
-    if (!skull) add_bone(tip.joint, plan.positions[at(tip.joint)] + tip.offset);
+  for (std::size_t i = 0; i < skeleton.tips().size(); ++i) {
+    const JointIndex joint = skeleton.tips()[i].joint;
+    const bool skull = plan.head && (joint == plan.head->joint || in_head[at(joint)]);
+    if (!skull) add_bone(joint, plan.place(joint) + plan.tip_bones[i], 0);
   }
   for (const HandShape& hand : plan.hands) add_palm(mesh, plan, hand);
   if (!plan.trunk.empty()) add_trunk(mesh, plan);
   if (plan.head) {
-    add_ellipsoid(mesh, *plan.head, plan.positions[at(plan.head->joint)]);
-    add_nose(mesh, *plan.head, plan.positions[at(plan.head->joint)]);
+    add_ellipsoid(mesh, *plan.head);
+    add_nose(mesh, *plan.head);
   }
   return mesh;
 }

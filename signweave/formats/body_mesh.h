@@ -10,7 +10,7 @@ namespace signweave {
 
 /// Triangles, counter-clockwise from outside. Each vertex moves with one joint.
 struct BodyMesh {
-  std::vector<Eigen::Vector3f> positions;  ///< metres, in the bind pose's model space
+  std::vector<Eigen::Vector3f> positions;  ///< metres, in the plan's pose
   std::vector<Eigen::Vector3f> normals;    ///< unit
   std::vector<JointIndex> joints;          ///< [vertex]
   std::vector<std::uint32_t> indices;      ///< three a triangle

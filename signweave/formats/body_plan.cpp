@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "signweave/core/text.h"
-#include "signweave/motion/kinematics.h"
 
 namespace signweave {
 namespace {
@@ -31,11 +30,11 @@ struct Branches {
         bones(of.joint_count()),
         branching(of.joint_count()),
         longest(of.joint_count(), Vector3f::Zero()) {
-    for (const Tip& tip : skeleton.tips()) {
-      Vector3f& known = longest[at(tip.joint)];
-      if (tip.offset.norm() > known.norm()) known = tip.offset;
-      reach[at(tip.joint)] = known.norm();
-      bones[at(tip.joint)] = 1;
+    for (std::size_t i = 0; i < skeleton.tips().size(); ++i) {
+      const std::size_t joint = at(skeleton.tips()[i].joint);
+      if (plan.tip_bones[i].norm() > longest[joint].norm()) longest[joint] = plan.tip_bones[i];
+      reach[joint] = longest[joint].norm();
+      bones[joint] = 1;
     }
     for (std::size_t joint = skeleton.joint_count(); joint-- > 1;) {
       const std::size_t parent = at(skeleton.joint(static_cast<JointIndex>(joint)).parent);
@@ -45,7 +44,7 @@ struct Branches {
     }
   }
   /// The length of the branch that begins with the bone to `joint`.
-  float branch(JointIndex joint) const { return plan.offsets[at(joint)].norm() + reach[at(joint)]; }
+  float branch(JointIndex joint) const { return plan.bones[at(joint)].norm() + reach[at(joint)]; }
 };
 
 /// `of` without its part along `axis`, at unit length; `otherwise` where nothing is left.
@@ -57,24 +56,23 @@ Vector3f across(const Vector3f& of, const Vector3f& axis, const Vector3f& otherw
 }
 
 /// The highest joint from which three long branches grow: two arms and a neck.
-JointIndex chest_of(const Motion& motion, const BodyPlan& plan, const Branches& branches) {
-  const ModelPose posed = to_model_space(motion.skeleton(), motion.pose(0));
+JointIndex chest_of(const BodyPlan& plan, const Branches& branches) {
   JointIndex chest = kNoJoint;
   for (JointIndex joint = 1; at(joint) < plan.children.size(); ++joint) {
     const auto& children = plan.children[at(joint)];
     const auto big = std::count_if(children.begin(), children.end(),
                                    [&](JointIndex child) { return branches.branch(child) > 0.12f * plan.size; });
     if (big < 3) continue;
-    if (chest == kNoJoint || posed.positions[at(joint)].y() > posed.positions[at(chest)].y()) chest = joint;
+    if (chest == kNoJoint || plan.place(joint).y() > plan.place(chest).y()) chest = joint;
   }
   return chest;
 }
 
-/// Where an arm leaves the trunk: past the collar bones, which are short.
-JointIndex shoulder_of(const BodyPlan& plan, const Branches& branches, JointIndex joint) {
+/// Where a limb leaves the trunk: past collar or hip bones, which are short.
+JointIndex limb_from(const BodyPlan& plan, const Branches& branches, JointIndex joint) {
   while (plan.children[at(joint)].size() == 1) {
     const JointIndex next = plan.children[at(joint)][0];
-    if (plan.offsets[at(next)].norm() > 0.3f * branches.reach[at(joint)]) break;
+    if (plan.bones[at(next)].norm() > 0.3f * branches.reach[at(joint)]) break;
     joint = next;
   }
   return joint;
@@ -103,24 +101,30 @@ std::optional<JointIndex> called_head(const Skeleton& skeleton) {
   return std::nullopt;
 }
 
-HeadShape head_shape(const BodyPlan& plan, const Branches& branches, JointIndex joint) {
+HeadShape head_shape(const Skeleton& skeleton, const BodyPlan& plan, const Branches& branches, JointIndex joint) {
   HeadShape head{.joint = joint};
-  Vector3f top = branches.longest[at(joint)];
-  for (const JointIndex child : plan.children[at(joint)]) {  // an end that is a joint of its own
-    const Vector3f& offset = plan.offsets[at(child)];
-    if (plan.children[at(child)].empty() && offset.norm() > std::max(top.norm(), 0.08f * plan.size)) top = offset;
+  // Its top is the end that is highest above the trunk: a tip, or a joint from which nothing grows.
+  Vector3f top = Vector3f::Zero();
+  const auto consider = [&](const Vector3f& end) {
+    if (end.dot(plan.up) > top.dot(plan.up)) top = end;
+  };
+  for (std::size_t i = 0; i < skeleton.tips().size(); ++i) {
+    if (skeleton.tips()[i].joint == joint) consider(plan.tip_bones[i]);
   }
-  const float length = std::clamp(top.norm(), 0.07f * plan.size, 0.15f * plan.size);
-  head.up = top.norm() > 1e-6f ? Vector3f(top.normalized()) : plan.up;
+  for (const JointIndex child : plan.children[at(joint)]) {
+    if (branches.bones[at(child)] == 0) consider(plan.bones[at(child)]);
+  }
+  const float length = std::clamp(top.norm(), 0.08f * plan.size, 0.15f * plan.size);
+  head.up = top.norm() > 0.04f * plan.size ? Vector3f(top.normalized()) : plan.up;
   Vector3f front = Vector3f::Zero();  // eyes and jaw are in front
   for (const JointIndex child : plan.children[at(joint)]) {
-    const Vector3f offset = plan.offsets[at(child)];
-    front += offset - offset.dot(head.up) * head.up;
+    const Vector3f& bone = plan.bones[at(child)];
+    front += bone - bone.dot(head.up) * head.up;
   }
   head.forward = across(front.norm() > 0.01f * plan.size ? front : plan.forward, head.up, plan.forward);
   head.left = head.up.cross(head.forward);
   head.half = Vector3f(0.42f, 0.6f, 0.5f) * length;
-  head.centre = 0.5f * length * head.up;
+  head.centre = plan.place(joint) + 0.5f * length * head.up;
   return head;
 }
 
@@ -148,7 +152,7 @@ Vector3f toes(const BodyPlan& plan, const Branches& branches, JointIndex joint) 
                               [&](JointIndex a, JointIndex b) { return branches.branch(a) < branches.branch(b); });
   }
   const Vector3f& tip = branches.longest[at(joint)];
-  return tip.isZero() ? plan.offsets[at(joint)] : tip;
+  return tip.isZero() ? plan.bones[at(joint)] : tip;
 }
 
 /// Trunk, neck, widths and directions of a body whose chest was found.
@@ -168,16 +172,23 @@ void find_trunk(const Skeleton& skeleton, const Branches& branches, JointIndex c
     }
     if (!legs.empty()) plan.trunk.erase(plan.trunk.begin(), plan.trunk.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  const Vector3f arms[] = {plan.positions[at(shoulder_of(plan, branches, grown[0]))],
-                           plan.positions[at(shoulder_of(plan, branches, grown[1]))]};
-  const Vector3f neck = plan.positions[at(plan.neck)] - plan.positions[at(plan.trunk[0])];
+  const JointIndex shoulders[] = {limb_from(plan, branches, grown[0]), limb_from(plan, branches, grown[1])};
+  const Vector3f arms[] = {plan.place(shoulders[0]), plan.place(shoulders[1])};
+  for (const JointIndex shoulder : shoulders) {
+    for (JointIndex joint = skeleton.joint(shoulder).parent; joint != chest; joint = skeleton.joint(joint).parent) {
+      plan.collars.push_back(joint);
+    }
+  }
+  const Vector3f neck = plan.place(plan.neck) - plan.place(plan.trunk[0]);
   plan.up = neck.norm() > 1e-6f ? Vector3f(neck.normalized()) : Vector3f::UnitY();
   plan.left = across(arms[0] - arms[1], plan.up, Vector3f::UnitX());
   plan.forward = plan.left.cross(plan.up);
   plan.shoulder_width = 0.5f * (arms[0] - arms[1]).norm();
   plan.hip_width = 0.5f * plan.shoulder_width;
   if (legs.size() == 2) {
-    plan.hip_width = 0.5f * (plan.positions[at(legs[0])] - plan.positions[at(legs[1])]).norm();
+    const Vector3f between =
+        plan.place(limb_from(plan, branches, legs[0])) - plan.place(limb_from(plan, branches, legs[1]));
+    plan.hip_width = 0.5f * between.norm();
   }
   // Which arm is the left one follows from where the toes point; without toes the body looks along z.
   float front = 0;
@@ -189,43 +200,45 @@ void find_trunk(const Skeleton& skeleton, const Branches& branches, JointIndex c
   }
 }
 
+/// About the stature: the longest way through the body, from a hand to a foot, is a third longer.
+float size_of(const BodyPlan& plan, const Branches& branches) {
+  float longest = 0;
+  for (std::size_t joint = 0; joint < plan.children.size(); ++joint) {
+    float first = branches.longest[joint].norm();
+    float second = 0;
+    for (const JointIndex child : plan.children[joint]) {
+      second = std::max(second, std::min(first, branches.branch(child)));
+      first = std::max(first, branches.branch(child));
+    }
+    longest = std::max(longest, first + second);
+  }
+  return std::max(0.74f * longest, 1e-3f);
+}
+
 }  // namespace
 
 BodyPlan plan_of(const Motion& motion, std::optional<JointIndex> head) {
   const Skeleton& skeleton = motion.skeleton();
   BodyPlan plan;
+  plan.pose = to_model_space(skeleton, motion.pose(motion.frame_count() / 2));
   plan.children.resize(skeleton.joint_count());
-  Vector3f low = Vector3f::Zero();
-  Vector3f high = Vector3f::Zero();
-  const auto reach_to = [&](const Vector3f& place) {
-    low = low.cwiseMin(place);
-    high = high.cwiseMax(place);
-  };
   for (JointIndex joint = 0; at(joint) < skeleton.joint_count(); ++joint) {
-    const Joint& one = skeleton.joint(joint);
-    const auto moved = skeleton.translation_of(joint);
-    plan.offsets.push_back(moved ? motion.pose(0).translations[*moved] : one.offset);
-    if (one.parent == kNoJoint) {
-      plan.positions.push_back(plan.offsets.back());
-      low = high = plan.positions.back();
-    } else {
-      plan.positions.push_back(plan.positions[at(one.parent)] + plan.offsets.back());
-      plan.children[at(one.parent)].push_back(joint);
-    }
-    reach_to(plan.positions.back());
+    const JointIndex parent = skeleton.joint(joint).parent;
+    plan.bones.emplace_back(parent == kNoJoint ? Vector3f::Zero() : Vector3f(plan.place(joint) - plan.place(parent)));
+    if (parent != kNoJoint) plan.children[at(parent)].push_back(joint);
   }
-  for (const Tip& tip : skeleton.tips()) reach_to(plan.positions[at(tip.joint)] + tip.offset);
-  plan.size = std::max((high - low).maxCoeff(), 1e-3f);
-
+  for (const Tip& tip : skeleton.tips()) {
+    plan.tip_bones.emplace_back(plan.pose.rotations[at(tip.joint)] * tip.offset);
+  }
   const Branches branches(skeleton, plan);
+  plan.size = size_of(plan, branches);
   plan.hands = hands_of(plan, branches);
-  const JointIndex chest = chest_of(motion, plan, branches);
   std::optional<JointIndex> skull = head ? head : called_head(skeleton);
-  if (chest != kNoJoint) {
+  if (const JointIndex chest = chest_of(plan, branches); chest != kNoJoint) {
     find_trunk(skeleton, branches, chest, plan);
     if (!skull) skull = head_from(plan, branches);
   }
-  if (skull) plan.head = head_shape(plan, branches, *skull);
+  if (skull) plan.head = head_shape(skeleton, plan, branches, *skull);
   return plan;
 }
 

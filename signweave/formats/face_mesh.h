@@ -18,7 +18,7 @@ struct FaceTarget {
 
 /// Brows, eyes and a mouth, drawn flat on the front of a head.
 struct FaceMesh {
-  std::vector<Eigen::Vector3f> positions;  ///< metres, in the head joint's space
+  std::vector<Eigen::Vector3f> positions;  ///< metres, in the plan's pose
   std::vector<Eigen::Vector3f> normals;    ///< unit
   std::vector<std::uint32_t> indices;      ///< three a triangle
   std::vector<FaceTarget> targets;

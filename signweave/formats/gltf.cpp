@@ -108,17 +108,41 @@ class Writer {
     }
     if (!declared.empty()) model_.asset.extras = tinygltf::Value(std::move(declared));
     animation_.name = utf8(options_.name);
+    find_bind_pose();
     add_nodes();
     add_body();
     add_times();
     add_rotations();
     add_translations();
     add_tracks();
+    if (animation_.channels.empty()) {  // nothing moves; an animation must all the same
+      const Eigen::Vector4f key = motion_.rotations()[0].coeffs().normalized();
+      add_channel(0, "rotation", document_.quaternions({&key, 1}), false);
+    }
     model_.animations.push_back(std::move(animation_));
     model_.defaultScene = 0;
   }
 
  private:
+  /// Every rotation the identity, and translations as in the first frame.
+  void find_bind_pose() {
+    for (JointIndex joint = 0; at(joint) < skeleton_.joint_count(); ++joint) {
+      const Joint& one = skeleton_.joint(joint);
+      const auto moved = skeleton_.translation_of(joint);
+      offsets_.push_back(moved ? motion_.pose(0).translations[*moved] : one.offset);
+      places_.push_back(offsets_.back() +
+                        (one.parent == kNoJoint ? Vector3f(Vector3f::Zero()) : places_[at(one.parent)]));
+    }
+  }
+
+  /// From the plan's pose into a joint's space.
+  Vector3f turned_back(JointIndex joint, const Vector3f& way) const {
+    return plan_.pose.rotations[at(joint)].conjugate() * way;
+  }
+  Vector3f in_joint(JointIndex joint, const Vector3f& place) const {
+    return turned_back(joint, place - plan_.place(joint));
+  }
+
   int add_node(const std::string& name, const Vector3f& translation) {
     tinygltf::Node node;
     node.name = names_.unique(name);
@@ -131,7 +155,7 @@ class Writer {
   void add_nodes() {
     for (std::size_t joint = 0; joint < skeleton_.joint_count(); ++joint) {
       const Joint& one = skeleton_.joint(static_cast<JointIndex>(joint));
-      const int node = add_node(one.name, plan_.offsets[joint]);
+      const int node = add_node(one.name, offsets_[joint]);
       if (one.parent != kNoJoint) model_.nodes[at(one.parent)].children.push_back(node);
     }
     for (const Tip& tip : skeleton_.tips()) {
@@ -158,10 +182,13 @@ class Writer {
 
   /// The one mesh that moves with all joints.
   void add_body() {
-    const BodyMesh mesh = body_mesh(skeleton_, plan_);
+    BodyMesh mesh = body_mesh(skeleton_, plan_);
     if (mesh.positions.empty()) return;  // a root alone
-    for (const Vector3f& position : mesh.positions) {
-      if (!position.allFinite()) throw Error(ErrorCode::bad_input, "the skeleton is too large to be drawn");
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const JointIndex joint = mesh.joints[i];
+      mesh.positions[i] = places_[at(joint)] + in_joint(joint, mesh.positions[i]);
+      mesh.normals[i] = turned_back(joint, mesh.normals[i]).normalized();
+      if (!mesh.positions[i].allFinite()) throw Error(ErrorCode::bad_input, "the skeleton is too large to be drawn");
     }
     tinygltf::Primitive primitive;
     primitive.attributes["POSITION"] = document_.vectors(mesh.positions, true, true);
@@ -183,11 +210,11 @@ class Writer {
       matrix.topRightCorner<3, 1>() = -position;
       from_model.push_back(matrix);
     };
-    for (std::size_t joint = 0; joint < skeleton_.joint_count(); ++joint) add_joint(joint, plan_.positions[joint]);
+    for (std::size_t joint = 0; joint < skeleton_.joint_count(); ++joint) add_joint(joint, places_[joint]);
     // Tips are bones too: else Blender makes an empty object of each, and does not know how long the last bones are.
     for (std::size_t i = 0; i < skeleton_.tips().size(); ++i) {
       const Tip& tip = skeleton_.tips()[i];
-      add_joint(skeleton_.joint_count() + i, plan_.positions[at(tip.joint)] + tip.offset);
+      add_joint(skeleton_.joint_count() + i, places_[at(tip.joint)] + tip.offset);
     }
     skin.inverseBindMatrices = document_.matrices(from_model);
     model_.skins.push_back(std::move(skin));
@@ -222,11 +249,14 @@ class Writer {
       }
     }
     times_ = document_.scalars(times, true);
-    const float start[] = {0};
-    start_ = times.size() == 1 ? times_ : document_.scalars(start, true);
+    if (times.size() == 1) start_ = times_;
   }
 
   void add_channel(int node, const char* path, int keys, bool moves) {
+    if (!moves && start_ < 0) {
+      const float start[] = {0};
+      start_ = document_.scalars(start, true);
+    }
     tinygltf::AnimationSampler sampler;
     sampler.input = moves ? times_ : start_;
     sampler.output = keys;
@@ -303,7 +333,13 @@ class Writer {
       names.push_back(track->name);
       listed.emplace_back(track->name);
     }
-    const FaceMesh face = face_mesh(*plan_.head, names);
+    FaceMesh face = face_mesh(*plan_.head, names);
+    const JointIndex head = plan_.head->joint;
+    for (Vector3f& position : face.positions) position = in_joint(head, position);
+    for (Vector3f& normal : face.normals) normal = turned_back(head, normal).normalized();
+    for (FaceTarget& target : face.targets) {
+      for (Vector3f& delta : target.deltas) delta = turned_back(head, delta);
+    }
     tinygltf::Primitive primitive;
     primitive.attributes["POSITION"] = document_.vectors(face.positions, true, true);
     primitive.attributes["NORMAL"] = document_.vectors(face.normals, true);
@@ -317,7 +353,7 @@ class Writer {
     extras["targetNames"] = tinygltf::Value(std::move(listed));
     const int node = add_mesh("face", std::move(primitive), tinygltf::Value(std::move(extras)));
     model_.meshes.back().weights.assign(tracks.size(), 0.0);
-    model_.nodes[at(plan_.head->joint)].children.push_back(node);
+    model_.nodes[at(head)].children.push_back(node);
 
     std::vector<float> weights;
     weights.reserve(at(motion_.frame_count()) * tracks.size());
@@ -331,12 +367,14 @@ class Writer {
   const Skeleton& skeleton_;
   const WriteOptions& options_;
   const BodyPlan plan_;
+  std::vector<Vector3f> offsets_;  ///< [joint] from its parent, in the bind pose
+  std::vector<Vector3f> places_;   ///< [joint] model space of the bind pose
   Document& document_;
   tinygltf::Model& model_;
   tinygltf::Animation animation_;
   Names names_;
-  int times_ = 0;  ///< accessor of every frame's time
-  int start_ = 0;  ///< accessor of the time 0 alone
+  int times_ = 0;   ///< accessor of every frame's time
+  int start_ = -1;  ///< accessor of the time 0 alone, once it is needed
 };
 
 void write_to(std::ostream& out, const Motion& motion, const WriteOptions& options, Container container) {

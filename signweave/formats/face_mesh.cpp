@@ -180,6 +180,13 @@ Drawing draw() {
     }
   }
   face.strip(mouth, kCorners, true);
+  // Left is x, up is y, so what is counter-clockwise here is seen from the front.
+  for (std::size_t i = 0; i < face.indices.size(); i += 3) {
+    std::uint32_t* corner = &face.indices[i];
+    const Vector2f a = face.points[corner[1]].place - face.points[corner[0]].place;
+    const Vector2f b = face.points[corner[2]].place - face.points[corner[0]].place;
+    if (a.x() * b.y() - a.y() * b.x() < 0) std::swap(corner[1], corner[2]);
+  }
   return face;
 }
 

@@ -12,6 +12,7 @@
 
 #include "signweave/database/test_recording.h"
 #include "signweave/formats/eaf.h"
+#include "signweave/kv/sealed.h"
 #include "signweave/query/parse.h"
 
 namespace signweave {
@@ -342,6 +343,27 @@ TEST_F(DatabaseTest, ConcurrentReadersSeeWholeRecordingsWhileOneIsReplaced) {
   while (reads < 20) std::this_thread::yield();
   stop = true;
   for (std::thread& reader : readers) reader.join();
+}
+
+TEST_F(DatabaseTest, AnEntryFromBeforeFacesIsRead) {
+  Database(path(), kv::Access::read_write).put(small_recording("a", 1, {"A"}));
+  {
+    const auto store = kv::open(path(), kv::Access::read_write);
+    const auto transaction = store->write();
+    ByteWriter key;
+    key.number('R');
+    key.number(std::uint32_t{0});
+    const ByteSpan body = kv::unsealed(*transaction->get(key.bytes()), "test");
+    Bytes old(body.begin(), body.end() - 12);  // without an empty text and a fingerprint
+    old[0] = std::byte{1};
+    transaction->put(key.bytes(), kv::sealed(old));
+    transaction->commit();
+  }
+  const Database database(path(), kv::Access::read_only);
+  ASSERT_TRUE(database.info("a"));
+  EXPECT_EQ(database.info("a")->signer, "s1");
+  EXPECT_EQ(database.info("a")->face_file, "");
+  EXPECT_EQ(database.read("a").frame_count(), 300);
 }
 
 }  // namespace

@@ -334,12 +334,13 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   database.put(recording, half(progress, 0.5));
   report.signs = signs.size();
   report.notices = recording.notices;
-  report.outcome = !known                              ? ImportOutcome::added
-                   : new_motion && !motion_known       ? ImportOutcome::motion_added
-                   : new_annotation && !document_known ? ImportOutcome::annotation_added
-                   : new_motion                        ? ImportOutcome::motion_replaced
-                   : new_annotation                    ? ImportOutcome::annotation_replaced
-                                                       : ImportOutcome::clock_changed;
+  report.outcome = !known                                ? ImportOutcome::added
+                   : new_motion && !motion_known         ? ImportOutcome::motion_added
+                   : new_annotation && !document_known   ? ImportOutcome::annotation_added
+                   : new_face && !options.replace_motion ? ImportOutcome::face_added
+                   : new_motion                          ? ImportOutcome::motion_replaced
+                   : new_annotation                      ? ImportOutcome::annotation_replaced
+                                                         : ImportOutcome::clock_changed;
   return report;
 }
 

@@ -128,7 +128,12 @@ Run export_recording(CLI::App& verb) {
         if (name.starts_with("signweave:")) recording.declarations.emplace_back(name, value);
       }
     }
-    for (const std::string& path : options->outputs) write_recording(path, recording);
+    for (const std::string& path : options->outputs) {
+      if (!options->joints.empty() && fold_case(path).ends_with(".face.csv")) {
+        throw Error(ErrorCode::bad_input, path + ": --joints leaves scalar tracks out; export it without");
+      }
+      write_recording(path, recording);
+    }
     if (io.json) {
       io.out << nlohmann::json{{"recording", info.name}, {"files", options->outputs}, {"frames", frames.size()}}.dump(
                     2, ' ', false, nlohmann::json::error_handler_t::replace)

@@ -277,7 +277,7 @@ BodyMesh body_mesh(const Skeleton& skeleton, const BodyPlan& plan) {
   const auto thickness = [&](JointIndex joint, float length) {
     if (in_neck[at(joint)]) return 0.031f * plan.size;
     const bool collar = std::find(plan.collars.begin(), plan.collars.end(), joint) != plan.collars.end();
-    return collar ? 0.026f * plan.size : 0.12f * length + 0.0026f * plan.size;
+    return collar ? 0.026f * plan.size : 0.12f * length + 0.0034f * plan.size;
   };
   BodyMesh mesh;
   const auto add_bone = [&](JointIndex joint, const Vector3f& end, float next) {

@@ -234,20 +234,7 @@ class Writer {
   }
 
   void add_times() {
-    std::vector<float> times;
-    times.reserve(at(motion_.frame_count()));
-    const FrameRate rate = motion_.rate();
-    for (std::int64_t frame = 0; frame < motion_.frame_count(); ++frame) {
-      times.push_back(static_cast<float>(static_cast<double>(frame) * static_cast<double>(rate.denominator) /
-                                         static_cast<double>(rate.numerator)));
-      if (frame > 0 && times[at(frame)] <= times[at(frame - 1)]) {
-        throw Error(
-            ErrorCode::unsupported,
-            fmt::format("frame {} at {} frames a second: glTF cannot tell its time from that of the frame before; "
-                        "write a part of the motion",
-                        frame, to_string(rate)));
-      }
-    }
+    const std::vector<float> times = key_times(motion_.rate(), motion_.frame_count());
     times_ = document_.scalars(times, true);
     if (times.size() == 1) start_ = times_;
   }

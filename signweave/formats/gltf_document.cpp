@@ -1,5 +1,7 @@
 #include "signweave/formats/gltf_document.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -104,6 +106,24 @@ int Document::indices(std::span<const std::uint32_t> values) {
   }
   return add_list(values, values.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
                   TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+}
+
+std::vector<float> key_times(FrameRate rate, std::int64_t frames) {
+  std::vector<float> times;
+  times.reserve(static_cast<std::size_t>(frames));
+  for (std::int64_t frame = 0; frame < frames; ++frame) {
+    const auto time = static_cast<float>(static_cast<double>(frame) * static_cast<double>(rate.denominator) /
+                                         static_cast<double>(rate.numerator));
+    if (frame > 0 && time <= times.back()) {
+      throw Error(
+          ErrorCode::unsupported,
+          fmt::format("frame {} at {} frames a second: glTF cannot tell its time from that of the frame before; "
+                      "write a part of the motion",
+                      frame, to_string(rate)));
+    }
+    times.push_back(time);
+  }
+  return times;
 }
 
 }  // namespace signweave::gltf

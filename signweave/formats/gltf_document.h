@@ -9,6 +9,8 @@
 // The library's name for itself, so that no other file needs its header's long list.
 #include <tiny_gltf.h>
 
+#include "signweave/core/time.h"
+
 namespace signweave::gltf {
 
 /// A glTF model that is being put together: numbers go into its one buffer, each list with a view and an accessor of
@@ -46,5 +48,9 @@ class Document {
   std::size_t most_bytes_;
   std::string too_large_;
 };
+
+/// The time of each frame, seconds. Throws Error{unsupported} where two fall together: glTF's times are floats, and
+/// must grow.
+std::vector<float> key_times(FrameRate rate, std::int64_t frames);
 
 }  // namespace signweave::gltf

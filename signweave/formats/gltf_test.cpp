@@ -444,10 +444,16 @@ TEST(Gltf, RefusesWhatItCannotHold) {
   EXPECT_THAT(error_of(motion), HasSubstr("frame 1: track 'jawOpen'"));
 }
 
-TEST(Gltf, FramesWhoseTimesFallTogetherAreRefused) {
-  const auto skeleton =
-      std::make_shared<const Skeleton>(std::vector<Joint>{{"a", kNoJoint, {0, 0, 0}, true}}, std::vector<Tip>());
-  EXPECT_THAT(error_of(Motion(skeleton, {1'000'000, 1}, (1 << 24) + 3)), HasSubstr("glTF cannot tell its time"));
+TEST(GltfDocument, FramesWhoseTimesFallTogetherAreRefused) {
+  EXPECT_EQ(gltf::key_times({30'000, 1'001}, 3)[2], static_cast<float>(2 * 1001 / 30'000.0));
+  EXPECT_NO_THROW(gltf::key_times({100, 1}, 1'000'000));  // nearly three hours
+  try {
+    gltf::key_times({1'000'000, 1}, (1 << 24) + 3);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::unsupported);
+    EXPECT_THAT(error.what(), HasSubstr("glTF cannot tell its time"));
+  }
 }
 
 TEST(GltfDocument, RefusesToPassItsLimit) {

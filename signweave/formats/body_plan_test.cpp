@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "signweave/formats/body_mesh.h"
@@ -104,19 +105,43 @@ TEST(BodyPlan, ASnakeIsNoBody) {
   EXPECT_FALSE(body_mesh(motion.skeleton(), plan).positions.empty());
 }
 
+/// For each vertex the number of the solid that it belongs to.
+std::vector<std::size_t> solids_of(const BodyMesh& mesh) {
+  std::vector<std::size_t> solid(mesh.positions.size());
+  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = i;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+      std::size_t& one = solid[mesh.indices[i]];
+      const std::size_t other = solid[mesh.indices[i - i % 3]];
+      if (one == other) continue;
+      solid[mesh.indices[i - i % 3]] = one = std::min(one, other);
+      changed = true;
+    }
+  }
+  return solid;
+}
+
 TEST(BodyMesh, TrianglesLookOutwards) {
   const Motion motion = moving_person(3);
   const BodyMesh mesh = body_mesh(motion.skeleton(), plan_of(motion));
-  double volume = 0;  // of solids whose triangles all look outwards: positive
+  const std::vector<std::size_t> solid = solids_of(mesh);
+  std::map<std::size_t, double> volumes;  // of a solid whose triangles look outwards: positive; of a lid: 0
+  double whole = 0;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const Vector3f& a = mesh.positions[mesh.indices[i]];
-    const Vector3f& b = mesh.positions[mesh.indices[i + 1]];
-    const Vector3f& c = mesh.positions[mesh.indices[i + 2]];
-    volume += a.cross(b).dot(c) / 6;
+    const std::size_t first = solid[mesh.indices[i]];
+    const Vector3f& from = mesh.positions[first];
+    const Vector3f a = mesh.positions[mesh.indices[i]] - from;
+    const Vector3f b = mesh.positions[mesh.indices[i + 1]] - from;
+    const Vector3f c = mesh.positions[mesh.indices[i + 2]] - from;
+    volumes[first] += a.cross(b).dot(c) / 6;
+    whole += a.cross(b).dot(c) / 6;
     EXPECT_GT((b - a).cross(c - a).dot(mesh.normals[mesh.indices[i]]), 0) << "triangle " << i / 3;
   }
-  EXPECT_GT(volume, 0.02) << "cubic metres";
-  EXPECT_LT(volume, 0.2);
+  EXPECT_GT(volumes.size(), 30u);
+  for (const auto& [first, volume] : volumes) EXPECT_GT(volume, -1e-9) << "the solid of joint " << mesh.joints[first];
+  EXPECT_GT(whole, 0.02) << "cubic metres";
+  EXPECT_LT(whole, 0.2);
   for (const Vector3f& normal : mesh.normals) EXPECT_NEAR(normal.norm(), 1, 1e-5f);
 }
 
@@ -136,6 +161,10 @@ TEST(BodyMesh, HandsArePalmsWithFingers) {
   EXPECT_NEAR(extent.x(), 0.12f, 0.03f) << "from the wrist to the knuckles";
   EXPECT_NEAR(extent.z(), 0.08f, 0.03f) << "across";
   EXPECT_LT(extent.y(), 0.035f) << "flat";
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (mesh.joints[i] != hand) continue;
+    EXPECT_GT(mesh.normals[i].dot(mesh.positions[i] - (low + high) / 2), 0) << "looks out of the palm";
+  }
 }
 
 TEST(FaceMesh, LiesOnTheFrontOfTheHead) {

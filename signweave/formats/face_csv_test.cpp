@@ -72,6 +72,9 @@ TEST(FaceCsv, TheRateIsTheFramesThatASecondIsSeenToHave) {
 
 TEST(FaceCsv, TimeGoesOnAfterMidnight) {
   EXPECT_THAT(times_ms(read("23:59:59:30,2,0,0\n00:00:00:00,2,0,0\n00:00:00:30,2,0,0\n")), ElementsAre(0, 500, 1000));
+  constexpr long kHour = 3'600'000;
+  EXPECT_THAT(times_ms(read("20:0:0:0,2,0,0\n6:0:0:0,2,0,0\n20:0:0:0,2,0,0\n6:0:0:0,2,0,0\n")),
+              ElementsAre(0, 10 * kHour, 24 * kHour, 34 * kHour));
 }
 
 TEST(FaceCsv, RowsThatSawNoFaceAreBridged) {

@@ -167,6 +167,22 @@ TEST(BodyMesh, HandsArePalmsWithFingers) {
   }
 }
 
+TEST(BodyMesh, TheSkullIsDeeperThanWideAndHigherThanDeep) {
+  const Motion motion(person(), {100, 1}, 1);
+  const BodyPlan plan = plan_of(motion);
+  const BodyMesh mesh = body_mesh(motion.skeleton(), plan);
+  Vector3f extent(0, 0, 0);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (mesh.joints[i] != plan.head->joint) continue;
+    const Vector3f from = mesh.positions[i] - plan.head->centre;
+    if (from.z() < 0) extent = extent.cwiseMax(from.cwiseAbs());  // the back, where there is no nose
+  }
+  EXPECT_NEAR(extent.x(), plan.head->half.x(), 0.15f * plan.head->half.x());
+  EXPECT_NEAR(extent.z(), plan.head->half.z(), 0.15f * plan.head->half.z());
+  EXPECT_NEAR(extent.y(), plan.head->half.y(), 0.15f * plan.head->half.y());
+  EXPECT_LT(extent.x(), extent.z());
+}
+
 TEST(FaceMesh, LiesOnTheFrontOfTheHead) {
   const HeadShape head = *plan_of(Motion(person(), {100, 1}, 1)).head;
   const FaceMesh face = face_mesh(head, {});

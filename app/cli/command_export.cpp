@@ -109,11 +109,8 @@ Run export_recording(CLI::App& verb) {
       motion = database.read(info.name, frames, joints);
     }
     std::optional<AnnotationDocument> document;
-    const bool needs_document =
-        std::any_of(options->outputs.begin(), options->outputs.end(), [](const std::string& path) {
-          const std::string name = fold_case(path);
-          return name.ends_with(".eaf") || name.ends_with(".glb") || name.ends_with(".gltf");
-        });
+    const bool needs_document = std::any_of(options->outputs.begin(), options->outputs.end(),
+                                            [](const std::string& path) { return fold_case(path).ends_with(".eaf"); });
     if (info.document != 0 && needs_document) document = database.document(info.name);
     // The annotation is cut where the frames are, so that both begin together.
     if (document && part)
@@ -122,12 +119,7 @@ Run export_recording(CLI::App& verb) {
                        .layout = info.layout,
                        .document = document ? &*document : nullptr,
                        .title = info.name,
-                       .declarations = {}};
-    if (document) {
-      for (const auto& [name, value] : document->properties) {
-        if (name.starts_with("signweave:")) recording.declarations.emplace_back(name, value);
-      }
-    }
+                       .declarations = info.declarations};
     for (const std::string& path : options->outputs) {
       if (!options->joints.empty() && fold_case(path).ends_with(".face.csv")) {
         throw Error(ErrorCode::bad_input, path + ": --joints leaves scalar tracks out; export it without");

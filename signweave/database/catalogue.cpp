@@ -8,7 +8,6 @@ namespace signweave::catalogue {
 namespace {
 
 constexpr std::uint8_t kVersion = 1;
-constexpr std::uint8_t kRecordingVersion = 2;  // 2: the face's file
 
 Bytes key_of(char what) {
   ByteWriter key;
@@ -23,30 +22,24 @@ Bytes slot_key(std::uint32_t slot) {
   return key.take();
 }
 
-struct Record {
-  ByteReader reader;
-  std::uint8_t version;
-};
-
-Record open_record(const kv::ReadTransaction& snapshot, ByteSpan key, const std::string& where,
-                   std::uint8_t newest = kVersion) {
+ByteReader open_record(const kv::ReadTransaction& snapshot, ByteSpan key, const std::string& where) {
   const auto record = snapshot.get(key);
   if (!record) ByteReader({}, where).fail("it is missing");
   ByteReader reader(kv::unsealed(*record, where), where);
   const auto version = reader.number<std::uint8_t>();
-  if (version < 1 || version > newest) {
+  if (version != kVersion) {
     throw Error(
         ErrorCode::unsupported,
         fmt::format("{}: written by another version of signweave (record version {}, this one reads {}); use that "
                     "version, or import the recordings again",
-                    where, version, newest));
+                    where, version, kVersion));
   }
-  return {reader, version};
+  return reader;
 }
 
-ByteWriter new_record(std::uint8_t version = kVersion) {
+ByteWriter new_record() {
   ByteWriter writer;
-  writer.number(version);
+  writer.number(kVersion);
   return writer;
 }
 
@@ -98,7 +91,7 @@ TierNames decode_tier_names(ByteReader& in) {
 }  // namespace
 
 Head read_head(const kv::ReadTransaction& snapshot) {
-  ByteReader in = open_record(snapshot, key_of('C'), "catalogue").reader;
+  ByteReader in = open_record(snapshot, key_of('C'), "catalogue");
   Head head;
   head.changes = in.number<std::uint64_t>();
   head.next_generation = in.number<std::uint64_t>();
@@ -120,8 +113,7 @@ void write_head(kv::WriteTransaction& transaction, const Head& head) {
 }
 
 RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t slot) {
-  auto [in, version] =
-      open_record(snapshot, slot_key(slot), fmt::format("catalogue entry {}", slot), kRecordingVersion);
+  ByteReader in = open_record(snapshot, slot_key(slot), fmt::format("catalogue entry {}", slot));
   RecordingInfo info;
   info.name = in.text();
   info.signer = in.text();
@@ -144,16 +136,18 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
     notice.text = in.text();
     info.notices.push_back(std::move(notice));
   }
-  if (version >= 2) {
-    info.face_file = in.text();
-    info.face_fingerprint = in.number<std::uint64_t>();
+  for (std::size_t n = in.count(8); n > 0; --n) {
+    std::string name = in.text();
+    info.declarations.emplace_back(std::move(name), in.text());
   }
+  info.face_file = in.text();
+  info.face_fingerprint = in.number<std::uint64_t>();
   in.finish();
   return info;
 }
 
 void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, const RecordingInfo& info) {
-  ByteWriter out = new_record(kRecordingVersion);
+  ByteWriter out = new_record();
   out.text(info.name);
   out.text(info.signer);
   encode(info.clock, out);
@@ -174,6 +168,11 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
     out.text(notice.where);
     out.text(notice.text);
   }
+  out.number(static_cast<std::uint32_t>(info.declarations.size()));
+  for (const auto& [name, value] : info.declarations) {
+    out.text(name);
+    out.text(value);
+  }
   out.text(info.face_file);
   out.number(info.face_fingerprint);
   transaction.put(slot_key(slot), kv::sealed(out.bytes()));
@@ -193,7 +192,7 @@ void erase_recording(kv::WriteTransaction& transaction, std::uint32_t slot) {
 
 SweepList read_sweep_list(const kv::ReadTransaction& snapshot) {
   if (!snapshot.get(key_of('P'))) return {};
-  ByteReader in = open_record(snapshot, key_of('P'), "sweep list").reader;
+  ByteReader in = open_record(snapshot, key_of('P'), "sweep list");
   SweepList list;
   for (std::size_t n = in.count(8); n > 0; --n) list.push_back(motion_db::decode(in));
   in.finish();

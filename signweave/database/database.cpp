@@ -78,17 +78,28 @@ Database::Database(const std::filesystem::path& folder, kv::Access access) : fol
 Database::~Database() = default;
 
 std::shared_ptr<const Contents> Database::contents() const {
-  const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
-  const catalogue::Head head = catalogue::read_head(*snapshot);
+  return contents_of(*store_->read());
+}
+
+Snapshot Database::snapshot() const {
+  Snapshot made;
+  made.database_ = this;
+  made.transaction_ = store_->read();
+  made.contents_ = contents_of(*made.transaction_);
+  return made;
+}
+
+std::shared_ptr<const Contents> Database::contents_of(const kv::ReadTransaction& snapshot) const {
+  const catalogue::Head head = catalogue::read_head(snapshot);
   const std::lock_guard guard(mutex_);
-  if (contents_ && contents_at_ >= head.changes) return contents_;  // another thread may have seen a newer state
+  if (contents_ && contents_at_ == head.changes) return contents_;
 
   auto made = std::make_shared<Contents>();
   made->recordings.reserve(head.recordings);
   // A damaged record leaves out its own recording, never the others.
   for (std::uint32_t slot = 0; slot < head.recordings; ++slot) {
     try {
-      made->recordings.push_back(catalogue::read_recording(*snapshot, slot));
+      made->recordings.push_back(catalogue::read_recording(snapshot, slot));
     } catch (const Error& error) {
       made->faults.emplace_back(error.what());
     }
@@ -100,7 +111,7 @@ std::shared_ptr<const Contents> Database::contents() const {
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     const RecordingInfo& info = made->recordings[i];
     try {
-      if (info.document != 0) chunks[i] = semantic_db::read_segments(*snapshot, info.document, info.name);
+      if (info.document != 0) chunks[i] = semantic_db::read_segments(snapshot, info.document, info.name);
     } catch (const Error& error) {
       made->faults.emplace_back(error.what());
     }
@@ -114,9 +125,27 @@ std::shared_ptr<const Contents> Database::contents() const {
     transitions.insert(transitions.end(), found.begin(), found.end());
   }
   made->transitions = summarize(transitions);
-  contents_ = std::move(made);
+  if (contents_ && contents_at_ > head.changes) return made;  // another thread has seen a newer state: it stays
+  contents_ = made;
   contents_at_ = head.changes;
-  return contents_;
+  std::erase_if(known_, [&](const auto& entry) {
+    return std::none_of(made->recordings.begin(), made->recordings.end(), [&](const RecordingInfo& info) {
+      return info.motion && info.motion->generation == entry.first;
+    });
+  });
+  return made;
+}
+
+std::shared_ptr<const motion_db::KnownMotion> Database::known(const kv::ReadTransaction& snapshot,
+                                                              const motion_db::StoredMotion& stored) const {
+  {
+    const std::lock_guard guard(mutex_);
+    const auto at = known_.find(stored.generation);
+    if (at != known_.end()) return at->second;
+  }
+  auto made = std::make_shared<const motion_db::KnownMotion>(snapshot, stored);
+  const std::lock_guard guard(mutex_);
+  return known_.try_emplace(stored.generation, std::move(made)).first->second;
 }
 
 void Database::require_writable() const {
@@ -185,10 +214,16 @@ void Database::put(const Recording& recording, const Progress& progress) {
     source = part.document.source.empty() ? eaf::write_text(part.document) : part.document.source;
     segments = segments_of(part.document, signs_in(part.document, part.tiers).signs);
   }
-  std::optional<motion_db::StoredMotion> stored;
-  if (recording.motion) {
-    stored = motion_db::describe(recording.motion->motion, access_mode(), 0);
+  // What is stored keeps one hemisphere from frame to frame, so that whoever joins it need not look at every frame.
+  Motion turned;
+  const Motion* motion = recording.motion ? &recording.motion->motion : nullptr;
+  if (motion != nullptr && !keeps_hemisphere(*motion)) {
+    turned = *motion;
+    keep_hemisphere(turned);
+    motion = &turned;
   }
+  std::optional<motion_db::StoredMotion> stored;
+  if (motion != nullptr) stored = motion_db::describe(*motion, access_mode(), 0);
 
   // Generation n for the motion, n + 1 for the document. The motion goes onto the sweep list before its first packet is
   // written and off it in the same transaction that makes the recording visible: a crash between leaves only what the
@@ -197,7 +232,7 @@ void Database::put(const Recording& recording, const Progress& progress) {
   if (stored) {
     stored->generation = generation;
     try {
-      motion_db::put(*store_, *stored, recording.motion->motion, progress);
+      motion_db::put(*store_, *stored, *motion, progress);
     } catch (...) {
       try {
         sweep();
@@ -222,7 +257,7 @@ void Database::put(const Recording& recording, const Progress& progress) {
   info.signer_given = recording.signer_given;
   info.notices = recording.notices;
   if (recording.motion) {
-    std::erase_if(list, [&](const motion_db::StoredMotion& motion) { return motion.generation == generation; });
+    std::erase_if(list, [&](const motion_db::StoredMotion& one) { return one.generation == generation; });
     if (info.motion) list.push_back(*info.motion);
     info.motion = stored;
     info.layout = recording.motion->layout;
@@ -237,6 +272,10 @@ void Database::put(const Recording& recording, const Progress& progress) {
     info.tiers = recording.annotation->tiers;
     info.annotation_file = recording.annotation->file;
     info.annotation_fingerprint = recording.annotation->fingerprint;
+    info.declarations.clear();
+    for (const auto& property : recording.annotation->document.properties) {
+      if (property.first.starts_with("signweave:")) info.declarations.push_back(property);
+    }
     semantic_db::put(*transaction, info.document, source, segments);
   }
   catalogue::write_recording(*transaction, slot, info);
@@ -343,18 +382,8 @@ Motion Database::read(std::string_view name, FrameRange frames, const JointSet& 
                          joints, cost);
 }
 
-Motion Database::read(const RecordingInfo& recording, FrameRange frames) const {
-  const motion_db::StoredMotion& stored = motion_of(recording);
-  const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
-  try {
-    return motion_db::read(*snapshot, stored, motion_db::read_skeleton(*snapshot, stored),
-                           clamp(frames, stored.frames));
-  } catch (const Error&) {
-    const std::optional<std::uint32_t> slot = slot_of(*snapshot, recording.name);
-    if (slot && catalogue::read_recording(*snapshot, *slot).motion == recording.motion) throw;  // damaged indeed
-    throw Error(ErrorCode::conflict,
-                fmt::format("{}: was replaced or removed while it was read; try again", recording.name));
-  }
+std::unique_ptr<MotionSource> Snapshot::motion(const RecordingInfo& recording) const {
+  return std::make_unique<motion_db::StoredSource>(transaction_, database_->known(*transaction_, motion_of(recording)));
 }
 
 Motion Database::read(std::string_view name) const {

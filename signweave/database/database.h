@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -24,6 +25,8 @@
 
 namespace signweave {
 
+class Database;
+
 /// What a database held at one moment. Immutable, so threads may share it.
 struct Contents {
   std::vector<RecordingInfo> recordings;  ///< by name
@@ -35,6 +38,24 @@ struct Contents {
   const RecordingInfo* find(std::string_view name) const noexcept;
   /// The same; Error{not_found} with near matches where there is none.
   const RecordingInfo& at(std::string_view name) const;
+};
+
+/// A database as it is at one moment, with its motions: what is changed meanwhile is not seen. It belongs to one thread
+/// and lives no longer than its Database; hold it no longer than needed, for the space of what is removed or replaced
+/// meanwhile is not used again until it ends.
+class Snapshot {
+ public:
+  const Contents& contents() const noexcept { return *contents_; }
+  const std::shared_ptr<const Contents>& shared_contents() const noexcept { return contents_; }
+
+  /// The motion of one of `contents().recordings`. Throws Error{not_found} where it has none, Error{corrupt}.
+  std::unique_ptr<MotionSource> motion(const RecordingInfo& recording) const;
+
+ private:
+  friend class Database;
+  const Database* database_ = nullptr;
+  std::shared_ptr<const kv::ReadTransaction> transaction_;
+  std::shared_ptr<const Contents> contents_;
 };
 
 struct CreateOptions {
@@ -72,11 +93,15 @@ class Database {
   /// What is in it now; made anew only after a change.
   std::shared_ptr<const Contents> contents() const;
 
+  /// The same, and the motions as they are now.
+  Snapshot snapshot() const;
+
   /// What is known of one recording, without looking at the others; none where there is none of this name.
   std::optional<RecordingInfo> info(std::string_view name) const;
 
   /// Stores a recording. One of the same name gets the halves that are given replaced (motion, annotation), and its
-  /// clock, signer and notices; the other half stays. Whole or not at all, also when `progress` throws or the process
+  /// clock, signer and notices; the other half stays. Quaternions are stored in the hemisphere of the frame before
+  /// (q and −q are one rotation), else bit for bit. Whole or not at all, also when `progress` throws or the process
   /// is killed. Throws Error{bad_input} for an empty or overlong name or a new recording without both halves,
   /// Error{io}.
   void put(const Recording& recording, const Progress& progress = {});
@@ -92,9 +117,6 @@ class Database {
   /// `joints` is empty, others at rest. Throws Error{not_found} for an unknown recording or one without motion.
   Motion read(std::string_view name, FrameRange frames, const JointSet& joints = {},
               motion_db::ReadCost* cost = nullptr) const;
-  /// Frames of exactly the motion that `recording` names, as `contents()` or `info()` told it: for several reads that
-  /// must fit together. Throws Error{conflict} where it was replaced or removed since.
-  Motion read(const RecordingInfo& recording, FrameRange frames) const;
   /// The whole motion.
   Motion read(std::string_view name) const;
   /// The frames of an answer.
@@ -113,7 +135,12 @@ class Database {
   AccessMode access_mode() const;
 
  private:
+  friend class Snapshot;
   class WriterLock;
+
+  std::shared_ptr<const Contents> contents_of(const kv::ReadTransaction& snapshot) const;
+  std::shared_ptr<const motion_db::KnownMotion> known(const kv::ReadTransaction& snapshot,
+                                                      const motion_db::StoredMotion& stored) const;
 
   std::uint64_t new_generation(const std::optional<motion_db::StoredMotion>& to_sweep, std::uint64_t count);
   void sweep();
@@ -132,6 +159,7 @@ class Database {
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Contents> contents_;
   mutable std::uint64_t contents_at_ = 0;
+  mutable std::map<std::uint64_t, std::shared_ptr<const motion_db::KnownMotion>> known_;  ///< by generation
 };
 
 }  // namespace signweave

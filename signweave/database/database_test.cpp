@@ -12,7 +12,6 @@
 
 #include "signweave/database/test_recording.h"
 #include "signweave/formats/eaf.h"
-#include "signweave/kv/sealed.h"
 #include "signweave/query/parse.h"
 
 namespace signweave {
@@ -273,16 +272,35 @@ TEST_F(DatabaseTest, KilledAtAnyMomentEachRecordingIsAsItWasOrAsItWasToBecome) {
   }
 }
 
-TEST_F(DatabaseTest, AMotionThatWasReplacedMeanwhileIsAConflictAndNoDamage) {
+Motion whole(const MotionSource& source) {
+  Motion motion;
+  motion.reset(source.skeleton(), source.rate(), source.frame_count());
+  source.read({0, source.frame_count()}, motion.poses({0, source.frame_count()}));
+  return motion;
+}
+
+TEST_F(DatabaseTest, ASnapshotSeesNothingOfWhatIsChangedMeanwhile) {
   Database database(path(), kv::Access::read_write);
   database.put(small_recording("a", 1, {"A"}));
-  const RecordingInfo before = *database.info("a");
-  EXPECT_TRUE(same_poses(database.read(before, {0, 300}), small_motion(300, 1)));
-  database.put(small_recording("a", 2, {"A"}, 50));
-  EXPECT_THAT(fault_of([&] {
-                database.read(before, {0, 300});
-              }),
-              HasSubstr("was replaced or removed while it was read"));
+  const Snapshot before = database.snapshot();
+  database.put(small_recording("a", 2, {"B"}, 50));
+  database.put(small_recording("b", 3, {"C"}));
+  ASSERT_EQ(before.contents().recordings.size(), 1u);
+  EXPECT_TRUE(same_poses(whole(*before.motion(before.contents().recordings[0])), small_motion(300, 1)));
+  const Snapshot after = database.snapshot();
+  EXPECT_TRUE(same_poses(whole(*after.motion(after.contents().at("a"))), small_motion(50, 2)));
+  // Whoever looks again sees what is there now, whatever the older snapshot saw.
+  EXPECT_EQ(database.contents()->recordings.size(), 2u);
+}
+
+TEST_F(DatabaseTest, QuaternionsAreStoredInOneHemisphere) {
+  Database database(path(), kv::Access::read_write);
+  Recording recording = small_recording("a", 1, {"A"});
+  Motion& motion = recording.motion->motion;
+  for (Eigen::Quaternionf& q : motion.pose(7).rotations) q.coeffs() *= -1.0f;
+  ASSERT_FALSE(keeps_hemisphere(motion));
+  database.put(recording);
+  EXPECT_TRUE(same_poses(database.read("a"), small_motion(300, 1)));
 }
 
 TEST_F(DatabaseTest, AnEntryBeyondReadingStaysReportedUntilItIsRemoved) {
@@ -343,27 +361,6 @@ TEST_F(DatabaseTest, ConcurrentReadersSeeWholeRecordingsWhileOneIsReplaced) {
   while (reads < 20) std::this_thread::yield();
   stop = true;
   for (std::thread& reader : readers) reader.join();
-}
-
-TEST_F(DatabaseTest, AnEntryFromBeforeFacesIsRead) {
-  Database(path(), kv::Access::read_write).put(small_recording("a", 1, {"A"}));
-  {
-    const auto store = kv::open(path(), kv::Access::read_write);
-    const auto transaction = store->write();
-    ByteWriter key;
-    key.number('R');
-    key.number(std::uint32_t{0});
-    const ByteSpan body = kv::unsealed(*transaction->get(key.bytes()), "test");
-    Bytes old(body.begin(), body.end() - 12);  // without an empty text and a fingerprint
-    old[0] = std::byte{1};
-    transaction->put(key.bytes(), kv::sealed(old));
-    transaction->commit();
-  }
-  const Database database(path(), kv::Access::read_only);
-  ASSERT_TRUE(database.info("a"));
-  EXPECT_EQ(database.info("a")->signer, "s1");
-  EXPECT_EQ(database.info("a")->face_file, "");
-  EXPECT_EQ(database.read("a").frame_count(), 300);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "signweave/annotation/document.h"
@@ -66,6 +67,9 @@ struct RecordingInfo {
   std::uint64_t annotation_fingerprint = 0;
   std::uint64_t face_fingerprint = 0;
   std::vector<Notice> notices;
+  /// What its document says of itself and must not be lost in what is made of it: properties "signweave:…", such as
+  /// that a demo's shapes are placeholders. Name and value.
+  std::vector<std::pair<std::string, std::string>> declarations;
 };
 
 }  // namespace signweave

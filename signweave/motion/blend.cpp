@@ -29,7 +29,11 @@ Eigen::Quaternionf slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& 
 }
 
 void blend(PoseView a, PoseView b, float t, MutablePoseView out) noexcept {
-  for (std::size_t i = 0; i < out.rotations.size(); ++i) out.rotations[i] = slerp(a.rotations[i], b.rotations[i], t);
+  if (t <= 0.0f || t >= 1.0f) {  // the ends keep their bits
+    for (std::size_t i = 0; i < out.rotations.size(); ++i) out.rotations[i] = slerp(a.rotations[i], b.rotations[i], t);
+  } else {
+    slerp(a.rotations, b.rotations, t, out.rotations);
+  }
   for (std::size_t i = 0; i < out.translations.size(); ++i) {
     out.translations[i] = a.translations[i] + t * (b.translations[i] - a.translations[i]);
   }
@@ -55,11 +59,14 @@ Standing standing_over(const Motion& motion, FrameRange frames) noexcept {
   for (std::int64_t frame = frames.begin; frame < frames.end; ++frame) {
     const PoseView pose = motion.pose(frame);
     if (!pose.translations.empty()) position += pose.translations[0].cast<double>();
-    // The twist of the root's rotation about the vertical.
-    const Eigen::Quaternionf& root = pose.rotations[0];
-    const double heading = 2.0 * std::atan2(static_cast<double>(root.y()), static_cast<double>(root.w()));
-    sine += std::sin(heading);
-    cosine += std::cos(heading);
+    // The twist of the root's rotation about the vertical: twice the angle whose tangent is y / w.
+    const double y = static_cast<double>(pose.rotations[0].y());
+    const double w = static_cast<double>(pose.rotations[0].w());
+    const double square = y * y + w * w;
+    if (square < 1e-12) continue;  // upside down: no heading
+    const double inverse = 1.0 / square;
+    sine += 2.0 * y * w * inverse;
+    cosine += (w * w - y * y) * inverse;
   }
   Standing standing;
   if (!frames.empty()) {

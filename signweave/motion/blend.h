@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
+#include <vector>
 
 #include "signweave/motion/motion.h"
 
@@ -15,6 +17,34 @@ Eigen::Quaternionf slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& 
 /// keeps continuous. Where the shorter arc is chosen anew for each frame, two rotations that pass half a turn apart
 /// make the blend jump. Exactly a at 0 and b at 1.
 Eigen::Quaternionf slerp_as_signed(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) noexcept;
+
+/// The same for many joints at once, t in [0, 1]; all three of one size, `out` may be a or b. Off by less than 1e-6
+/// radians from the exact arc, and so at t = 0 and 1.
+void slerp(std::span<const Eigen::Quaternionf> a, std::span<const Eigen::Quaternionf> b, float t,
+           std::span<Eigen::Quaternionf> out) noexcept;
+void slerp_as_signed(std::span<const Eigen::Quaternionf> a, std::span<const Eigen::Quaternionf> b, float t,
+                     std::span<Eigen::Quaternionf> out) noexcept;
+
+/// Rotations that go on turning, one array per number.
+class CoastingRotations {
+ public:
+  /// Velocities are radians a frame about an axis in the joint's own space. Allocates only where there are more joints
+  /// than before.
+  void assign(std::span<const Eigen::Quaternionf> rotations, std::span<const Eigen::Vector3f> velocities);
+  /// Turns every joint on by so many frames.
+  void coast(float frames);
+  /// The numbers of all joints: 0 to 3 the rotation's x, y, z, w, 4 to 6 the velocity's x, y, z.
+  const float* number(std::size_t which) const noexcept { return numbers_.data() + which * count_; }
+
+ private:
+  std::vector<float> numbers_;
+  std::size_t count_ = 0;
+};
+
+/// out = the arc as signed, at t, from where a has come to in so many frames to where b has. |frames · velocity| is at
+/// most pi. Off by less than 1e-5 radians.
+void slerp_coasting(const CoastingRotations& a, float a_frames, const CoastingRotations& b, float b_frames, float t,
+                    std::span<Eigen::Quaternionf> out) noexcept;
 
 /// out = the pose at t between a and b: slerp of rotations, linear translations. `out` may be a or b.
 void blend(PoseView a, PoseView b, float t, MutablePoseView out) noexcept;

@@ -27,6 +27,27 @@ MutablePoseView Motion::pose(std::int64_t frame) noexcept {
   return {{rotations_.data() + at * joints, joints}, {translations_.data() + at * moved, moved}};
 }
 
+MutablePoses Motion::poses(FrameRange frames) noexcept {
+  assert(frames.begin >= 0 && frames.begin <= frames.end && frames.end <= frames_);
+  const std::size_t joints = skeleton_->joint_count();
+  const std::size_t moved = skeleton_->translation_count();
+  const auto at = static_cast<std::size_t>(frames.begin);
+  const auto count = static_cast<std::size_t>(frames.size());
+  return {{rotations_.data() + at * joints, count * joints}, {translations_.data() + at * moved, count * moved}};
+}
+
+void Motion::reset(std::shared_ptr<const Skeleton> skeleton, FrameRate rate, std::int64_t frames) {
+  skeleton_ = std::move(skeleton);
+  rate_ = rate;
+  frames_ = frames;
+  // Cleared first, so that nothing old is moved along. Neither type writes anything when it is made.
+  rotations_.clear();
+  translations_.clear();
+  tracks_.clear();
+  rotations_.resize(static_cast<std::size_t>(frames) * skeleton_->joint_count());
+  translations_.resize(static_cast<std::size_t>(frames) * skeleton_->translation_count());
+}
+
 void Motion::append(PoseView pose) {
   assert(pose.rotations.size() == skeleton_->joint_count());
   assert(pose.translations.size() == skeleton_->translation_count());
@@ -78,6 +99,15 @@ void keep_hemisphere(Motion& motion) noexcept {
       if (now.rotations[joint].dot(before.rotations[joint]) < 0) now.rotations[joint].coeffs() *= -1.0f;
     }
   }
+}
+
+bool keeps_hemisphere(const Motion& motion) noexcept {
+  const std::span<const Eigen::Quaternionf> all = motion.rotations();
+  const std::size_t joints = motion.skeleton().joint_count();
+  for (std::size_t i = joints; i < all.size(); ++i) {
+    if (all[i].dot(all[i - joints]) < 0) return false;
+  }
+  return true;
 }
 
 }  // namespace signweave

@@ -27,6 +27,12 @@ struct MutablePoseView {
   operator PoseView() const noexcept { return {rotations, translations}; }
 };
 
+/// Neighbouring frames of a motion, writable and borrowed from it.
+struct MutablePoses {
+  std::span<Eigen::Quaternionf> rotations;  ///< [frame][joint]
+  std::span<Eigen::Vector3f> translations;  ///< [frame][translated joint]
+};
+
 /// One pose that owns its numbers.
 struct Pose {
   std::vector<Eigen::Quaternionf> rotations;
@@ -69,6 +75,13 @@ class Motion {
   PoseView pose(std::int64_t frame) const noexcept;
   MutablePoseView pose(std::int64_t frame) noexcept;
 
+  /// The poses of some frames, which must lie within the motion. Borrowed as `pose` is.
+  MutablePoses poses(FrameRange frames) noexcept;
+
+  /// Makes it a motion of so many poses that are yet to be written (their numbers are arbitrary), without tracks.
+  /// Memory is used again where it suffices.
+  void reset(std::shared_ptr<const Skeleton> skeleton, FrameRate rate, std::int64_t frames);
+
   /// Appends a pose, which must have the skeleton's counts; it may be one of this motion's own.
   void append(PoseView pose);
   /// Appends a pose at rest, to be filled in.
@@ -99,5 +112,7 @@ class Motion {
 /// Flips signs so that every quaternion lies in the hemisphere of the same joint's in the frame before: q and -q are
 /// one rotation, and a blend between neighbours must not turn the long way round.
 void keep_hemisphere(Motion& motion) noexcept;
+/// True where they do already.
+bool keeps_hemisphere(const Motion& motion) noexcept;
 
 }  // namespace signweave

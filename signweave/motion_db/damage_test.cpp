@@ -166,11 +166,11 @@ TEST_F(DamageTest, CheckListsEveryFaultWithJointsAndFrames) {
   Bytes value = value_of(*store_, stored, packet(4, 3, {90, 100}));
   value.back() ^= std::byte{0xFF};
   replace(*store_, stored, packet(4, 3, {90, 100}), value);
-  replace(*store_, stored, {.kind = RecordKind::track, .part = 0, .block = 0, .frames = {0, 100}}, {});
+  replace(*store_, stored, {.kind = RecordKind::tracks, .part = 0, .block = 0, .frames = {0, 100}}, {});
   EXPECT_THAT(check(*store_->read(), stored),
               ElementsAre("stored motion 71, joint 2 (Joint 2), frames [0, 30): it is missing",
                           "stored motion 71, joint 4 (Joint 4), frames [90, 100): its checksum is wrong",
-                          "stored motion 71, track 0 (face 0), frames [0, 100): it is cut short"));
+                          "stored motion 71, scalar tracks, frames [0, 100): it is cut short"));
 }
 
 TEST_F(DamageTest, ADamagedSkeletonIsOneFaultAndPacketsAreCheckedAllTheSame) {
@@ -265,6 +265,16 @@ TEST(StoredMotion, ANewerLayoutSaysWhatWouldMendIt) {
     EXPECT_EQ(error.code(), ErrorCode::unsupported);
     EXPECT_THAT(error.what(), HasSubstr("use a newer signweave"));
   }
+}
+
+TEST(Damage, OfAThousandRecordsNamesNoMore) {
+  const TestStore store;
+  const Motion motion = test_motion(1'500, 3);
+  const StoredMotion stored = put_motion(*store, motion, {AccessMode::Kind::by_frame, 1});
+  erase(*store, stored);
+  const std::vector<std::string> faults = check(*store->read(), stored);
+  ASSERT_EQ(faults.size(), 1'001u);
+  EXPECT_THAT(faults.back(), testing::HasSubstr("more faults than these"));
 }
 
 }  // namespace

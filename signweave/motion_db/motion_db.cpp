@@ -59,8 +59,7 @@ class BoundedChange {
 };
 
 std::uint64_t record_count(const StoredMotion& stored) {
-  const auto blocks = static_cast<std::uint64_t>((stored.frames + kTrackFrames - 1) / kTrackFrames);
-  return 1 + packet_count(stored) + stored.tracks.size() * blocks;
+  return 1 + packet_count(stored) + track_record_count(stored);
 }
 
 }  // namespace
@@ -76,7 +75,7 @@ void put(kv::KvStore& store, const StoredMotion& stored, const Motion& motion,
     change.put(key_of(generation, packet), encode_packet(generation, motion, packet));
   });
   for_each_track_record(stored, all, [&](const Record& record) {
-    change.put(key_of(generation, record), encode_track(generation, motion.tracks()[record.part], record));
+    change.put(key_of(generation, record), encode_tracks(generation, motion.tracks(), record));
   });
   change.flush();
 }

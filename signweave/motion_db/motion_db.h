@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "signweave/core/time.h"
 #include "signweave/kv/kv_store.h"
 #include "signweave/motion/motion.h"
+#include "signweave/motion/motion_source.h"
 #include "signweave/motion_db/access_mode.h"
 
 /// The motion database (the paper's raw database): motions cut into packets on a key-value store. It knows nothing of
@@ -16,6 +19,9 @@
 /// a new generation number first, in bounded transactions, and becomes visible when the caller's one record names it.
 /// Its keys have 16 bytes and begin with 'm': the caller's own must not.
 namespace signweave::motion_db {
+
+struct Record;
+struct Width;
 
 /// What must be known to read, or to erase, a stored motion: the caller keeps it.
 struct StoredMotion {
@@ -67,7 +73,49 @@ Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
             const std::shared_ptr<const Skeleton>& skeleton, FrameRange frames, const JointSet& joints = {},
             ReadCost* cost = nullptr);
 
-/// Verifies every record of a motion: one line per fault found, naming joints and frames; empty where all is well.
+/// What was learned of a stored motion by looking at it: its skeleton, and which of its records have been found sound.
+/// Threads may share it. Generations are never used twice, so it holds as long as the motion is there.
+class KnownMotion {
+ public:
+  /// Throws as `read_skeleton`.
+  KnownMotion(const kv::ReadTransaction& snapshot, StoredMotion stored);
+
+  const StoredMotion& stored() const noexcept { return stored_; }
+  const std::shared_ptr<const Skeleton>& skeleton() const noexcept { return skeleton_; }
+  /// Packets are numbered as they are written, and after them the records of the scalar tracks.
+  bool is_sound(std::uint64_t record) const noexcept;
+  void found_sound(std::uint64_t record) const noexcept;
+
+ private:
+  StoredMotion stored_;
+  std::shared_ptr<const Skeleton> skeleton_;
+  mutable std::vector<std::atomic<std::uint64_t>> sound_;  ///< a bit per record
+};
+
+/// Frames of a stored motion, read straight to where they are wanted. A record's checksum is verified when it is read
+/// for the first time through the same KnownMotion; after that reading is a copy. Belongs to its snapshot's thread.
+class StoredSource : public MotionSource {
+ public:
+  StoredSource(std::shared_ptr<const kv::ReadTransaction> snapshot, std::shared_ptr<const KnownMotion> motion)
+      : snapshot_(std::move(snapshot)), motion_(std::move(motion)) {}
+
+  const std::shared_ptr<const Skeleton>& skeleton() const noexcept override { return motion_->skeleton(); }
+  FrameRate rate() const noexcept override { return motion_->stored().rate; }
+  std::int64_t frame_count() const noexcept override { return motion_->stored().frames; }
+  std::span<const std::string> tracks() const noexcept override { return motion_->stored().tracks; }
+  /// Throws Error{corrupt} as `read` below does.
+  void read(FrameRange frames, MutablePoses out) const override;
+  void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const override;
+
+ private:
+  void verify(const Record& record, ByteSpan value, Width width, std::uint64_t number) const;
+
+  std::shared_ptr<const kv::ReadTransaction> snapshot_;
+  std::shared_ptr<const KnownMotion> motion_;
+};
+
+/// Verifies every record of a motion: one line per fault found, naming joints and frames, and one more where there are
+/// over 1,000; empty where all is well.
 std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored);
 
 }  // namespace signweave::motion_db

@@ -11,18 +11,18 @@
 //    8  u64  generation
 //   16  u8   kind of record
 //   17  u8   version of this layout, 1
-//   18  u16  joint of a packet (0xFFFF: all joints), number of a track
+//   18  u16  joint of a packet (0xFFFF: all joints); else 0
 //   20  u32  first frame
 //   24  u32  frames
-//   28  u16  rotations a frame
+//   28  u16  rotations a frame; of scalar tracks their number
 //   30  u16  translations a frame
 //   32       payload
 //
 // A packet's payload is all its rotations, then all its translations, each by frame and within a frame by joint:
 // rotations [frame][joint] of f32 x, y, z, w, and translations [frame][translated joint] of f32 x, y, z in metres. So
 // any stretch of its frames is two runs of bytes, and with all joints they lie just as in a Motion: two copies.
-// A track's payload is one f32 a frame. A skeleton's: u32 joints, each a text, i32 parent, f32 x, y, z, u8 translated;
-// u32 tips, each an i32 joint, f32 x, y, z.
+// The payload of scalar tracks is one f32 by track and within a track by frame. A skeleton's: u32 joints, each a text,
+// i32 parent, f32 x, y, z, u8 translated; u32 tips, each an i32 joint, f32 x, y, z.
 
 namespace signweave::motion_db {
 
@@ -106,7 +106,7 @@ Width width_of(const Skeleton& skeleton, const Record& packet) noexcept {
 }
 
 std::size_t value_size(const Record& record, Width width) noexcept {
-  const std::size_t frame = record.kind == RecordKind::track ? sizeof(float) : width.frame_bytes();
+  const std::size_t frame = record.kind == RecordKind::tracks ? width.rotations * sizeof(float) : width.frame_bytes();
   return kHeaderSize + static_cast<std::size_t>(record.frames.size()) * frame;
 }
 
@@ -131,18 +131,32 @@ void for_each_packet(const StoredMotion& stored, FrameRange frames, const JointS
   }
 }
 
+std::int64_t track_frames(std::size_t tracks) noexcept {
+  constexpr std::size_t kPayload = 4 * kPageSize - kPageLoss - kHeaderSize;
+  return static_cast<std::int64_t>(
+      std::max<std::size_t>(1, kPayload / (sizeof(float) * std::max<std::size_t>(1, tracks))));
+}
+
+Width track_width(const StoredMotion& stored) noexcept {
+  return {static_cast<std::uint16_t>(stored.tracks.size()), 0};
+}
+
 void for_each_track_record(const StoredMotion& stored, FrameRange frames,
                            const std::function<void(const Record&)>& visit) {
-  if (frames.empty()) return;
-  const std::int64_t p = kTrackFrames;
-  for (std::size_t track = 0; track < stored.tracks.size(); ++track) {
-    for (std::int64_t block = frames.begin / p; block * p < frames.end; ++block) {
-      visit({.kind = RecordKind::track,
-             .part = static_cast<std::uint16_t>(track),
-             .block = static_cast<std::uint32_t>(block),
-             .frames = {block * p, std::min((block + 1) * p, stored.frames)}});
-    }
+  if (frames.empty() || stored.tracks.empty()) return;
+  const std::int64_t p = track_frames(stored.tracks.size());
+  for (std::int64_t block = frames.begin / p; block * p < frames.end; ++block) {
+    visit({.kind = RecordKind::tracks,
+           .part = 0,
+           .block = static_cast<std::uint32_t>(block),
+           .frames = {block * p, std::min((block + 1) * p, stored.frames)}});
   }
+}
+
+std::uint64_t track_record_count(const StoredMotion& stored) noexcept {
+  if (stored.tracks.empty()) return 0;
+  const std::int64_t p = track_frames(stored.tracks.size());
+  return static_cast<std::uint64_t>((stored.frames + p - 1) / p);
 }
 
 Bytes encode_skeleton(std::uint64_t generation, const Skeleton& skeleton) {
@@ -189,11 +203,14 @@ Bytes encode_packet(std::uint64_t generation, const Motion& motion, const Record
   return bytes;
 }
 
-Bytes encode_track(std::uint64_t generation, const ScalarTrack& track, const Record& record) {
-  Bytes bytes = begin_record(generation, record, {}, value_size(record, {}) - kHeaderSize);
-  append(bytes, std::as_bytes(std::span(track.values)
-                                  .subspan(static_cast<std::size_t>(record.frames.begin),
-                                           static_cast<std::size_t>(record.frames.size()))));
+Bytes encode_tracks(std::uint64_t generation, const std::vector<ScalarTrack>& tracks, const Record& record) {
+  const Width width{static_cast<std::uint16_t>(tracks.size()), 0};
+  Bytes bytes = begin_record(generation, record, width, value_size(record, width) - kHeaderSize);
+  for (const ScalarTrack& track : tracks) {
+    append(bytes, std::as_bytes(std::span(track.values)
+                                    .subspan(static_cast<std::size_t>(record.frames.begin),
+                                             static_cast<std::size_t>(record.frames.size()))));
+  }
   seal(bytes);
   return bytes;
 }
@@ -251,8 +268,8 @@ Skeleton decode_skeleton(ByteSpan value, const std::string& where) {
 std::string name_of(const StoredMotion& stored, const Record& record, const Skeleton* skeleton) {
   std::string name = "stored motion " + std::to_string(stored.generation);
   if (record.kind == RecordKind::skeleton) return name + ", skeleton";
-  if (record.kind == RecordKind::track) {
-    name += ", track " + std::to_string(record.part) + " (" + printable(stored.tracks[record.part]) + ')';
+  if (record.kind == RecordKind::tracks) {
+    name += ", scalar tracks";
   } else if (record.part == kAllJoints) {
     name += ", all joints";
   } else {

@@ -17,7 +17,7 @@ namespace signweave::motion_db {
 enum class RecordKind : std::uint8_t {
   skeleton = 0,  ///< one a motion
   packet = 1,    ///< rotations and translations of one joint or of all, over some frames
-  track = 2,     ///< one scalar track over some frames
+  tracks = 2,    ///< all scalar tracks, over some frames
 };
 
 /// Stands for every joint where a joint's index is stored: a skeleton has at most 65,535 joints.
@@ -31,20 +31,20 @@ inline constexpr std::size_t kHeaderSize = 32;
 inline constexpr std::size_t kPageSize = 4096;
 inline constexpr std::size_t kPageLoss = 16;
 
-/// Frames in one record of a scalar track: header and values fill one page (4,080 bytes).
-inline constexpr std::uint32_t kTrackFrames = (kPageSize - kPageLoss - kHeaderSize) / sizeof(float);
+/// Frames in one record of so many scalar tracks: header and values fill four pages, like a second or two of joints.
+std::int64_t track_frames(std::size_t tracks) noexcept;
 
 /// One record of a motion: which it is, and what it covers.
 struct Record {
   RecordKind kind = RecordKind::skeleton;
-  std::uint16_t part = 0;   ///< a packet's joint or kAllJoints; a track's number; 0 for the skeleton
+  std::uint16_t part = 0;   ///< a packet's joint or kAllJoints; else 0
   std::uint32_t block = 0;  ///< how many records of the same part lie before it
   FrameRange frames;        ///< empty for the skeleton
 };
 
-/// How many rotations and translations each frame of a packet holds.
+/// How many numbers each frame of a record holds.
 struct Width {
-  std::uint16_t rotations = 0;
+  std::uint16_t rotations = 0;  ///< of a packet; of scalar tracks their number
   std::uint16_t translations = 0;
 
   std::size_t frame_bytes() const noexcept { return rotations * std::size_t{16} + translations * std::size_t{12}; }
@@ -58,7 +58,9 @@ bool cut_by_joint(AccessMode mode) noexcept;
 /// The frames of each packet but the last: p, or all of them.
 std::int64_t packet_frames(const StoredMotion& stored) noexcept;
 Width width_of(const Skeleton& skeleton, const Record& packet) noexcept;
-/// Bytes of a packet's or track's value.
+/// The width of a record of the scalar tracks.
+Width track_width(const StoredMotion& stored) noexcept;
+/// Bytes of the value of a packet or of tracks.
 std::size_t value_size(const Record& record, Width width) noexcept;
 
 /// Throws Error{unsupported} where a packet would be larger than an engine's largest value (4 GiB).
@@ -68,14 +70,17 @@ void check_packet_size(const StoredMotion& stored);
 /// they are written: by block of frames, then by joint.
 void for_each_packet(const StoredMotion& stored, FrameRange frames, const JointSet& joints,
                      const std::function<void(const Record&)>& visit);
-/// Likewise for the records of all scalar tracks, by track, then by block.
+/// Likewise for the records of the scalar tracks, by block.
 void for_each_track_record(const StoredMotion& stored, FrameRange frames,
                            const std::function<void(const Record&)>& visit);
+
+/// How many records the scalar tracks have.
+std::uint64_t track_record_count(const StoredMotion& stored) noexcept;
 
 /// The value of a record. (A skeleton's record is Record{}.)
 Bytes encode_skeleton(std::uint64_t generation, const Skeleton& skeleton);
 Bytes encode_packet(std::uint64_t generation, const Motion& motion, const Record& packet);
-Bytes encode_track(std::uint64_t generation, const ScalarTrack& track, const Record& record);
+Bytes encode_tracks(std::uint64_t generation, const std::vector<ScalarTrack>& tracks, const Record& record);
 
 /// What is wrong with a stored value, or null. A value without fault has the right size, is the record that was asked
 /// for, and has the right checksum. Without `width`, a packet of one joint may have a translation or not.

@@ -58,8 +58,8 @@ TEST(StoreDocument, ItsBytesAreTheEncoders) {
   EXPECT_EQ(documented("key"), hex(key_of(7, packet)));
   EXPECT_EQ(documented("packet"), hex(encode_packet(7, motion, packet)));
   EXPECT_EQ(documented("skeleton"), hex(encode_skeleton(7, motion.skeleton())));
-  const Record track{.kind = RecordKind::track, .part = 0, .block = 0, .frames = {0, 3}};
-  EXPECT_EQ(documented("track"), hex(encode_track(7, motion.tracks()[0], track)));
+  const Record track{.kind = RecordKind::tracks, .part = 0, .block = 0, .frames = {0, 3}};
+  EXPECT_EQ(documented("tracks"), hex(encode_tracks(7, motion.tracks(), track)));
   ByteWriter out;
   encode(stored, out);
   EXPECT_EQ(documented("descriptor"), hex(out.bytes()));

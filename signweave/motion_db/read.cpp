@@ -40,7 +40,7 @@ void check_asked(const StoredMotion& stored, const Skeleton& skeleton, FrameRang
 
 /// Copies the frames that a sound packet and `asked` share.
 void copy_frames(const Found& packet, const Skeleton& skeleton, FrameRange asked, const JointSet& joints,
-                 Motion& result) {
+                 MutablePoses out) {
   const Width width = width_of(skeleton, packet.record);
   const FrameRange has = packet.record.frames;
   const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
@@ -49,9 +49,8 @@ void copy_frames(const Found& packet, const Skeleton& skeleton, FrameRange asked
   const auto count = static_cast<std::size_t>(shared.size());
   const std::byte* const rotations = packet.value.data() + kHeaderSize;
   const std::byte* const translations = rotations + static_cast<std::size_t>(has.size()) * width.rotations * 16;
-  const MutablePoseView first = result.pose(0);  // of arrays that hold all frames
-  auto* const out_rotations = reinterpret_cast<std::byte*>(first.rotations.data());
-  auto* const out_translations = reinterpret_cast<std::byte*>(first.translations.data());
+  auto* const out_rotations = reinterpret_cast<std::byte*>(out.rotations.data());
+  auto* const out_translations = reinterpret_cast<std::byte*>(out.translations.data());
   const std::size_t joint_count = skeleton.joint_count();
   const std::size_t translation_count = skeleton.translation_count();
 
@@ -84,21 +83,34 @@ void copy_frames(const Found& packet, const Skeleton& skeleton, FrameRange asked
   }
 }
 
+/// Copies the values that a sound record of the tracks and `asked` share; tracks whose span is empty are left out.
+void copy_values(const Found& found, FrameRange asked, std::span<const std::span<float>> out) {
+  const FrameRange has = found.record.frames;
+  const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
+  const auto length = static_cast<std::size_t>(has.size());
+  const auto from = static_cast<std::size_t>(shared.begin - has.begin);
+  for (std::size_t track = 0; track < out.size(); ++track) {
+    if (out[track].empty()) continue;
+    std::memcpy(out[track].data() + (shared.begin - asked.begin),
+                found.value.data() + kHeaderSize + (track * length + from) * sizeof(float),
+                static_cast<std::size_t>(shared.size()) * sizeof(float));
+  }
+}
+
 /// The values of some frames of all tracks; sizes were checked when the records were found.
 std::vector<ScalarTrack> tracks_of(const StoredMotion& stored, FrameRange asked, std::span<const Found> records) {
   std::vector<ScalarTrack> tracks;
+  std::vector<std::span<float>> values;
+  tracks.reserve(stored.tracks.size());
   for (const std::string& name : stored.tracks) {
     tracks.push_back({name, std::vector<float>(static_cast<std::size_t>(asked.size()))});
+    values.emplace_back(tracks.back().values);
   }
   for (const Found& found : records) {
-    if (const char* fault = fault_of(found.value, stored.generation, found.record, Width{})) {
+    if (const char* fault = fault_of(found.value, stored.generation, found.record, track_width(stored))) {
       fail(stored, found.record, nullptr, fault);
     }
-    const FrameRange has = found.record.frames;
-    const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
-    std::memcpy(tracks[found.record.part].values.data() + (shared.begin - asked.begin),
-                found.value.data() + kHeaderSize + static_cast<std::size_t>(shared.begin - has.begin) * sizeof(float),
-                static_cast<std::size_t>(shared.size()) * sizeof(float));
+    copy_values(found, asked, values);
   }
   return tracks;
 }
@@ -138,7 +150,7 @@ Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
   std::vector<Found> track_records;
   if (joints.empty()) {
     for_each_track_record(stored, frames,
-                          [&](const Record& record) { track_records.push_back(find(record, Width{})); });
+                          [&](const Record& record) { track_records.push_back(find(record, track_width(stored))); });
   }
 
   Motion result(skeleton, stored.rate, frames.size());
@@ -147,7 +159,7 @@ Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
             fault_of(packet.value, stored.generation, packet.record, width_of(*skeleton, packet.record))) {
       fail(stored, packet.record, skeleton.get(), fault);
     }
-    copy_frames(packet, *skeleton, frames, joints, result);
+    copy_frames(packet, *skeleton, frames, joints, result.poses({0, frames.size()}));
   }
   if (joints.empty()) {
     for (ScalarTrack& track : tracks_of(stored, frames, track_records)) result.add_track(std::move(track));
@@ -155,6 +167,74 @@ Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
   if (cost) *cost = spent;
   return result;
 }
+
+namespace {
+
+/// So many records are remembered at most, 16 MiB of bits: the descriptor's counts are believed no further.
+constexpr std::uint64_t kMostKnown = std::uint64_t{1} << 27;
+
+}  // namespace
+
+KnownMotion::KnownMotion(const kv::ReadTransaction& snapshot, StoredMotion stored)
+    : stored_(std::move(stored)),
+      skeleton_(read_skeleton(snapshot, stored_)),
+      sound_((std::min(packet_count(stored_) + track_record_count(stored_), kMostKnown) + 63) / 64) {}
+
+bool KnownMotion::is_sound(std::uint64_t record) const noexcept {
+  if (record / 64 >= sound_.size()) return false;
+  return (sound_[record / 64].load(std::memory_order_relaxed) >> (record % 64) & 1) != 0;
+}
+
+void KnownMotion::found_sound(std::uint64_t record) const noexcept {
+  if (record / 64 >= sound_.size()) return;
+  sound_[record / 64].fetch_or(std::uint64_t{1} << (record % 64), std::memory_order_relaxed);
+}
+
+void StoredSource::read(FrameRange frames, MutablePoses out) const {
+  const StoredMotion& stored = motion_->stored();
+  const Skeleton& skeleton = *motion_->skeleton();
+  check_asked(stored, skeleton, frames, {});
+  const std::uint64_t parts = cut_by_joint(stored.mode) ? stored.joints : 1;
+  for_each_packet(stored, frames, {}, [&](const Record& record) {
+    const Width width = width_of(skeleton, record);
+    const std::optional<ByteSpan> value = snapshot_->get(key_of(stored.generation, record));
+    if (!value) fail(stored, record, &skeleton, "it is missing");
+    if (value->size() != value_size(record, width)) fail(stored, record, &skeleton, "its size is wrong");
+    const std::uint64_t number = record.block * parts + (parts > 1 ? record.part : 0);
+    verify(record, *value, width, number);
+    copy_frames({record, *value}, skeleton, frames, {}, out);
+  });
+}
+
+void StoredSource::read_tracks(FrameRange frames, std::span<const std::span<float>> out) const {
+  const StoredMotion& stored = motion_->stored();
+  check_asked(stored, *motion_->skeleton(), frames, {});
+  const Width width = track_width(stored);
+  const std::uint64_t packets = packet_count(stored);
+  for_each_track_record(stored, frames, [&](const Record& record) {
+    const std::optional<ByteSpan> value = snapshot_->get(key_of(stored.generation, record));
+    if (!value) fail(stored, record, nullptr, "it is missing");
+    if (value->size() != value_size(record, width)) fail(stored, record, nullptr, "its size is wrong");
+    verify(record, *value, width, packets + record.block);
+    copy_values({record, *value}, frames, out);
+  });
+}
+
+void StoredSource::verify(const Record& record, ByteSpan value, Width width, std::uint64_t number) const {
+  if (motion_->is_sound(number)) return;
+  if (const char* fault = fault_of(value, motion_->stored().generation, record, width)) {
+    fail(motion_->stored(), record, motion_->skeleton().get(), fault);
+  }
+  motion_->found_sound(number);
+}
+
+namespace {
+
+/// So many faults of one motion are named: nobody reads more, and a damaged descriptor may tell of a billion packets.
+constexpr std::size_t kMostFaults = 1000;
+struct TooMany {};
+
+}  // namespace
 
 std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored) {
   std::vector<std::string> faults;
@@ -165,20 +245,26 @@ std::vector<std::string> check(const kv::ReadTransaction& snapshot, const Stored
     faults.emplace_back(error.what());
   }
   const auto check_record = [&](const Record& record, std::optional<Width> width) {
+    if (faults.size() >= kMostFaults) throw TooMany{};
     const std::optional<ByteSpan> value = snapshot.get(key_of(stored.generation, record));
     const char* const fault = value ? fault_of(*value, stored.generation, record, width) : "it is missing";
     if (fault) faults.push_back(name_of(stored, record, skeleton.get()) + ": " + fault);
   };
-  for_each_packet(stored, {0, stored.frames}, {}, [&](const Record& record) {
-    std::optional<Width> width;
-    if (record.part == kAllJoints) {
-      width = {static_cast<std::uint16_t>(stored.joints), static_cast<std::uint16_t>(stored.translations)};
-    } else if (skeleton) {
-      width = width_of(*skeleton, record);
-    }
-    check_record(record, width);
-  });
-  for_each_track_record(stored, {0, stored.frames}, [&](const Record& record) { check_record(record, Width{}); });
+  try {
+    for_each_packet(stored, {0, stored.frames}, {}, [&](const Record& record) {
+      std::optional<Width> width;
+      if (record.part == kAllJoints) {
+        width = {static_cast<std::uint16_t>(stored.joints), static_cast<std::uint16_t>(stored.translations)};
+      } else if (skeleton) {
+        width = width_of(*skeleton, record);
+      }
+      check_record(record, width);
+    });
+    for_each_track_record(stored, {0, stored.frames},
+                          [&](const Record& record) { check_record(record, track_width(stored)); });
+  } catch (const TooMany&) {
+    faults.push_back("stored motion " + std::to_string(stored.generation) + ": more faults than these");
+  }
   return faults;
 }
 

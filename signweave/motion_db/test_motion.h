@@ -6,6 +6,7 @@
 #include "signweave/kv/kv_store.h"
 #include "signweave/kv/test_folder.h"
 #include "signweave/motion/motion.h"
+#include "signweave/motion_db/motion_db.h"
 
 namespace signweave::motion_db {
 
@@ -88,5 +89,12 @@ struct TestStore {
   kv::TestFolder folder;
   std::unique_ptr<kv::KvStore> store;
 };
+
+inline StoredMotion put_motion(kv::KvStore& store, const Motion& motion, AccessMode mode,
+                               std::uint64_t generation = 1) {
+  const StoredMotion stored = describe(motion, mode, generation);
+  put(store, stored, motion);
+  return stored;
+}
 
 }  // namespace signweave::motion_db

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,15 +11,15 @@
 #include "signweave/core/error.h"
 #include "signweave/core/time.h"
 #include "signweave/motion/motion.h"
+#include "signweave/motion/motion_source.h"
 #include "signweave/synthesis/transition.h"
 
 namespace signweave {
 
-/// A stretch of a recording with its frames, ready to be joined.
+/// A stretch of a recording, ready to be joined. Its frames are read when they are needed, straight into the result.
 struct Stretch {
   std::string recording;
-  Motion motion;            ///< the frames `frames` of the recording
-  FrameRange frames;        ///< `whole`, and one more where the recording has it, to interpolate towards
+  std::shared_ptr<const MotionSource> source;  ///< the recording's motion
   FrameRange whole;         ///< what may be used of it: the core with the first preparation and the last retraction
   FrameRange core;          ///< the frames of the recording that are kept as they are; inside `whole`, not empty
   FrameClock clock;         ///< of the recording
@@ -93,7 +94,11 @@ struct ConcatenateOptions {
 /// else they are the source interpolated at the stated frame. Alignment always goes to where the reference's signer
 /// stands, so nothing drifts. The result has the reference's skeleton.
 ///
-/// Throws Error{bad_input} where skeletons differ in more than offsets (naming the joint), or nothing is to be joined.
-Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOptions& options);
+/// Scalar tracks come along: a track that one of the sources has is in the result, at 0 where a source lacks it, and
+/// goes over in each transition from where it was to where it will be.
+///
+/// `used` is an older result whose memory may be used again. Throws Error{bad_input} where skeletons differ in more
+/// than offsets (naming the joint), or nothing is to be joined; Error{corrupt} where frames are damaged.
+Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOptions& options, Synthesis used = {});
 
 }  // namespace signweave

@@ -11,6 +11,7 @@ namespace signweave {
 namespace {
 
 using testing_motion::angle;
+using testing_motion::motion_of;
 using testing_motion::small_skeleton;
 using testing_motion::stretch;
 
@@ -35,7 +36,7 @@ TEST_P(Concatenate, StrokesKeepTheirBits) {
     ASSERT_EQ(placed.core.size(), stretches[i].core.size());
     for (std::int64_t k = 0; k < placed.core.size(); ++k) {
       const PoseView kept = made.motion.pose(placed.core.begin + k);
-      const PoseView captured = stretches[i].motion.pose(stretches[i].core.begin - stretches[i].whole.begin + k);
+      const PoseView captured = motion_of(stretches[i]).pose(stretches[i].core.begin + k);
       for (std::size_t joint = 1; joint < kept.rotations.size(); ++joint) {  // the root is aligned
         EXPECT_TRUE(same_up_to_sign(kept.rotations[joint], captured.rotations[joint])) << i << ' ' << k << ' ' << joint;
       }
@@ -76,7 +77,7 @@ TEST_P(Concatenate, EveryFrameKnowsWhereItComesFrom) {
     const Stretch& from = stretches[static_cast<std::size_t>(source.stretch)];
     EXPECT_GE(source.frame, static_cast<double>(from.whole.begin));
     EXPECT_LT(source.frame, static_cast<double>(from.whole.end));
-    sample(from.motion, source.frame - static_cast<double>(from.whole.begin), captured.view());
+    sample(motion_of(from), source.frame, captured.view());
     const PoseView kept = made.motion.pose(static_cast<std::int64_t>(frame));
     for (std::size_t joint = 1; joint < kept.rotations.size(); ++joint) {
       EXPECT_TRUE(same_up_to_sign(kept.rotations[joint], captured.rotations[joint])) << frame << ' ' << joint;
@@ -166,7 +167,7 @@ TEST_P(Concatenate, AlignmentCanBeLeftOut) {
   none.alignment = Alignment::none;
   const Synthesis made = concatenate(stretches, none);
   const PoseView kept = made.motion.pose(made.stretches[1].core.begin);
-  const PoseView captured = stretches[1].motion.pose(30);
+  const PoseView captured = motion_of(stretches[1]).pose(stretches[1].core.begin);
   EXPECT_TRUE(same_up_to_sign(kept.rotations[0], captured.rotations[0]));
   EXPECT_EQ(kept.translations[0], captured.translations[0]);
 }
@@ -218,15 +219,18 @@ TEST(Crossfading, DoesNotJumpWhereTheSidesPassHalfATurnApart) {
   // One joint turns from 70 to 110 degrees on one side and from -70 to -110 on the other: 140 to 220 degrees apart.
   const auto turning = [](const std::string& name, float sense) {
     Stretch result = stretch(name, 0.0f, 60, 20, 60);
-    for (std::int64_t frame = 0; frame < result.motion.frame_count(); ++frame) {
+    Motion motion = motion_of(result);
+    for (std::int64_t at = result.whole.begin; at < motion.frame_count(); ++at) {
+      const std::int64_t frame = at - result.whole.begin;
       const float part = static_cast<float>(frame % 80) / 59.0f;
       const float degrees = frame < 60   ? 70.0f + 40.0f * part
                             : frame < 80 ? 110.0f
                                          : 70.0f + 40.0f * (static_cast<float>(frame - 80) / 59.0f);
-      for (Eigen::Quaternionf& q : result.motion.pose(frame).rotations) q.setIdentity();
-      result.motion.pose(frame).rotations[2] =
+      for (Eigen::Quaternionf& q : motion.pose(at).rotations) q.setIdentity();
+      motion.pose(at).rotations[2] =
           Eigen::AngleAxisf(sense * degrees * static_cast<float>(EIGEN_PI) / 180.0f, Eigen::Vector3f::UnitX());
     }
+    result.source = std::make_shared<MemorySource>(std::move(motion));
     return result;
   };
   const Synthesis made = concatenate({turning("A", 1.0f), turning("B", -1.0f)},
@@ -270,7 +274,51 @@ TEST_P(Concatenate, TheReferenceGivesSkeletonAndStanding) {
   const Synthesis made = concatenate(stretches, second);
   EXPECT_FLOAT_EQ(made.motion.skeleton().joint(2).offset.x(), 0.35f);
   EXPECT_EQ(made.motion.pose(made.stretches[1].core.begin).translations[0],
-            stretches[1].motion.pose(30).translations[0]);
+            motion_of(stretches[1]).pose(stretches[1].core.begin).translations[0]);
+}
+
+/// The stretch with a face track that holds one value.
+Stretch with_track(Stretch stretch, const std::string& name, float value) {
+  Motion motion = motion_of(stretch);
+  motion.add_track({name, std::vector<float>(static_cast<std::size_t>(motion.frame_count()), value)});
+  stretch.source = std::make_shared<MemorySource>(std::move(motion));
+  return stretch;
+}
+
+TEST_P(Concatenate, ScalarTracksComeAlong) {
+  const std::vector<Stretch> stretches = {with_track(stretch("A", 0.1f, 20, 40, 25), "jawOpen", 0.8f),
+                                          with_track(stretch("B", 0.8f, 30, 33, 20, {50, 1}), "browInnerUp", 0.5f)};
+  const Synthesis made = concatenate(stretches, options());
+  ASSERT_EQ(made.motion.tracks().size(), 2u);
+  const ScalarTrack& jaw = made.motion.tracks()[0];
+  const ScalarTrack& brow = made.motion.tracks()[1];
+  EXPECT_EQ(jaw.name, "jawOpen");
+  EXPECT_EQ(brow.name, "browInnerUp");
+  ASSERT_EQ(jaw.values.size(), static_cast<std::size_t>(made.motion.frame_count()));
+  for (const Placed& placed : made.stretches) {
+    for (std::int64_t frame = placed.core.begin; frame < placed.core.end; ++frame) {
+      const bool first = &placed == &made.stretches[0];
+      EXPECT_EQ(jaw.values[static_cast<std::size_t>(frame)], first ? 0.8f : 0.0f);  // bit for bit in a stroke
+      EXPECT_EQ(brow.values[static_cast<std::size_t>(frame)], first ? 0.0f : 0.5f);
+    }
+  }
+  for (std::size_t frame = 1; frame < jaw.values.size(); ++frame) {
+    EXPECT_LE(jaw.values[frame], jaw.values[frame - 1]);
+    EXPECT_LT(jaw.values[frame - 1] - jaw.values[frame], 0.15f);
+  }
+}
+
+TEST_P(Concatenate, TheMemoryOfAnOlderResultIsUsedAgain) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20)};
+  Synthesis first = concatenate(stretches, options());
+  const auto* const memory = first.motion.rotations().data();
+  const Motion expected = first.motion;
+  const Synthesis second = concatenate(stretches, options(), std::move(first));
+  EXPECT_EQ(second.motion.rotations().data(), memory);
+  ASSERT_EQ(second.motion.frame_count(), expected.frame_count());
+  for (std::size_t i = 0; i < expected.rotations().size(); ++i) {
+    ASSERT_EQ(second.motion.rotations()[i].coeffs(), expected.rotations()[i].coeffs());
+  }
 }
 
 TEST(ConcatenateFaults, NothingToJoin) {

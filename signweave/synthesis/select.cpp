@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 
 #include "signweave/features/transition_stats.h"
 
@@ -14,9 +16,23 @@ struct Ends {
   Pose last;   ///< the last stroke frame
 };
 
-Pose pose_at(const Database& database, const RecordingInfo& recording, std::int64_t frame) {
-  return Pose(database.read(recording, {frame, frame + 1}).pose(0));
-}
+/// Reads single poses, opening each recording once.
+class PoseReader {
+ public:
+  explicit PoseReader(const Snapshot& snapshot) : snapshot_(snapshot) {}
+
+  Pose at(std::size_t recording, std::int64_t frame) {
+    std::unique_ptr<MotionSource>& source = sources_[recording];
+    if (!source) source = snapshot_.motion(snapshot_.contents().recordings[recording]);
+    Pose pose(*source->skeleton());
+    source->read({frame, frame + 1}, {pose.rotations, pose.translations});
+    return pose;
+  }
+
+ private:
+  const Snapshot& snapshot_;
+  std::map<std::size_t, std::unique_ptr<MotionSource>> sources_;
+};
 
 double distance(const Pose& a, const Pose& b) {
   // Skeletons of one corpus may differ; what cannot be compared is as far as can be. Joining them is refused later, by
@@ -52,14 +68,16 @@ bool are_neighbours(const Contents& contents, const Candidate& a, const Candidat
   return true;
 }
 
-Selection select(const Database& database, const Contents& contents, std::span<const Choice> choices) {
+Selection select(const Snapshot& snapshot, std::span<const Choice> choices) {
+  const Contents& contents = snapshot.contents();
+  PoseReader poses(snapshot);
   Selection selection;
   if (choices.empty()) return selection;
   const auto ends_of = [&](const Choice& choice) {
     std::vector<Ends> ends;
     for (const Candidate& candidate : choice.candidates) {
-      const RecordingInfo& info = contents.recordings[candidate.recording];
-      ends.push_back({pose_at(database, info, candidate.core.begin), pose_at(database, info, candidate.core.end - 1)});
+      ends.push_back(
+          {poses.at(candidate.recording, candidate.core.begin), poses.at(candidate.recording, candidate.core.end - 1)});
     }
     return ends;
   };

@@ -25,7 +25,7 @@ struct Selection {
 /// The candidates whose sum of target and join costs is least (Viterbi). The join cost of two signs that were
 /// neighbours in one recording is 0; else it is the mean rotation, in radians over all joints, from the last stroke
 /// frame of one to the first of the other. Ties go to the earlier token. Reads two frames a candidate.
-Selection select(const Database& database, const Contents& contents, std::span<const Choice> choices);
+Selection select(const Snapshot& snapshot, std::span<const Choice> choices);
 
 /// True where `b` went on from `a` in the same recording, so that the recorded transition can be kept.
 bool are_neighbours(const Contents& contents, const Candidate& a, const Candidate& b);

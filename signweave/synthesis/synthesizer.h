@@ -44,10 +44,12 @@ struct Synthesized {
 
 /// Signs an utterance: the few lines that call the rest. Throws Error{not_found} for a gloss that the database lacks
 /// (with near matches), Error{bad_input} for skeletons that cannot be joined or options out of range.
-Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options = {});
+/// `used` is an older result whose memory may be used again.
+Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options = {},
+                       Synthesis used = {});
 
 /// Edits a recording.
 Synthesized synthesize(const Database& database, std::string_view recording, const Edit& edit,
-                       const SynthesisOptions& options = {});
+                       const SynthesisOptions& options = {}, Synthesis used = {});
 
 }  // namespace signweave

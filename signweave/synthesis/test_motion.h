@@ -41,13 +41,12 @@ inline Stretch stretch(const std::string& name, float seed, std::int64_t prepara
                        std::int64_t retraction, FrameRate rate = {100, 1},
                        std::shared_ptr<const Skeleton> skeleton = small_skeleton()) {
   constexpr std::int64_t kBefore = 7;  // frames of the recording that are not part of the sign
-  const Motion all = moving(kBefore + preparation + stroke + retraction + 5, rate, seed, std::move(skeleton));
   Stretch result;
   result.recording = name;
   result.whole = {kBefore, kBefore + preparation + stroke + retraction};
   result.core = {kBefore + preparation, kBefore + preparation + stroke};
-  result.frames = {result.whole.begin, result.whole.end + 1};
-  result.motion = all.slice(result.frames);
+  result.source = std::make_shared<MemorySource>(
+      moving(kBefore + preparation + stroke + retraction + 5, rate, seed, std::move(skeleton)));
   result.clock = {rate.frame_time(), Seconds(0)};
   const auto ms = [&](std::int64_t frame) { return span_of({0, frame}, result.clock).end; };
   Sign sign{.gloss = name, .span = {ms(result.whole.begin), ms(result.whole.end)}, .tier = "Gloss"};
@@ -58,6 +57,11 @@ inline Stretch stretch(const std::string& name, float seed, std::int64_t prepara
   if (retraction > 0) sign.phases.push_back({PhaseKind::retraction, {core.end, sign.span.end}, "Retraction", {}});
   result.signs.push_back(sign);
   return result;
+}
+
+/// The recording that such a stretch is from.
+inline const Motion& motion_of(const Stretch& stretch) {
+  return dynamic_cast<const MemorySource&>(*stretch.source).motion();
 }
 
 /// Angle between two rotations in radians.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "signweave/motion/blend.h"
 
@@ -72,20 +73,15 @@ constexpr TransitionMethod kMethods[] = {
     {"gap", "makes the middle anew from pose and velocity at both borders", cut_for_gap},
 };
 
-/// The rotation per frame at a border, as a rotation vector in the joint's own space.
-Eigen::Vector3f velocity(const Eigen::Quaternionf& earlier, const Eigen::Quaternionf& later,
-                         std::int64_t span) noexcept {
+/// The rotation per frame at a border, as a rotation vector in the joint's own space, no longer than `most` radians.
+Eigen::Vector3f velocity(const Eigen::Quaternionf& earlier, const Eigen::Quaternionf& later, std::int64_t span,
+                         float most) noexcept {
   Eigen::Quaternionf step = earlier.conjugate() * later;
   if (step.w() < 0) step.coeffs() *= -1.0f;
   const float sine = step.vec().norm();
   if (sine < 1e-7f) return Eigen::Vector3f::Zero();
-  const float angle = 2.0f * std::atan2(sine, step.w());
-  return step.vec() * (angle / (sine * static_cast<float>(span)));
-}
-
-Eigen::Quaternionf turned(const Eigen::Quaternionf& from, const Eigen::Vector3f& by) noexcept {
-  const float angle = by.norm();
-  return angle < 1e-9f ? from : from * Eigen::Quaternionf(Eigen::AngleAxisf(angle, by / angle));
+  const float speed = std::min(most, 2.0f * std::atan2(sine, step.w()) / static_cast<float>(span));
+  return step.vec() * (speed / sine);
 }
 
 /// How far something has gone `frames` after it moved at 1 a frame, if it slows down evenly to rest within `ease`
@@ -112,28 +108,57 @@ float crossfade_weight(std::int64_t index, std::int64_t count) noexcept {
   return t * t * (3.0f - 2.0f * t);
 }
 
-void fill_gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count, double ease,
-              MutablePoseView out) noexcept {
-  const auto intervals = static_cast<double>(count + 1);
-  const auto since = static_cast<double>(index + 1);  // frames from the left border
-  const double slowing = std::max(1.0, std::min(ease, intervals));
-  const float onward = coasted(since, slowing);
-  const float back = coasted(intervals - since, slowing);
-  const auto t = static_cast<float>(since / intervals);
-  const float weight = t * t * (3.0f - 2.0f * t);
-  for (std::size_t i = 0; i < out.rotations.size(); ++i) {
-    Eigen::Quaternionf a = from.pose.rotations[i];
-    Eigen::Quaternionf b = to.pose.rotations[i];
-    if (a.dot(b) < 0) b.coeffs() *= -1.0f;  // chosen at the borders, so that it is the same for every frame
-    if (from.span > 0) a = turned(a, onward * velocity(from.context.rotations[i], from.pose.rotations[i], from.span));
-    if (to.span > 0) b = turned(b, -back * velocity(to.pose.rotations[i], to.context.rotations[i], to.span));
-    out.rotations[i] = slerp_as_signed(a, b, weight);
+void GapFiller::between(const Border& from, const Border& to, std::int64_t count, double ease) {
+  count_ = count;
+  ease_ = std::max(1.0, std::min(ease, static_cast<double>(count + 1)));
+  // A joint that would turn farther than half a turn until it rests is no human one.
+  const float most = std::numbers::pi_v<float> / (static_cast<float>(ease_) / 2.0f);
+  const std::size_t joints = from.pose.rotations.size();
+  const std::size_t moved = from.pose.translations.size();
+  signed_to_.assign(to.pose.rotations.begin(), to.pose.rotations.end());
+  from_places_.assign(from.pose.translations.begin(), from.pose.translations.end());
+  to_places_.assign(to.pose.translations.begin(), to.pose.translations.end());
+  from_turns_.assign(joints, Eigen::Vector3f::Zero());
+  to_turns_.assign(joints, Eigen::Vector3f::Zero());
+  from_shifts_.assign(moved, Eigen::Vector3f::Zero());
+  to_shifts_.assign(moved, Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < joints; ++i) {
+    // Chosen at the borders, so that it is the same for every frame.
+    if (from.pose.rotations[i].dot(signed_to_[i]) < 0) signed_to_[i].coeffs() *= -1.0f;
+    if (from.span > 0) from_turns_[i] = velocity(from.context.rotations[i], from.pose.rotations[i], from.span, most);
+    if (to.span > 0) to_turns_[i] = velocity(to.pose.rotations[i], to.context.rotations[i], to.span, most);
   }
+  from_.assign(from.pose.rotations, from_turns_);
+  to_.assign(signed_to_, to_turns_);
+  from_rest_.assign(from.pose.rotations, from_turns_);
+  to_rest_.assign(signed_to_, to_turns_);
+  const float whole = coasted(ease_, ease_);
+  from_rest_.coast(whole);
+  to_rest_.coast(-whole);
+  for (std::size_t i = 0; i < moved; ++i) {
+    const auto per_frame = [&](const Eigen::Vector3f& way, std::int64_t span) {
+      return way / static_cast<float>(span);
+    };
+    if (from.span > 0) {
+      from_shifts_[i] = per_frame(from.pose.translations[i] - from.context.translations[i], from.span);
+    }
+    if (to.span > 0) to_shifts_[i] = per_frame(to.context.translations[i] - to.pose.translations[i], to.span);
+  }
+}
+
+void GapFiller::fill(std::int64_t index, MutablePoseView out) const noexcept {
+  const auto intervals = static_cast<double>(count_ + 1);
+  const auto since = static_cast<double>(index + 1);  // frames from the left border
+  const float onward = coasted(since, ease_);
+  const float back = coasted(intervals - since, ease_);
+  const float weight = crossfade_weight(index, count_);
+  const bool from_rests = since >= ease_;
+  const bool to_rests = intervals - since >= ease_;
+  slerp_coasting(from_rests ? from_rest_ : from_, from_rests ? 0.0f : onward, to_rests ? to_rest_ : to_,
+                 to_rests ? 0.0f : -back, weight, out.rotations);
   for (std::size_t i = 0; i < out.translations.size(); ++i) {
-    Eigen::Vector3f a = from.pose.translations[i];
-    Eigen::Vector3f b = to.pose.translations[i];
-    if (from.span > 0) a += (a - from.context.translations[i]) * (onward / static_cast<float>(from.span));
-    if (to.span > 0) b -= (to.context.translations[i] - b) * (back / static_cast<float>(to.span));
+    const Eigen::Vector3f a = from_places_[i] + onward * from_shifts_[i];
+    const Eigen::Vector3f b = to_places_[i] - back * to_shifts_[i];
     out.translations[i] = a + weight * (b - a);
   }
 }

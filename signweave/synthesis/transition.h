@@ -4,9 +4,11 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "signweave/core/time.h"
 #include "signweave/features/transition_stats.h"
+#include "signweave/motion/blend.h"
 #include "signweave/motion/motion.h"
 
 namespace signweave {
@@ -72,12 +74,27 @@ struct Border {
 /// How long a border's movement takes to come to rest in a gap, seconds.
 inline constexpr double kEaseSeconds = 0.15;
 
-/// Fills `out` with frame `index` (from 0) of `count` frames between two borders. Each side goes on as it moved and
-/// comes to rest within `ease` frames; the two are cross-faded over the whole gap with a weight that is flat at both
-/// ends. So position and velocity go on at both borders, and however long the gap, nothing swings out farther than half
-/// of what `ease` frames of that movement are. (ours) Allocates nothing.
-void fill_gap(const Border& from, const Border& to, std::int64_t index, std::int64_t count, double ease,
-              MutablePoseView out) noexcept;
+/// What lies in a gap. Each side goes on as it moved and comes to rest within `ease` frames; the two are cross-faded
+/// over the whole gap with a weight that is flat at both ends. So position and velocity go on at both borders, and
+/// however long the gap, nothing swings out farther than half of what `ease` frames of that movement are. (ours) Used
+/// for many gaps it allocates for the first only.
+class GapFiller {
+ public:
+  /// Between two borders lie `count` frames.
+  void between(const Border& from, const Border& to, std::int64_t count, double ease);
+  /// Fills `out` with frame `index`, from 0. Allocates nothing.
+  void fill(std::int64_t index, MutablePoseView out) const noexcept;
+
+ private:
+  CoastingRotations from_, to_;                           ///< at the borders
+  CoastingRotations from_rest_, to_rest_;                 ///< where they come to rest
+  std::vector<Eigen::Quaternionf> signed_to_;             ///< [joint] the right border, in the left one's hemisphere
+  std::vector<Eigen::Vector3f> from_turns_, to_turns_;    ///< [joint] rotation vector per frame, in the joint's space
+  std::vector<Eigen::Vector3f> from_places_, to_places_;  ///< [translated joint] metres
+  std::vector<Eigen::Vector3f> from_shifts_, to_shifts_;  ///< [translated joint] metres per frame
+  std::int64_t count_ = 0;
+  double ease_ = 1;
+};
 
 /// How long transitions last.
 struct DurationModel {

@@ -68,7 +68,9 @@ Motion with_gap(const Motion& a, const Motion& b, std::int64_t gap, std::int64_t
   const std::int64_t last = a.frame_count() - 1;
   const Border from{a.pose(last), a.pose(last - context), context};
   const Border to{b.pose(0), b.pose(context), context};
-  for (std::int64_t i = 0; i < gap; ++i) fill_gap(from, to, i, gap, 15, all.append());
+  GapFiller filler;
+  filler.between(from, to, gap, 15);
+  for (std::int64_t i = 0; i < gap; ++i) filler.fill(i, all.append());
   for (std::int64_t i = 0; i < b.frame_count(); ++i) all.append(b.pose(i));
   return all;
 }
@@ -97,8 +99,10 @@ TEST(Gap, StaysBetweenStillBorders) {
   const Border from{a.pose(0), a.pose(0), 0};
   const Border to{b.pose(0), b.pose(0), 0};
   Pose made(a.skeleton());
+  GapFiller gap;
+  gap.between(from, to, 50, 15);
   for (std::int64_t i = 0; i < 50; ++i) {
-    fill_gap(from, to, i, 50, 15, made.view());
+    gap.fill(i, made.view());
     for (std::size_t joint = 0; joint < made.rotations.size(); ++joint) {
       const double whole = angle(a.pose(0).rotations[joint], b.pose(0).rotations[joint]);
       EXPECT_NEAR(angle(a.pose(0).rotations[joint], made.rotations[joint]) +

@@ -108,9 +108,9 @@ Place place_of(const UtteranceWord& word, std::string_view what) {
   return place;
 }
 
-/// A name as it must be typed to come out the same.
+/// A name as it must be typed to come out the same. (One that holds a quote and cannot stand bare cannot be typed.)
 std::string quoted_if_needed(const std::string& name) {
-  const bool bare = !name.empty() && name != "," && name != "." && name.find('"') == name.npos &&
+  const bool bare = !name.empty() && name != "," && name != "." && name.front() != '"' &&
                     std::none_of(name.begin(), name.end(), is_blank) && token_suffix(name) == name.npos &&
                     piece_suffix(name).at == name.npos;
   return bare ? name : '"' + name + '"';
@@ -155,7 +155,8 @@ std::string to_string(const Utterance& utterance) {
     if (place.kind == Place::Kind::gloss) {
       text += to_string(place.gloss);
     } else {
-      text += fmt::format("\"{}\"@{}..{}", place.recording, place.span.begin.count(), place.span.end.count());
+      text +=
+          fmt::format("{}@{}..{}", quoted_if_needed(place.recording), place.span.begin.count(), place.span.end.count());
     }
   }
   return text;

@@ -1,0 +1,161 @@
+// What a junction costs beyond the copying of frames: per joint and frame of the transition against a bare slerp of as
+// many joints; and whether that depends on how many junctions there are. (Copying does: what fits into the caches is
+// copied faster, so it is measured apart, into as much memory.)
+
+#include <random>
+
+#include "bench/measure.h"
+#include "signweave/motion/blend.h"
+#include "signweave/synthesis/concatenate.h"
+
+namespace {
+
+using namespace signweave;
+
+constexpr int kJoints = 56;
+constexpr std::int64_t kSign = 60;  // frames of preparation, stroke and retraction each
+constexpr int kRounds = 31;
+
+std::shared_ptr<const Skeleton> chain() {
+  std::vector<Joint> joints;
+  for (int i = 0; i < kJoints; ++i) {
+    joints.push_back(
+        {.name = fmt::format("joint {}", i), .parent = i - 1, .offset = {0, 0.1f, 0}, .translated = i == 0});
+  }
+  return std::make_shared<const Skeleton>(std::move(joints), std::vector<Tip>{});
+}
+
+/// A recording in which every joint turns all the time.
+std::shared_ptr<const MotionSource> moving(std::int64_t frames) {
+  Motion motion(chain(), {100, 1}, frames);
+  for (std::int64_t frame = 0; frame < frames; ++frame) {
+    for (int joint = 0; joint < kJoints; ++joint) {
+      const float phase = 0.05f * static_cast<float>(frame) + static_cast<float>(joint);
+      const Eigen::Vector3f axis = Eigen::Vector3f(std::sin(static_cast<float>(joint)), 1.0f, 0.5f).normalized();
+      motion.pose(frame).rotations[static_cast<std::size_t>(joint)] = Eigen::AngleAxisf(0.7f * std::sin(phase), axis);
+    }
+  }
+  keep_hemisphere(motion);
+  return std::make_shared<MemorySource>(std::move(motion));
+}
+
+/// Signs from all over the recording, one after another.
+std::vector<Stretch> signs(const std::shared_ptr<const MotionSource>& source, int count) {
+  std::vector<Stretch> stretches;
+  const std::int64_t places = source->frame_count() / (3 * kSign) - 1;
+  for (int i = 0; i < count; ++i) {
+    const std::int64_t begin = (i * 7) % places * 3 * kSign;
+    Stretch stretch{.recording = "bench", .source = source};
+    stretch.whole = {begin, begin + 3 * kSign};
+    stretch.core = {begin + kSign, begin + 2 * kSign};
+    stretch.clock = {.frame_time = Seconds(0.01)};
+    stretch.signs.push_back({.gloss = "SIGN", .span = span_of(stretch.whole, stretch.clock)});
+    stretch.signs.back().phases.push_back({PhaseKind::stroke, span_of(stretch.core, stretch.clock), "Stroke", {}});
+    stretches.push_back(std::move(stretch));
+  }
+  return stretches;
+}
+
+/// The slerp that every transition needs at least: one per joint and frame.
+class BareSlerp {
+ public:
+  BareSlerp() : a_(kJoints), b_(kJoints), out_(kJoints) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    for (std::vector<Eigen::Quaternionf>* side : {&a_, &b_}) {
+      for (Eigen::Quaternionf& q : *side) {
+        q = Eigen::Quaternionf(normal(random), normal(random), normal(random), normal(random)).normalized();
+      }
+    }
+  }
+  void frames(std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i) {
+      slerp(a_, b_, static_cast<float>(i + 1) / static_cast<float>(count + 1), out_);
+      bench::keep(out_);
+    }
+  }
+
+ private:
+  std::vector<Eigen::Quaternionf> a_, b_, out_;
+};
+
+/// An utterance of so many signs, joined again and again into the same memory; beside it, only the copying of its
+/// frames: each sign's own and, for the transition, as many again.
+class Utterance {
+ public:
+  Utterance(const char* method, std::shared_ptr<const MotionSource> source, int count)
+      : source_(std::move(source)),
+        stretches_(signs(source_, count)),
+        options_{.method = find_transition_method(method), .duration = Milliseconds(740)} {
+    join();
+    copies_.reset(source_->skeleton(), source_->rate(), used_.motion.frame_count());
+    copy();
+  }
+
+  std::int64_t junctions() const noexcept { return static_cast<std::int64_t>(stretches_.size()) - 1; }
+  std::int64_t transition_frames() const noexcept { return 74 * junctions(); }
+  void join() { used_ = concatenate(stretches_, options_, std::move(used_)); }
+  void copy() {
+    std::int64_t at = 0;
+    for (const Stretch& stretch : stretches_) {
+      const std::int64_t end = std::min(at + kSign + 74, copies_.frame_count());
+      source_->read({stretch.whole.begin, stretch.whole.begin + end - at}, copies_.poses({at, end}));
+      at = end;
+    }
+    bench::keep(copies_);
+  }
+  /// Seconds per junction beyond the copying, the mean of some calls.
+  double seconds_per_junction(int calls) {
+    const double whole = bench::seconds_of([&] { join(); }, calls);
+    const double copying = bench::seconds_of([&] { copy(); }, calls);
+    return (whole - copying) / static_cast<double>(junctions());
+  }
+
+ private:
+  std::shared_ptr<const MotionSource> source_;
+  std::vector<Stretch> stretches_;
+  ConcatenateOptions options_;
+  Synthesis used_;
+  Motion copies_;
+};
+
+void junction_against_slerp(const char* method) {
+  Utterance utterance(method, moving(40 * 3 * kSign), 201);
+  BareSlerp slerp;
+  const std::int64_t frames = utterance.transition_frames();
+  std::vector<double> ours, bare, ratios;
+  for (int round = 0; round < kRounds; ++round) {
+    ours.push_back(utterance.seconds_per_junction(1) * static_cast<double>(utterance.junctions()));
+    bare.push_back(bench::seconds_of([&] { slerp.frames(frames); }));
+    ratios.push_back(ours.back() / bare.back());
+  }
+  const double nanoseconds = 1e9 / static_cast<double>(frames * kJoints);
+  bench::print(fmt::format("junction/{}/per_joint_and_frame", method), nanoseconds, "ns",
+               {bench::median(ours), bench::median(bare), bench::median(ratios)}, "<= 3");
+}
+
+/// The same junctions in an utterance of 1,000 signs and in one of 10.
+void long_against_short(const char* method) {
+  const auto source = moving(40 * 3 * kSign);
+  Utterance many(method, source, 1000);
+  Utterance few(method, source, 10);
+  std::vector<double> ours, theirs, ratios;
+  for (int round = 0; round < kRounds; ++round) {
+    ours.push_back(many.seconds_per_junction(1));
+    theirs.push_back(few.seconds_per_junction(100));
+    ratios.push_back(ours.back() / theirs.back());
+  }
+  bench::print(fmt::format("junction/{}/at_1000_signs_against_10", method), 1e6, "us",
+               {bench::median(ours), bench::median(theirs), bench::median(ratios)}, "<= 1.15");
+}
+
+}  // namespace
+
+int main() {
+  for (const TransitionMethod& method : transition_methods()) {
+    const std::string name(method.name);
+    junction_against_slerp(name.c_str());
+    long_against_short(name.c_str());
+  }
+  return 0;
+}

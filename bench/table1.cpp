@@ -1,0 +1,211 @@
+// The paper's Table 1: its two scenarios on 44 minutes of motion, beside the paper's own figures; and the motion part
+// of the first (retrieval and concatenation) beside a bare memcpy of its output.
+//
+// Arguments: --table prints a table for people instead of lines; --minutes M takes another corpus.
+
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "bench/corpus.h"
+#include "signweave/core/error.h"
+#include "signweave/synthesis/edit.h"
+#include "signweave/synthesis/synthesizer.h"
+
+namespace {
+
+using namespace signweave;
+
+constexpr int kRounds = 41;
+
+/// Milliseconds.
+struct Row {
+  double semantic_query = 0;
+  double selection = 0;  ///< the paper has no such step
+  double frames = 0;
+  double retrieval = 0;
+  double concatenation = 0;
+  double total = 0;
+};
+
+struct Scenario {
+  const char* name;
+  Edit edit;
+  Row paper;
+  Row ours = {};
+  std::size_t junctions = 0;
+};
+
+std::vector<Scenario> scenarios() {
+  Edit replace;
+  for (const char* text : {"BRETAGNE=VANNES", "DEMAIN=MARSEILLE", "VENDREDI=RENNES", "MATIN#2=LE MANS"}) {
+    replace.replacements.push_back(parse_replacement(text));
+  }
+  Edit swap;
+  swap.swap = parse_swap("BRETAGNE..PLUIE,NUAGES#2..BROUILLARD");
+  return {{"scenario1", replace, {557, 0, 7050, 1786, 13856, 20492}},
+          {"scenario2", swap, {144, 0, 6094, 1418, 5337, 8733}}};
+}
+
+void measure(const Database& database, Scenario& scenario) {
+  std::vector<double> query, selection, retrieval, concatenation, total;
+  Synthesis used;
+  for (int round = -1; round < kRounds; ++round) {
+    Synthesized made = synthesize(database, "meteo", scenario.edit, {}, std::move(used));
+    const Timings& t = made.timings;
+    if (round >= 0) {
+      query.push_back(1e3 * t.semantic_query.count());
+      selection.push_back(1e3 * t.selection.count());
+      retrieval.push_back(1e3 * t.retrieval.count());
+      concatenation.push_back(1e3 * t.concatenation.count());
+      total.push_back(1e3 * t.total.count());
+    }
+    scenario.ours.frames = static_cast<double>(made.result.motion.frame_count());
+    scenario.junctions = made.result.junctions.size();
+    used = std::move(made.result);
+  }
+  scenario.ours.semantic_query = bench::median(query);
+  scenario.ours.selection = bench::median(selection);
+  scenario.ours.retrieval = bench::median(retrieval);
+  scenario.ours.concatenation = bench::median(concatenation);
+  scenario.ours.total = bench::median(total);
+}
+
+double rest(const Row& row) {
+  return row.total - row.semantic_query - row.selection - row.retrieval - row.concatenation;
+}
+
+void print_table(const std::vector<Scenario>& all, double minutes) {
+  fmt::print("Table 1 of the paper, milliseconds (paper: 44 minutes; here: {:.1f}; medians of {} runs)\n\n", minutes,
+             kRounds);
+  fmt::print("{:<22}{:>10}{:>11}{:>8}{:>11}{:>15}{:>9}{:>10}\n", "", "semantic", "selection", "frames", "retrieval",
+             "concatenation", "rest", "total");
+  for (const Scenario& one : all) {
+    const auto row = [&](const char* whose, const Row& r, int digits) {
+      fmt::print("{:<22}{:>10.{}f}{:>11}{:>8.0f}{:>11.{}f}{:>15.{}f}{:>9.{}f}{:>10.{}f}\n",
+                 fmt::format("{}, {}", one.name, whose), r.semantic_query, digits,
+                 r.selection > 0 ? fmt::format("{:.{}f}", r.selection, digits) : "-", r.frames, r.retrieval, digits,
+                 r.concatenation, digits, rest(r), digits, r.total, digits);
+    };
+    row("paper", one.paper, 0);
+    row("here", one.ours, 3);
+  }
+  fmt::print("\nPer frame retrieved and per junction, microseconds:\n");
+  for (const Scenario& one : all) {
+    const auto junctions = static_cast<double>(one.junctions);
+    fmt::print("  {}: {:.3f} and {:.1f} (paper: {:.0f} and {:.0f})\n", one.name,
+               1e3 * one.ours.retrieval / one.ours.frames, 1e3 * one.ours.concatenation / junctions,
+               1e3 * one.paper.retrieval / one.paper.frames, 1e3 * one.paper.concatenation / junctions);
+  }
+}
+
+void print_lines(const std::vector<Scenario>& all) {
+  for (const Scenario& one : all) {
+    const auto line = [&](const char* what, const char* unit, double ours, double paper) {
+      bench::print(fmt::format("table1/{}/{}", one.name, what), ours, unit, paper, ours / paper, "<= 1");
+    };
+    line("semantic_query", "ms", one.ours.semantic_query, one.paper.semantic_query);
+    fmt::print("table1/{}/selection {:.4g} ms - - -\n", one.name, one.ours.selection);
+    fmt::print("table1/{}/frames {:.0f} frames {:.0f} - -\n", one.name, one.ours.frames, one.paper.frames);
+    line("retrieval", "ms", one.ours.retrieval, one.paper.retrieval);
+    line("concatenation", "ms", one.ours.concatenation, one.paper.concatenation);
+    line("rest", "ms", rest(one.ours), rest(one.paper));
+    line("total", "ms", one.ours.total, one.paper.total);
+    const auto junctions = static_cast<double>(one.junctions);
+    line("retrieval_per_frame", "us", 1e3 * one.ours.retrieval / one.ours.frames,
+         1e3 * one.paper.retrieval / one.paper.frames);
+    line("concatenation_per_junction", "us", 1e3 * one.ours.concatenation / junctions,
+         1e3 * one.paper.concatenation / junctions);
+  }
+}
+
+/// A motion's numbers, for copying.
+struct Numbers {
+  std::vector<float> rotations, translations;
+
+  explicit Numbers(const Motion& motion)
+      : rotations(motion.rotations().size() * 4), translations(motion.translations().size() * 3) {
+    copy_from(motion);
+  }
+  void copy_from(const Motion& motion) {
+    std::memcpy(rotations.data(), motion.rotations().data(), rotations.size() * sizeof(float));
+    std::memcpy(translations.data(), motion.translations().data(), translations.size() * sizeof(float));
+  }
+};
+
+/// Scenario 1's retrieval and concatenation against a memcpy of its output.
+void compare_with_memcpy(const Database& database, const Edit& edit) {
+  Synthesis used = synthesize(database, "meteo", edit).result;
+  Numbers warm(used.motion);
+  std::vector<double> ours_warm, ours_fresh, copy_warm, copy_fresh, ratio_warm, ratio_fresh;
+  for (int round = 0; round < kRounds; ++round) {
+    Synthesized made = synthesize(database, "meteo", edit, {}, std::move(used));
+    const double mine = (made.timings.retrieval + made.timings.concatenation).count();
+    used = std::move(made.result);
+    const double copy = bench::seconds_of([&] { warm.copy_from(used.motion); });
+    const Synthesized fresh = synthesize(database, "meteo", edit);
+    const double mine_fresh = (fresh.timings.retrieval + fresh.timings.concatenation).count();
+    const double fresh_copy = bench::seconds_of([&] {
+      // malloc gives a block as large as this new from the system: every page is touched for the first time.
+      const std::size_t rotations = used.motion.rotations().size_bytes();
+      const std::size_t translations = used.motion.translations().size_bytes();
+      void* const block = std::malloc(rotations + translations);
+      if (block == nullptr) std::abort();
+      std::memcpy(block, used.motion.rotations().data(), rotations);
+      std::memcpy(static_cast<char*>(block) + rotations, used.motion.translations().data(), translations);
+      bench::keep(block);
+      std::free(block);
+    });
+    ours_warm.push_back(mine);
+    copy_warm.push_back(copy);
+    ratio_warm.push_back(mine / copy);
+    ours_fresh.push_back(mine_fresh);
+    copy_fresh.push_back(fresh_copy);
+    ratio_fresh.push_back(mine_fresh / fresh_copy);
+  }
+  bench::keep(warm);
+  bench::print("motion_part/warm_pages", 1e3, "ms",
+               {bench::median(ours_warm), bench::median(copy_warm), bench::median(ratio_warm)}, "<= 1.5");
+  bench::print("motion_part/fresh_pages", 1e3, "ms",
+               {bench::median(ours_fresh), bench::median(copy_fresh), bench::median(ratio_fresh)}, "<= 1.2");
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    bool table = false;
+    double minutes = 44;
+    for (int i = 1; i < count; ++i) {
+      const std::string word = arguments[i];
+      if (word == "--table") {
+        table = true;
+      } else if (word == "--minutes" && i + 1 < count) {
+        minutes = std::atof(arguments[++i]);
+      } else {
+        fmt::print(stderr, "bench_table1: '{}'? It knows --table and --minutes M\n", word);
+        return 2;
+      }
+    }
+    const bench::Folder folder("table1");
+    const std::unique_ptr<const Database> database = bench::demo_database(folder.path() / "corpus.db", minutes);
+    double motion = 0;
+    for (const RecordingInfo& info : database->contents()->recordings) {
+      motion += static_cast<double>(info.motion->frames) / info.motion->rate.hertz() / 60;
+    }
+    std::vector<Scenario> all = scenarios();
+    for (Scenario& one : all) measure(*database, one);
+    if (table) {
+      print_table(all, motion);
+    } else {
+      fmt::print("table1/corpus {:.1f} minutes 44 - -\n", motion);
+      print_lines(all);
+      compare_with_memcpy(*database, all.front().edit);
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench_table1: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

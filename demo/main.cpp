@@ -12,6 +12,7 @@
 #include "signweave/core/error.h"
 #include "signweave/formats/bvh.h"
 #include "signweave/formats/eaf.h"
+#include "signweave/formats/face_csv.h"
 
 namespace {
 
@@ -33,6 +34,7 @@ void write_corpus(const std::filesystem::path& folder, FrameRate rate, std::uint
     bvh::write(path(".bvh"), recording.motion, bvh::default_layout(recording.motion.skeleton()));
     eaf::write(path(".eaf"), recording.document);
     write_file(path(".truth.csv"), recording.truth);
+    if (!recording.motion.tracks().empty()) write_file(path(".face.csv"), face_csv::write_text(recording.motion));
     if (sheets) write_file(path(".svg"), demo::stroke_sheet(recording));
     fmt::print("{}: {} signs, {} frames, {:.1f} s\n", recording.name, recording.timeline.signs.size(),
                recording.motion.frame_count(), recording.motion.duration().count());

@@ -75,7 +75,7 @@ Run export_recording(CLI::App& verb) {
   verb.add_option("DB", options->folder, "the database")->required();
   verb.add_option("RECORDING", options->recording, "name of the recording")->required();
   verb.add_option("-o,--output", options->outputs,
-                  "file to write: .bvh .eaf .json .csv .svg; may be given several times")
+                  "file to write: " + writable_endings() + "; may be given several times")
       ->required()
       ->allow_extra_args(false)
       ->check([](const std::string& path) { return check_output(path); });
@@ -115,8 +115,16 @@ Run export_recording(CLI::App& verb) {
     // The annotation is cut where the frames are, so that both begin together.
     if (document && part)
       document = cut_document(*document, motion ? span_of(frames, info.clock) : span, options->outputs);
+    Outgoing recording{.motion = motion ? &*motion : nullptr,
+                       .layout = info.layout,
+                       .document = document ? &*document : nullptr,
+                       .title = info.name,
+                       .declarations = info.declarations};
     for (const std::string& path : options->outputs) {
-      write_recording(path, motion ? &*motion : nullptr, info.layout, document ? &*document : nullptr, info.name);
+      if (!options->joints.empty() && fold_case(path).ends_with(".face.csv")) {
+        throw Error(ErrorCode::bad_input, path + ": --joints leaves scalar tracks out; export it without");
+      }
+      write_recording(path, recording);
     }
     if (io.json) {
       io.out << nlohmann::json{{"recording", info.name}, {"files", options->outputs}, {"frames", frames.size()}}.dump(

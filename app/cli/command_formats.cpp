@@ -12,9 +12,11 @@ Run formats(CLI::App&) {
     const std::vector<std::vector<std::string>> rows = {
         {"ending", "reads", "writes", "holds", "is lost"},
         {".bvh", "yes", "yes", "skeleton and motion", "annotation; rotations beyond 1e-4 degrees"},
+        {".glb .gltf", "no", "yes", "skeleton, motion, a simple body and face; for viewers", "annotation"},
         {".eaf", "yes", "yes", "annotation", "motion"},
         {".json", "no", "yes", "a synthesis: poses, signs, sources, junctions", "nothing"},
         {".csv", "no", "yes", "joint positions per frame, metres", "rotations, annotation"},
+        {".face.csv", "yes", "yes", "scalar tracks, as Live Link Face writes them", "everything else"},
         {".svg", "no", "yes", "contact sheet of stick figures", "everything but the picture"},
     };
     if (!io.json) {

@@ -64,6 +64,8 @@ std::string_view name_of(ImportOutcome outcome) {
       return "annotation added";
     case ImportOutcome::motion_added:
       return "motion added";
+    case ImportOutcome::face_added:
+      return "face added";
     case ImportOutcome::annotation_replaced:
       return "annotation replaced";
     case ImportOutcome::motion_replaced:
@@ -150,7 +152,8 @@ void run_import(const Options& given, Io& io) {
 Run import(CLI::App& verb) {
   auto options = std::make_shared<Options>();
   verb.add_option("DB", options->folder, "the database")->required();
-  verb.add_option("FILE", options->inputs, "motion files (.bvh), annotation files (.eaf), folders of them");
+  verb.add_option("FILE", options->inputs,
+                  "motion files (.bvh), annotation files (.eaf), face captures (.face.csv), folders of them");
   verb.add_option("--pairs", options->pairs, "CSV: motion, annotation, signer, offset in ms");
   verb.add_option("--sign-tier", options->sign_tiers,
                   "tier of glosses, TIER[:right|left|both[:SIGNER]]; guessed where not given")
@@ -165,7 +168,8 @@ Run import(CLI::App& verb) {
       ->check([](const std::string& text) {
         return parse_sync(text) ? std::string() : "expected FRAME@MS, such as 120@4010";
       });
-  verb.add_flag("--replace-motion", options->replace_motion, "take motion files that changed since they were imported");
+  verb.add_flag("--replace-motion", options->replace_motion,
+                "take motion and face files that changed since they were imported");
   return [options](Io& io) {
     if (options->inputs.empty() && options->pairs.empty()) throw CLI::RequiredError("FILE or --pairs");
     run_import(*options, io);

@@ -13,6 +13,7 @@
 #include "signweave/core/text.h"
 #include "signweave/database/database.h"
 #include "signweave/formats/eaf.h"
+#include "signweave/formats/face_csv.h"
 
 namespace signweave::cli {
 namespace {
@@ -71,6 +72,37 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, I
   fields["seconds"] = fmt::format("{:.3f}", file.motion.duration().count());
   print_pairs(io, fields);
   print_notices(io, file.notices);
+}
+
+/// "browInnerUp, jawOpen, mouthPucker and 49 more".
+std::string short_list(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 3;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) list += (i > 0 ? ", " : "") + printable(names[i]);
+  if (names.size() > kMost) list += fmt::format(" and {} more", names.size() - kMost);
+  return list;
+}
+
+void info_of_face(const std::string& path, Io& io) {
+  const face_csv::Face face = face_csv::read(path);
+  std::vector<std::string> names;
+  for (const ScalarTrack& track : face.tracks) names.push_back(track.name);
+  nlohmann::ordered_json fields = {{"file", path},
+                                   {"format", "Live Link Face CSV"},
+                                   {"rows", face.times.size()},
+                                   {"seconds", face.times.back().count()},
+                                   {"frames_per_second", face.rate.hertz()}};
+  if (io.json) {
+    fields["tracks"] = names;
+    fields["notices"] = json_of(face.notices);
+    io.out << fields.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    return;
+  }
+  fields["frames_per_second"] = to_string(face.rate);
+  fields["seconds"] = fmt::format("{:.3f}", face.times.back().count());
+  fields["tracks"] = fmt::format("{}: {}", names.size(), short_list(names));
+  print_pairs(io, fields);
+  print_notices(io, face.notices);
 }
 
 void info_of_eaf(const std::string& path, Io& io) {
@@ -134,6 +166,8 @@ void info_of_database(const std::string& folder, Io& io) {
         one["frames"] = info.motion->frames;
         one["frames_per_second"] = info.motion->rate.hertz();
         one["joints"] = info.motion->joints;
+        one["tracks"] = info.motion->tracks;
+        one["face_file"] = info.face_file;
         one["access_mode"] = to_string(info.motion->mode);
         one["packets"] = motion_db::packet_count(*info.motion);
       }
@@ -174,6 +208,11 @@ void info_of_database(const std::string& folder, Io& io) {
     rows.push_back(std::move(row));
   }
   if (rows.size() > 1) io.out << format_table(rows);
+  for (const RecordingInfo& info : contents->recordings) {
+    if (!info.motion || info.motion->tracks.empty()) continue;
+    io.out << fmt::format("{}: {}: {}\n", info.name, counted(info.motion->tracks.size(), "scalar track"),
+                          short_list(info.motion->tracks));
+  }
   for (const std::string& fault : contents->faults) io.err << "signweave: " << fault << '\n';
   if (!contents->faults.empty()) io.status = 1;
 }
@@ -186,7 +225,9 @@ Run info(CLI::App& verb) {
     MotionOptions motion;
   };
   auto options = std::make_shared<Options>();
-  verb.add_option("PATH", options->path, "a database, a motion file (.bvh) or an annotation file (.eaf)")->required();
+  verb.add_option("PATH", options->path,
+                  "a database, a motion file (.bvh), an annotation file (.eaf) or a face capture (.face.csv)")
+      ->required();
   add_motion_options(verb, options->motion);
   return [options](Io& io) {
     const std::string ending = fold_case(std::filesystem::path(options->path).extension().string());
@@ -201,6 +242,8 @@ Run info(CLI::App& verb) {
       info_of_bvh(options->path, options->motion, io);
     } else if (ending == ".eaf") {
       info_of_eaf(options->path, io);
+    } else if (fold_case(options->path).ends_with(".face.csv")) {
+      info_of_face(options->path, io);
     } else {
       throw Error(ErrorCode::unsupported,
                   options->path + ": of a kind that cannot be read; signweave formats lists those that can");

@@ -9,6 +9,8 @@
 #include "signweave/core/text.h"
 #include "signweave/formats/contact_sheet.h"
 #include "signweave/formats/eaf.h"
+#include "signweave/formats/face_csv.h"
+#include "signweave/formats/gltf.h"
 #include "signweave/formats/positions_csv.h"
 #include "signweave/synthesis/provenance.h"
 
@@ -18,8 +20,12 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
+constexpr const char* kFace = ".face.csv";
+constexpr const char* kEndings[] = {".bvh", ".glb", ".gltf", ".eaf", ".json", ".csv", kFace, ".svg"};
+
 std::string ending_of(const std::string& path) {
-  return fold_case(fs::path(path).extension().string());
+  const std::string name = fold_case(fs::path(path).filename().string());
+  return name.ends_with(kFace) ? kFace : fs::path(name).extension().string();
 }
 
 void write_text(const std::string& path, const std::string& text) {
@@ -128,12 +134,18 @@ ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string&
 
 }  // namespace
 
+std::string writable_endings() {
+  std::string list;
+  for (const char* ending : kEndings) list += (list.empty() ? "" : " ") + std::string(ending);
+  return list;
+}
+
 std::string check_output(const std::string& path) {
   const std::string ending = ending_of(path);
-  for (const char* known : {".bvh", ".eaf", ".json", ".csv", ".svg"}) {
+  for (const char* known : kEndings) {
     if (ending == known) return {};
   }
-  return "'" + printable(path) + "' does not end in .bvh, .eaf, .json, .csv or .svg";
+  return "'" + printable(path) + "' ends in none of " + writable_endings();
 }
 
 json describe(const Synthesis& synthesis) {
@@ -206,30 +218,38 @@ void write_synthesis(const std::vector<std::string>& paths, const Synthesized& m
     } else if (ending == ".svg") {
       write_text(path, contact_sheet(result.motion, sheet_options(result, title)));
     } else {
-      write_recording(path, &result.motion, layout, nullptr, title);
+      write_recording(
+          path, {.motion = &result.motion, .layout = layout, .title = title, .declarations = result.declarations});
     }
   }
 }
 
-void write_recording(const std::string& path, const Motion* motion, const std::optional<bvh::Layout>& layout,
-                     const AnnotationDocument* document, const std::string& title) {
+void write_recording(const std::string& path, const Outgoing& recording) {
   const std::string ending = ending_of(path);
   if (ending == ".eaf") {
-    if (document == nullptr) throw Error(ErrorCode::not_found, path + ": the recording has no annotation to write");
-    eaf::write(path, *document);
+    if (recording.document == nullptr) {
+      throw Error(ErrorCode::not_found, path + ": the recording has no annotation to write");
+    }
+    eaf::write(path, *recording.document);
     return;
   }
-  if (motion == nullptr) throw Error(ErrorCode::not_found, path + ": the recording has no motion to write");
+  if (recording.motion == nullptr) throw Error(ErrorCode::not_found, path + ": the recording has no motion to write");
+  const Motion& motion = *recording.motion;
   if (ending == ".bvh") {
-    bvh::write(path, *motion, layout_for(layout, motion->skeleton()));
+    bvh::write(path, motion, layout_for(recording.layout, motion.skeleton()));
+  } else if (ending == ".glb" || ending == ".gltf") {
+    gltf::write(path, motion, {.name = recording.title, .declarations = recording.declarations, .head = {}});
   } else if (ending == ".csv") {
-    write_positions_csv(path, *motion);
+    write_positions_csv(path, motion);
+  } else if (ending == kFace) {
+    if (motion.tracks().empty()) throw Error(ErrorCode::not_found, path + ": the motion has no scalar tracks to write");
+    write_text(path, face_csv::write_text(motion));
   } else if (ending == ".svg") {
     ContactSheetOptions options;
-    options.title = title;
-    write_text(path, contact_sheet(*motion, options));
+    options.title = recording.title;
+    write_text(path, contact_sheet(motion, options));
   } else {
-    write_text(path, json_of(*motion).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+    write_text(path, json_of(motion).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
   }
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "signweave/annotation/document.h"
@@ -12,6 +13,9 @@
 
 namespace signweave::cli {
 
+/// The endings that can be written, for help and errors: ".bvh .glb …".
+std::string writable_endings();
+
 /// Empty where `path` has an ending that can be written; else what is wrong with it.
 std::string check_output(const std::string& path);
 
@@ -20,10 +24,18 @@ std::string check_output(const std::string& path);
 void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made,
                      const std::optional<bvh::Layout>& layout, const std::string& title);
 
-/// Writes a motion (.bvh .csv .json .svg) or an annotation document (.eaf). Throws Error{not_found} where what the
-/// ending asks for is not there.
-void write_recording(const std::string& path, const Motion* motion, const std::optional<bvh::Layout>& layout,
-                     const AnnotationDocument* document, const std::string& title);
+/// What there is of a recording to write. Borrowed.
+struct Outgoing {
+  const Motion* motion = nullptr;
+  std::optional<bvh::Layout> layout;             ///< for .bvh
+  const AnnotationDocument* document = nullptr;  ///< for .eaf
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> declarations;  ///< what its sources say of themselves
+};
+
+/// Writes a motion or, to .eaf, an annotation document. Throws Error{not_found} where what the ending asks for is not
+/// there.
+void write_recording(const std::string& path, const Outgoing& recording);
 
 /// Signs, stretches and junctions of a synthesis, without its poses.
 nlohmann::json describe(const Synthesis& synthesis);

@@ -91,7 +91,7 @@ void add_synthesis_options(CLI::App& verb, SynthesisWords& words) {
     methods += fmt::format("\n  {}: {}", method.name, method.description);
   }
   words.method = names.front();
-  verb.add_option("-o,--output", words.outputs, "file to write: .bvh .eaf .json .csv .svg; may be given several times")
+  verb.add_option("-o,--output", words.outputs, "file to write: " + writable_endings() + "; may be given several times")
       ->required()
       ->allow_extra_args(false)
       ->check([](const std::string& path) { return check_output(path); });

@@ -140,6 +140,8 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
     std::string name = in.text();
     info.declarations.emplace_back(std::move(name), in.text());
   }
+  info.face_file = in.text();
+  info.face_fingerprint = in.number<std::uint64_t>();
   in.finish();
   return info;
 }
@@ -171,6 +173,8 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
     out.text(name);
     out.text(value);
   }
+  out.text(info.face_file);
+  out.number(info.face_fingerprint);
   transaction.put(slot_key(slot), kv::sealed(out.bytes()));
 }
 

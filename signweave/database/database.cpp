@@ -263,6 +263,8 @@ void Database::put(const Recording& recording, const Progress& progress) {
     info.layout = recording.motion->layout;
     info.motion_file = recording.motion->file;
     info.motion_fingerprint = recording.motion->fingerprint;
+    info.face_file = recording.motion->face_file;
+    info.face_fingerprint = recording.motion->face_fingerprint;
   }
   if (recording.annotation) {
     if (info.document != 0) semantic_db::erase(*transaction, info.document);

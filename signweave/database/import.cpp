@@ -8,6 +8,7 @@
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/eaf.h"
+#include "signweave/formats/face_csv.h"
 
 namespace signweave {
 namespace {
@@ -105,6 +106,28 @@ void keep_notices(const RecordingInfo& known, const std::string& file, std::vect
   }
 }
 
+/// Adds a face capture's tracks to the motion, its first row at the first frame.
+void add_face(const fs::path& path, std::uint64_t fingerprint, MotionPart& part, std::vector<Notice>& notices) {
+  face_csv::Face face = face_csv::read(path);
+  const Motion& motion = part.motion;
+  const double last = face.times.back().count();
+  // A row covers the time until the next, as a frame does: half a second more or less is worth a word.
+  const double missing = motion.duration().count() - last;
+  if (missing > 0.5) {
+    face.notices.push_back(
+        {path.string(), fmt::format("the face ends {:.1f} s before the motion; its last values are held", missing)});
+  } else if (missing < -0.5) {
+    face.notices.push_back(
+        {path.string(), fmt::format("the face goes on {:.1f} s after the motion; that is left out", -missing)});
+  }
+  for (ScalarTrack& track : face_csv::resampled(face, motion.rate(), motion.frame_count())) {
+    part.motion.add_track(std::move(track));
+  }
+  notices.insert(notices.end(), face.notices.begin(), face.notices.end());
+  part.face_file = path.filename().string();
+  part.face_fingerprint = fingerprint;
+}
+
 /// Signs that lie outside the motion can be found but not signed: say so.
 void report_uncovered(const std::vector<Sign>& signs, const FrameClock& clock, std::int64_t frames,
                       const std::string& where, std::vector<Notice>& notices) {
@@ -153,14 +176,23 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   const bool document_known = known && known->document != 0;
   const bool same_motion = motion_known && known->motion_fingerprint == motion_print &&
                            !(known->layout && reads_otherwise(options.motion, *known->layout));
-  const bool new_motion = job.motion && (!same_motion || options.replace_motion);
+  // A face is a part of the motion. One that comes to a motion without replaces nothing, so it needs no leave.
+  const std::uint64_t face_print = job.face ? file_checksum(*job.face) : 0;
+  const bool new_face = job.face && same_motion && known->face_file.empty();
+  const bool other_face = job.face && same_motion && !new_face && known->face_fingerprint != face_print;
+  const bool new_motion = job.motion && (!same_motion || new_face || other_face || options.replace_motion);
 
   ImportReport report;
   Recording recording;
   report.name = recording.name = known ? known->name : job.name;
   recording.signer_given = !job.signer.empty() || (known && known->signer_given);
   recording.signer = !job.signer.empty() ? job.signer : recording.signer_given ? known->signer : "";
-  if (new_motion && motion_known && !options.replace_motion) {
+  if (other_face && !options.replace_motion) {
+    throw Error(ErrorCode::conflict,
+                fmt::format("{}: is not the face that recording '{}' was imported with; --replace-motion takes it",
+                            job.face->string(), recording.name));
+  }
+  if (new_motion && motion_known && !new_face && !options.replace_motion) {
     throw Error(
         ErrorCode::conflict,
         fmt::format("{}: is not the motion that recording '{}' was imported from (or is read with other options); "
@@ -217,7 +249,15 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   // The motion.
   FrameRate rate = motion_known ? known->motion->rate : FrameRate{};
   report.frames = motion_known ? known->motion->frames : 0;
-  if (new_motion) {
+  if (new_face && !options.replace_motion) {  // to the motion as it was read then, whatever it was read with
+    recording.motion = MotionPart{.motion = database.read(recording.name),
+                                  .layout = known->layout,
+                                  .file = known->motion_file,
+                                  .fingerprint = motion_print,
+                                  .face_file = {},
+                                  .face_fingerprint = 0};
+    keep_notices(*known, known->motion_file, recording.notices);
+  } else if (new_motion) {
     bvh::ReadOptions read_options = options.motion;
     read_options.progress = half(progress, 0);
     bvh::File file = bvh::read(*job.motion, read_options);
@@ -227,10 +267,18 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     recording.motion = MotionPart{.motion = std::move(file.motion),
                                   .layout = std::move(file.layout),
                                   .file = job.motion->filename().string(),
-                                  .fingerprint = motion_print};
+                                  .fingerprint = motion_print,
+                                  .face_file = {},
+                                  .face_fingerprint = 0};
+    if (!job.face && known && !known->face_file.empty()) {
+      recording.notices.push_back({job.motion->string(), fmt::format("'{}' was not given again, so its face is gone",
+                                                                     printable(known->face_file))});
+    }
   } else if (known) {
     keep_notices(*known, known->motion_file, recording.notices);
+    keep_notices(*known, known->face_file, recording.notices);
   }
+  if (new_motion && job.face) add_face(*job.face, face_print, *recording.motion, recording.notices);
   if (new_annotation) {
     recording.notices.insert(recording.notices.end(), annotation_notices.begin(), annotation_notices.end());
   } else if (known) {
@@ -286,12 +334,13 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   database.put(recording, half(progress, 0.5));
   report.signs = signs.size();
   report.notices = recording.notices;
-  report.outcome = !known                              ? ImportOutcome::added
-                   : new_motion && !motion_known       ? ImportOutcome::motion_added
-                   : new_annotation && !document_known ? ImportOutcome::annotation_added
-                   : new_motion                        ? ImportOutcome::motion_replaced
-                   : new_annotation                    ? ImportOutcome::annotation_replaced
-                                                       : ImportOutcome::clock_changed;
+  report.outcome = !known                                ? ImportOutcome::added
+                   : new_motion && !motion_known         ? ImportOutcome::motion_added
+                   : new_annotation && !document_known   ? ImportOutcome::annotation_added
+                   : new_face && !options.replace_motion ? ImportOutcome::face_added
+                   : new_motion                          ? ImportOutcome::motion_replaced
+                   : new_annotation                      ? ImportOutcome::annotation_replaced
+                                                         : ImportOutcome::clock_changed;
   return report;
 }
 

@@ -22,6 +22,7 @@ struct ImportJob {
   std::string name;  ///< of the recording: the stem of its files, with the folder's name in front where stems collide
   std::optional<std::filesystem::path> motion;
   std::optional<std::filesystem::path> annotation;
+  std::optional<std::filesystem::path> face;  ///< face capture, its first row at the motion's first frame
   std::string signer;
   std::optional<Seconds> offset;  ///< annotation time of frame 0, from a table of pairs
 };
@@ -32,7 +33,8 @@ struct Pairing {
 };
 
 /// Finds out which files belong together. Folders are walked; files pair by the table of pairs, by stem in one folder,
-/// by a stem that is unique, and by the files that an EAF links; one EAF may serve several motions.
+/// by a stem that is unique, and by the files that an EAF links; one EAF may serve several motions. A face capture
+/// STEM.face.csv goes with the motion STEM of its folder.
 /// Throws Error{not_found} for an input that is not there, Error{unsupported} for a file of a kind that cannot be read,
 /// Error{bad_input} for a bad table.
 ///
@@ -55,7 +57,7 @@ struct ImportOptions {
   std::map<std::string, PhaseKind> phase_labels;  ///< see TierNames
   std::optional<Seconds> offset;  ///< annotation time of frame 0; else from the EAF's TIME_ORIGIN; else 0
   std::vector<SyncPoint> sync;    ///< none, or two: sets origin and rate of the clock
-  bool replace_motion = false;    ///< take a motion file that changed since it was imported
+  bool replace_motion = false;    ///< take a motion or face file that changed since it was imported
 };
 
 enum class ImportOutcome {
@@ -65,6 +67,7 @@ enum class ImportOutcome {
   annotation_added,  ///< to a motion that was there
   annotation_replaced,
   motion_added,  ///< to an annotation that was there
+  face_added,    ///< to a motion that had none
   motion_replaced,
 };
 
@@ -77,7 +80,8 @@ struct ImportReport {
 };
 
 /// Imports one recording: nothing where nothing changed; a changed annotation replaces the annotation alone; a changed
-/// motion is Error{conflict} unless replace_motion (which also takes an unchanged one again, over damage). What an
+/// motion, or a changed face, which is a part of it, is Error{conflict} unless replace_motion (which also takes an
+/// unchanged one again, over damage). What an
 /// earlier import was told (clock, tiers, signer) holds until it is told anew. A fault leaves the recording as it was.
 ImportReport import_recording(Database& database, const ImportJob& job, const ImportOptions& options,
                               const Database::Progress& progress = {});

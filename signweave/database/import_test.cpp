@@ -293,5 +293,124 @@ TEST_F(ImportTest, PhaseLabelsAreReadFromATable) {
   EXPECT_THROW(read_phase_labels(files() / "wrong.txt"), Error);
 }
 
+/// A face of one track over some rows, 60 a second.
+std::string face_text(const std::string& value, int rows = 120) {
+  std::string text = "Timecode,BlendShapeCount,JawOpen\n";
+  for (int i = 0; i < rows; ++i) {
+    text += "10:00:" + std::to_string(10 + i / 60) + ':' + std::to_string(i % 60) + ",1," + value + '\n';
+  }
+  return text;
+}
+
+TEST_F(ImportTest, AFaceGoesWithTheMotionBesideItAndNoOther) {
+  write_motion("x/a.bvh", 1);
+  write_motion("y/a.bvh", 2);
+  write_motion("y/b.BVH", 3);
+  write_text("y/a.face.csv", "x");
+  write_text("y/b.Face.CSV", "x");
+  write_text("y/c.face.csv", "x");
+  write_text("y/a.csv", "x");
+  const Pairing pairing = pair_files({files()});
+  ASSERT_EQ(pairing.jobs.size(), 3u);
+  EXPECT_FALSE(pairing.jobs[1].face) << pairing.jobs[1].name;
+  EXPECT_EQ(pairing.jobs[2].name, "y/a");
+  EXPECT_EQ(pairing.jobs[2].face, files() / "y/a.face.csv");
+  EXPECT_EQ(pairing.jobs[0].face, files() / "y/b.Face.CSV");
+  ASSERT_EQ(pairing.notices.size(), 2u);
+  EXPECT_THAT(pairing.notices[0].text, HasSubstr("1 files of other kinds"));
+  EXPECT_THAT(pairing.notices[1].where, HasSubstr("y/c.face.csv"));
+  EXPECT_THAT(pairing.notices[1].text, HasSubstr("a face without its motion, passed over; put it beside a 'c.bvh'"));
+}
+
+TEST_F(ImportTest, AFaceGoesWithAMotionThatATablePairs) {
+  write_motion("a.bvh", 1);
+  write_annotation("b.eaf", {"B"});
+  write_text("a.face.csv", face_text("0.5"));
+  write_text("pairs.csv", "a.bvh,b.eaf\n");
+  const Pairing pairing = pair_files({files() / "a.face.csv"}, files() / "pairs.csv");
+  ASSERT_EQ(pairing.jobs.size(), 1u);
+  EXPECT_EQ(pairing.jobs[0].face, files() / "a.face.csv");
+}
+
+TEST_F(ImportTest, AFaceIsTheMotionsTracks) {
+  write_motion("a.bvh", 1);  // 200 frames, 2 s
+  write_text("a.face.csv", face_text("0.5"));
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::added));
+  EXPECT_THAT(notices_, testing::Not(testing::Contains(HasSubstr("face"))));
+  {
+    const Database database(folder_ / "db", kv::Access::read_only);
+    const Motion motion = database.read("a");
+    ASSERT_EQ(motion.tracks().size(), 1u);
+    EXPECT_EQ(motion.tracks()[0], (ScalarTrack{"jawOpen", std::vector<float>(200, 0.5f)}));
+    EXPECT_EQ(database.info("a")->face_file, "a.face.csv");
+    EXPECT_THAT(database.info("a")->motion->tracks, ElementsAre("jawOpen"));
+  }
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::unchanged));
+  std::filesystem::remove(files() / "a.face.csv");
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::unchanged)) << "what is not there now is not taken away";
+  write_annotation("a.eaf", {"A"});
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::annotation_added));
+  EXPECT_EQ(Database(folder_ / "db", kv::Access::read_only).read("a").tracks().size(), 1u);
+}
+
+TEST_F(ImportTest, AFaceComesToAMotionAsItWasRead) {
+  write_motion("a.bvh", 1);
+  ImportOptions mirrored;
+  mirrored.motion.mirror = true;
+  import_all(mirrored);
+  const Motion before = Database(folder_ / "db", kv::Access::read_only).read("a");
+  write_text("a.face.csv", face_text("0.5"));
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::face_added));
+  const Database database(folder_ / "db", kv::Access::read_only);
+  EXPECT_TRUE(same_poses(database.read("a"), before));
+  EXPECT_EQ(database.read("a").tracks().size(), 1u);
+  EXPECT_TRUE(database.info("a")->layout->mirrored);
+}
+
+TEST_F(ImportTest, AFaceThatChangedIsTakenOnlyWhenAsked) {
+  write_motion("a.bvh", 1);
+  write_text("a.face.csv", face_text("0.5"));
+  import_all();
+  write_text("a.face.csv", face_text("0.25"));
+  try {
+    import_all();
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::conflict);
+    EXPECT_THAT(error.what(),
+                HasSubstr("a.face.csv: is not the face that recording 'a' was imported with; --replace-motion"));
+  }
+  EXPECT_EQ(Database(folder_ / "db", kv::Access::read_only).read("a").tracks()[0].values[9], 0.5f);
+  EXPECT_THAT(import_all({.replace_motion = true}), ElementsAre(ImportOutcome::motion_replaced));
+  EXPECT_EQ(Database(folder_ / "db", kv::Access::read_only).read("a").tracks()[0].values[9], 0.25f);
+  std::filesystem::remove(files() / "a.face.csv");
+  EXPECT_THAT(import_all({.replace_motion = true}), ElementsAre(ImportOutcome::motion_replaced));
+  EXPECT_THAT(notices_, testing::Contains(HasSubstr("'a.face.csv' was not given again, so its face is gone")));
+  EXPECT_TRUE(Database(folder_ / "db", kv::Access::read_only).read("a").tracks().empty());
+}
+
+TEST_F(ImportTest, AFaceThatIsShorterOrLongerThanItsMotionIsTold) {
+  write_motion("a.bvh", 1);
+  write_text("a.face.csv", face_text("0.5", 60));
+  write_motion("b.bvh", 2);
+  write_text("b.face.csv", face_text("0.5", 240));
+  import_all();
+  EXPECT_THAT(notices_,
+              testing::Contains(HasSubstr("the face ends 1.0 s before the motion; its last values are held")));
+  EXPECT_THAT(notices_, testing::Contains(HasSubstr("the face goes on 2.0 s after the motion; that is left out")));
+}
+
+TEST_F(ImportTest, ABrokenFaceImportsNothingOfItsRecording) {
+  write_motion("a.bvh", 1);
+  write_text("a.face.csv", face_text("x"));
+  try {
+    import_all();
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a.face.csv:2: 'x' in column JawOpen is no finite number"));
+  }
+  EXPECT_FALSE(Database(folder_ / "db", kv::Access::read_only).info("a"));
+}
+
 }  // namespace
 }  // namespace signweave

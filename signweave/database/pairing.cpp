@@ -14,27 +14,62 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Kind { motion, annotation, other };
+enum class Kind { motion, annotation, face, other };
 
 Kind kind_of(const fs::path& path) {
   const std::string ending = fold_case(path.extension().string());
   if (ending == ".bvh") return Kind::motion;
   if (ending == ".eaf") return Kind::annotation;
+  if (fold_case(path.filename().string()).ends_with(".face.csv")) return Kind::face;
   return Kind::other;
 }
 
 [[noreturn]] void refuse_kind(const fs::path& path) {
   throw Error(ErrorCode::unsupported,
-              fmt::format("{}: neither a motion file (.bvh) nor an annotation file (.eaf)", path.string()));
+              fmt::format("{}: neither a motion file (.bvh), an annotation file (.eaf) nor a face capture (.face.csv)",
+                          path.string()));
 }
 
 struct Files {
   std::vector<fs::path> motions;
   std::vector<fs::path> annotations;
+  std::vector<fs::path> faces;
 };
 
 void take(const fs::path& path, Files& files) {
-  (kind_of(path) == Kind::motion ? files.motions : files.annotations).push_back(path);
+  switch (kind_of(path)) {
+    case Kind::motion:
+      files.motions.push_back(path);
+      break;
+    case Kind::annotation:
+      files.annotations.push_back(path);
+      break;
+    case Kind::face:
+      files.faces.push_back(path);
+      break;
+    case Kind::other:
+      break;
+  }
+}
+
+/// Gives each face capture to the motion beside it that has its stem; one without is told.
+void pair_faces(const std::vector<fs::path>& faces, std::vector<ImportJob>& jobs, std::vector<Notice>& notices) {
+  const auto beside = [](const fs::path& folder, const fs::path& stem) {
+    std::error_code ignored;
+    return fs::weakly_canonical(folder.empty() ? "." : folder, ignored) / stem;
+  };
+  for (const fs::path& face : faces) {
+    const fs::path stem = beside(face.parent_path(), face.stem().stem());
+    const auto job = std::find_if(jobs.begin(), jobs.end(), [&](const ImportJob& one) {
+      return one.motion && beside(one.motion->parent_path(), one.motion->stem()) == stem;
+    });
+    if (job != jobs.end()) {
+      job->face = face;
+    } else {
+      notices.push_back({face.string(), fmt::format("a face without its motion, passed over; put it beside a '{}.bvh'",
+                                                    printable(stem.filename().string()))});
+    }
+  }
 }
 
 Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
@@ -61,7 +96,7 @@ Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
     if (fault) throw Error(ErrorCode::io, fmt::format("{}: cannot be walked: {}", input.string(), fault.message()));
     if (others > 0) notices.push_back({input.string(), fmt::format("{} files of other kinds passed over", others)});
   }
-  for (std::vector<fs::path>* list : {&files.motions, &files.annotations}) {
+  for (std::vector<fs::path>* list : {&files.motions, &files.annotations, &files.faces}) {
     std::sort(list->begin(), list->end());
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
@@ -269,6 +304,7 @@ Pairing pair_files(const std::vector<fs::path>& inputs, const std::optional<fs::
     job.annotation = annotation;
     jobs.push_back(std::move(job));
   }
+  pair_faces(files.faces, jobs, result.notices);
   name_jobs(jobs);
   std::sort(jobs.begin(), jobs.end(), [](const ImportJob& a, const ImportJob& b) { return a.name < b.name; });
   for (std::size_t i = 1; i < jobs.size(); ++i) {

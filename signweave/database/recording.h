@@ -23,6 +23,8 @@ struct MotionPart {
   std::optional<bvh::Layout> layout;  ///< how its file looked, for writing it back; none where it was no BVH file
   std::string file;                   ///< the file's name without its folder, for reports; may be empty
   std::uint64_t fingerprint = 0;      ///< checksum of the file's bytes; 0: not known
+  std::string face_file;              ///< the same of the face capture whose tracks the motion has; empty: none
+  std::uint64_t face_fingerprint = 0;
 };
 
 /// The annotation half.
@@ -60,8 +62,10 @@ struct RecordingInfo {
   TierNames tiers;
   std::string motion_file;
   std::string annotation_file;
+  std::string face_file;
   std::uint64_t motion_fingerprint = 0;
   std::uint64_t annotation_fingerprint = 0;
+  std::uint64_t face_fingerprint = 0;
   std::vector<Notice> notices;
   /// What its document says of itself and must not be lost in what is made of it: properties "signweave:…", such as
   /// that a demo's shapes are placeholders. Name and value.

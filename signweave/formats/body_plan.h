@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "signweave/motion/kinematics.h"
+#include "signweave/motion/motion.h"
+
+/// What a skeleton is a skeleton of, told from its shape alone: no table of names. For drawing only, so a wrong answer
+/// makes an odd picture and nothing else.
+namespace signweave {
+
+/// The head as an ellipsoid, in the plan's pose.
+struct HeadShape {
+  JointIndex joint = kNoJoint;
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+  Eigen::Vector3f left = Eigen::Vector3f::UnitX();  ///< of the person; unit, as are the next two
+  Eigen::Vector3f up = Eigen::Vector3f::UnitY();
+  Eigen::Vector3f forward = Eigen::Vector3f::UnitZ();
+  Eigen::Vector3f half = Eigen::Vector3f::Zero();  ///< metres along left, up, forward
+};
+
+/// A joint from which fingers grow.
+struct HandShape {
+  JointIndex joint = kNoJoint;
+  std::vector<JointIndex> knuckles;  ///< where fingers leave the palm; at least four
+};
+
+/// Everything is in the model space of one captured pose, metres: in a rest pose the limbs of one body may point
+/// anywhere.
+struct BodyPlan {
+  ModelPose pose;
+  std::vector<Eigen::Vector3f> bones;      ///< [joint] from its parent to it; zero for the root
+  std::vector<Eigen::Vector3f> tip_bones;  ///< [tip] from its joint to it
+  std::vector<std::vector<JointIndex>> children;
+  float size = 1;                                   ///< about the stature, told from the bones' lengths; above 0
+  Eigen::Vector3f left = Eigen::Vector3f::UnitX();  ///< unit, of the trunk
+  Eigen::Vector3f up = Eigen::Vector3f::UnitY();
+  Eigen::Vector3f forward = Eigen::Vector3f::UnitZ();
+  std::vector<JointIndex> trunk;    ///< from the hips to the chest; empty where no chest was found
+  JointIndex neck = kNoJoint;       ///< child of the chest that leads to the head
+  std::vector<JointIndex> collars;  ///< between the chest and the shoulders
+  float hip_width = 0;              ///< half the distance between the legs
+  float shoulder_width = 0;         ///< half the distance between the arms
+  std::optional<HeadShape> head;
+  std::vector<HandShape> hands;
+
+  const Eigen::Vector3f& place(JointIndex joint) const { return pose.positions[static_cast<std::size_t>(joint)]; }
+};
+
+/// The plan of a motion of at least one frame, from its middle one. `head` says which joint is the head, where the
+/// caller knows.
+BodyPlan plan_of(const Motion& motion, std::optional<JointIndex> head = {});
+
+}  // namespace signweave

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signweave/core/error.h"
+#include "signweave/core/time.h"
+#include "signweave/motion/motion.h"
+
+/// Face capture as Live Link Face writes it: a line of headings (Timecode, BlendShapeCount, then 52 ARKit names and 9
+/// head and eye rotations), and a line a frame. Inside signweave the names are ARKit's own: EyeBlinkLeft is
+/// "eyeBlinkLeft".
+namespace signweave::face_csv {
+
+/// What such a file holds.
+struct Face {
+  FrameRate rate;                   ///< of its timecode: whole frames a second
+  std::vector<Seconds> times;       ///< [row] since the first row, never going back
+  std::vector<ScalarTrack> tracks;  ///< in the file's order, each with one value a row
+  std::vector<Notice> notices;
+};
+
+/// Reads a file. A timecode is HOURS:MINUTES:SECONDS:FRAMES.PART; its rate is the standard one above the highest frame
+/// number where a second is seen whole, else 60. Rows whose count is 0 and that have no values (no face was seen) are
+/// passed over. Throws Error{bad_input, "FILE:LINE: …"} for what is no such file, Error{not_found}, Error{io}.
+Face read(const std::filesystem::path& path);
+/// The same from text; `name` stands for the file in errors.
+Face read_text(const std::string& name, std::string_view text);
+
+/// The tracks at the frames of a motion, the first row at frame 0: linear between rows, the last value held after the
+/// last row.
+std::vector<ScalarTrack> resampled(const Face& face, FrameRate rate, std::int64_t frames);
+
+/// The scalar tracks of a motion: every ARKit name, 0 where the motion has no such track, then its other tracks. The
+/// timecode begins at 0.
+std::string write_text(const Motion& motion);
+
+/// The names of the columns: 52 of ARKit in Live Link Face's order, then head and eyes.
+std::span<const std::string_view> track_names();
+
+}  // namespace signweave::face_csv

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+// The library's name for itself, so that no other file needs its header's long list.
+#include <tiny_gltf.h>
+
+#include "signweave/core/time.h"
+
+namespace signweave::gltf {
+
+/// A glTF model that is being put together: numbers go into its one buffer, each list with a view and an accessor of
+/// its own, four-byte aligned. Every function returns the accessor's index.
+class Document {
+ public:
+  /// Holds at most `most_bytes` of numbers: the function that would pass it throws Error{unsupported}, with `too_large`
+  /// as its text.
+  Document(std::size_t most_bytes, std::string too_large);
+
+  /// One number each; with their bounds where they are the times of an animation.
+  int scalars(std::span<const float> values, bool with_bounds = false);
+  /// Vertex attributes (positions and targets have bounds, normals have none), or the keys of an animation.
+  int vectors(std::span<const Eigen::Vector3f> values, bool vertices, bool with_bounds = false);
+  /// Keys of rotations: x, y, z, w.
+  int quaternions(std::span<const Eigen::Vector4f> values);
+  int matrices(std::span<const Eigen::Matrix4f> values);
+  /// JOINTS_0: each vertex moves with one joint.
+  int joints(std::span<const int> values);
+  /// WEIGHTS_0 beside it: all weight on the first.
+  int full_weights(std::size_t count);
+  int indices(std::span<const std::uint32_t> values);
+
+  tinygltf::Model& model() { return model_; }
+  const tinygltf::Model& model() const { return model_; }
+
+ private:
+  int add(const void* bytes, std::size_t size, std::size_t count, int component, int type, int target);
+  template <typename T>
+  int add_list(std::span<const T> values, std::size_t count, int component, int type, int target) {
+    return add(values.data(), values.size_bytes(), count, component, type, target);
+  }
+
+  tinygltf::Model model_;
+  std::size_t most_bytes_;
+  std::string too_large_;
+};
+
+/// The time of each frame, seconds. Throws Error{unsupported} where two fall together: glTF's times are floats, and
+/// must grow.
+std::vector<float> key_times(FrameRate rate, std::int64_t frames);
+
+}  // namespace signweave::gltf

@@ -7,6 +7,9 @@
 #include <tuple>
 
 #include "demo/arm.h"
+#include "demo/body.h"
+#include "demo/face.h"
+#include "demo/keep_out.h"
 #include "signweave/motion/kinematics.h"
 
 namespace signweave::demo {
@@ -42,45 +45,46 @@ WristAngles mix(const WristAngles& a, const WristAngles& b, float t) {
           .swivel = mix(a.swivel, b.swivel, t)};
 }
 
-/// The small unrest of one arm.
+/// The small unrest of one arm: slow wandering of about a millimetre, and a finer, quicker one.
 struct ArmUnrest {
   explicit ArmUnrest(Random& random)
       : place{{random, 0.2, 1.1}, {random, 0.2, 1.1}, {random, 0.2, 1.1}},
+        tremor{{random, 3, 7}, {random, 3, 7}, {random, 3, 7}},
+        twist(random, 0.2, 0.9),
         flexion(random, 0.2, 0.9),
         radial(random, 0.2, 0.9),
         swivel(random, 0.05, 0.4),
         fingers{{random, 0.1, 0.8}, {random, 0.1, 0.8}, {random, 0.1, 0.8}, {random, 0.1, 0.8}, {random, 0.1, 0.8}} {}
-  Wander place[3], flexion, radial, swivel, fingers[kFingers];
+  Wander place[3], tremor[3], twist, flexion, radial, swivel, fingers[kFingers];
 };
 
 /// Fills the frames of one motion, one after another.
 class Animator {
  public:
-  Animator(const Signer& signer, const Script& script, const Timeline& timeline, Random& random)
+  Animator(const Signer& signer, const Timeline& timeline, const HandPlan& plan, Random& random)
       : signer_(signer),
-        plan_(script, timeline),
+        plan_(plan),
         fps_(timeline.rate.hertz()),
-        hip_{{random, 0.05, 0.35}, {random, 0.05, 0.35}, {random, 0.05, 0.35}},
-        trunk_{{random, 0.05, 0.35}, {random, 0.05, 0.35}, {random, 0.05, 0.35}},
-        head_{{random, 0.1, 0.7}, {random, 0.1, 0.7}, {random, 0.1, 0.7}},
-        arms_{ArmUnrest(random), ArmUnrest(random)},
-        breath_(random.uniform(0.22, 0.28)) {
+        body_(move_body(timeline, plan, random)),
+        face_(face_of(timeline, random)),
+        arms_{ArmUnrest(random), ArmUnrest(random)} {
     const Skeleton& skeleton = *signer.skeleton;
     sizes_ = {skeleton.joint(signer.left.fore_arm).offset.norm(), skeleton.joint(signer.left.hand).offset.norm()};
     shoulder_ = signer.rest_position(signer.left.arm);
-    rest_ = angles_at(rest_place(), {-0.2f, 0.2f, -1.0f}, {-0.42f, -0.72f, 0.45f});
   }
 
   void fill(std::int64_t frame, MutablePoseView pose) {
-    const double at = static_cast<double>(frame);
-    const double seconds = at / fps_;
-    const Vector3f right = plan_.at(Side::right, at);
-    const Vector3f left = plan_.at(Side::left, at);
-    fill_trunk(seconds, right, left, pose);
+    const BodyFrame& body = body_[static_cast<std::size_t>(frame)];
+    fill_trunk(body, pose);
     to_model_space(*signer_.skeleton, pose, model_);
-    for (const Side side : kSides) fill_arm(side, at, side == Side::right ? right : left, pose);
+    keep_out_ = keep_out_of(signer_, model_);
+    fill_face(frame, body, pose);
+    for (const Side side : kSides) fill_arm(side, static_cast<double>(frame), body, pose);
     for (const Side side : kSides) fill_leg(side, pose);
   }
+
+  /// The face's tracks, once every frame is filled.
+  FaceMotion take_face() { return std::move(face_); }
 
  private:
   static Quaternionf& of(MutablePoseView pose, JointIndex joint) {
@@ -90,126 +94,222 @@ class Animator {
   const Quaternionf& rotation(JointIndex joint) const { return model_.rotations[static_cast<std::size_t>(joint)]; }
 
   /// Angles of the left arm (the right's are the same in the mirror) for a wrist at a place of the sign table.
-  WristAngles angles_at(const Vector3f& place, const Vector3f& palm, const Vector3f& fingers,
-                        float swivel = kNaturalSwivel) const {
+  WristAngles angles_at(const Vector3f& place, const Vector3f& palm, const Vector3f& fingers, float swivel) const {
     const Vector3f wrist = to_model(place, Side::left);
     const Vector3f clavicle = signer_.rest_position(signer_.left.shoulder);
     const Vector3f shoulder = clavicle + clavicle_rotation(wrist - shoulder_) * (shoulder_ - clavicle);
     return comfortable_wrist(shoulder, wrist, sizes_, palm, fingers, swivel);
   }
+  WristAngles angles_at(const Vector3f& place, const Vector3f& palm, const Vector3f& fingers) const {
+    // The elbow lifts with the hand.
+    const float high = std::clamp((place.y() + 0.15f) / 0.35f, 0.0f, 1.0f);
+    return angles_at(place, palm, fingers, kNaturalSwivel + 0.5f * high * high);
+  }
 
-  struct Held {
-    WristAngles angles;
-    Handshape shape = Handshape::relaxed;
-  };
-  /// What a hand is like at the begin (done 0) or end (1) of a sign's stroke; at rest where it does not act.
-  const Held& held(const SignShape* sign, Side side, int done) {
-    const auto [at, fresh] = held_.try_emplace({sign, side, done});
-    if (fresh) at->second = find_held(sign, side, done);
+  /// What an arm is like at an end of a stretch of the plan, without what is special about a token.
+  const WristAngles& held(const HandPlan::End& end, Side side) {
+    const SignShape* sign = end.sign != nullptr && acts(*end.sign->shape, side) ? end.sign->shape : nullptr;
+    const int which = sign != nullptr ? end.stroke : static_cast<int>(end.rest);
+    const auto [at, fresh] = held_.try_emplace({sign, side, which});
+    if (fresh) at->second = find_held(sign, side, which);
     return at->second;
   }
-  Held find_held(const SignShape* sign, Side side, int done) {
-    if (sign == nullptr || !acts(*sign, side)) return {rest_, Handshape::relaxed};
-    if (side == Side::left && sign->hands == Hands::on_base) {
-      return {angles_at(sign->base.place, sign->base.palm, sign->base.fingers), sign->base.shape};
+  WristAngles find_held(const SignShape* sign, Side side, int which) {
+    if (sign == nullptr && static_cast<Rest>(which) == Rest::hips) {
+      return angles_at(rest_place(Rest::hips), {-1.0f, 0.0f, -0.15f}, {0.05f, -1.0f, 0.22f});
     }
-    const Vector3f place = stroke_place(*sign, side, static_cast<float>(done));
-    if (done == 0) return {angles_at(place, sign->palm, sign->fingers), sign->shape};
+    if (sign == nullptr) return angles_at(rest_place(), {-0.2f, 0.2f, -1.0f}, {-0.62f, -0.55f, 0.40f});
+    if (side == Side::left && sign->hands == Hands::on_base) {
+      return angles_at(sign->base.place, sign->base.palm, sign->base.fingers);
+    }
+    const Vector3f place = stroke_place(*sign, side, static_cast<float>(which));
+    if (which == 0) return angles_at(place, sign->palm, sign->fingers);
     // In the stroke the elbow stays about where it is.
-    const float swivel = held(sign, side, 0).angles.swivel;
-    return {angles_at(place, sign->palm_end.value_or(sign->palm), sign->fingers_end.value_or(sign->fingers), swivel),
-            sign->shape_end.value_or(sign->shape)};
+    const auto begin = held_.try_emplace({sign, side, 0}).first;
+    if (begin->second.swivel == 0) begin->second = find_held(sign, side, 0);
+    return angles_at(place, sign->palm_end.value_or(sign->palm), sign->fingers_end.value_or(sign->fingers),
+                     begin->second.swivel);
+  }
+  WristAngles angles_of_end(const HandPlan::End& end, Side side) {
+    WristAngles angles = held(end, side);
+    if (end.sign != nullptr) {
+      angles.twist += end.sign->token.turn;
+      angles.flexion += end.sign->token.bend;
+      angles = mix(angles, held({.rest = end.rest}, side), end.let_go);
+    }
+    return angles;
   }
 
-  void fill_trunk(double seconds, const Vector3f& right, const Vector3f& left, MutablePoseView pose) {
+  void fill_trunk(const BodyFrame& body, MutablePoseView pose) {
     const Vector3f x = Vector3f::UnitX();
     const Vector3f y = Vector3f::UnitY();
     const Vector3f z = Vector3f::UnitZ();
     // The knees keep a little bend, so the hips are lower than in the rest pose.
-    const Vector3f sway(static_cast<float>(0.006 * hip_[0].at(seconds)), -0.012f,
-                        static_cast<float>(0.004 * hip_[1].at(seconds)));
-    pose.translations[0] = signer_.skeleton->joint(signer_.hips).offset + sway;
-    of(pose, signer_.hips) = turn(0.012 * hip_[2].at(seconds), y) * turn(0.006 * hip_[0].at(seconds), z);
-    const double breath = std::sin(2 * std::numbers::pi * breath_ * seconds);
-    // The shoulder of the hand that reaches farther comes forward with it.
-    const double reach = 0.12 * static_cast<double>(right.z() - left.z());
-    const double pitch = 0.008 * trunk_[0].at(seconds);
-    const double roll = 0.010 * trunk_[1].at(seconds);
-    const double yaw = 0.010 * trunk_[2].at(seconds) + reach;
-    of(pose, signer_.spine) = turn(pitch, x) * turn(0.3 * roll, z);
-    of(pose, signer_.spine1) = turn(0.3 * yaw, y) * turn(0.3 * roll, z) * turn(-0.004 * breath, x);
-    of(pose, signer_.spine2) = turn(0.7 * yaw, y) * turn(0.4 * roll, z) * turn(-0.007 * breath, x);
-    // The head looks at whoever is addressed, and a little after the right hand.
-    const double look_yaw =
-        0.030 * head_[0].at(seconds) + 0.18 * static_cast<double>(right.x() + rest_place().x()) - 0.6 * yaw;
-    const double look_pitch =
-        0.020 * head_[1].at(seconds) - 0.10 * static_cast<double>(right.y() - 1.30f) - 0.5 * pitch + 0.02;
-    const double look_roll = 0.020 * head_[2].at(seconds);
+    pose.translations[0] = signer_.skeleton->joint(signer_.hips).offset + body.hips - 0.014f * y;
+    of(pose, signer_.hips) = turn(body.hips_yaw, y) * turn(body.hips_roll, z);
+    of(pose, signer_.spine) = turn(0.35 * body.pitch, x) * turn(0.3 * body.roll, z);
+    of(pose, signer_.spine1) =
+        turn(0.35 * body.yaw, y) * turn(0.35 * body.pitch - 0.006 * body.breath, x) * turn(0.3 * body.roll, z);
+    of(pose, signer_.spine2) =
+        turn(0.65 * body.yaw, y) * turn(0.30 * body.pitch - 0.014 * body.breath, x) * turn(0.4 * body.roll, z);
+    // The neck gives back what the trunk takes.
+    const double yaw = body.head_yaw - body.yaw - body.hips_yaw;
+    const double pitch = body.head_pitch - body.pitch + 0.014 * body.breath;
+    const double roll = body.head_roll - body.roll - body.hips_roll;
     const auto part = [&](double share) {
-      return turn(share * look_yaw, y) * turn(share * look_pitch, x) * turn(share * look_roll, z);
+      return turn(share * yaw, y) * turn(share * pitch, x) * turn(share * roll, z);
     };
     of(pose, signer_.neck) = part(0.25);
     of(pose, signer_.neck1) = part(0.25);
     of(pose, signer_.head) = part(0.5);
-    for (const Side side : kSides) {  // the eyes stay with the addressee while the head moves
-      of(pose, signer_.side(side).eye) = turn(-0.7 * look_yaw, y) * turn(-0.7 * look_pitch, x);
-    }
-    of(pose, signer_.jaw) = turn(0.02 + 0.012 * head_[1].at(seconds + 7), x);
   }
 
-  void fill_arm(Side side, double frame, const Vector3f& planned, MutablePoseView pose) {
-    const SideJoints& joints = signer_.side(side);
-    ArmUnrest& unrest = arms_[side == Side::left ? 0 : 1];
-    const double seconds = frame / fps_;
-    const WristPlan::Piece& piece = plan_.piece_at(frame);
-    const double time = WristPlan::time_in(piece, frame);
-    const auto done = static_cast<float>(WristPlan::done_in(piece, frame));
-    const bool stroke = piece.from == piece.to;
+  /// Eyes and jaw, and the lids that follow the eyes.
+  void fill_face(std::int64_t frame, const BodyFrame& body, MutablePoseView pose) {
+    constexpr double kMost = 0.43;  // radians
+    const Vector3f look = rotation(signer_.head).conjugate() * body.look;
+    const double yaw = std::clamp(static_cast<double>(std::atan2(look.x(), look.z())), -kMost, kMost);
+    const double down = std::clamp(static_cast<double>(-std::asin(std::clamp(look.y(), -1.0f, 1.0f))), -kMost, kMost);
+    for (const Side side : kSides) {
+      of(pose, signer_.side(side).eye) = turn(yaw, Vector3f::UnitY()) * turn(down, Vector3f::UnitX());
+    }
+    const auto at = static_cast<std::size_t>(frame);
+    for (const FaceTrack lid : {FaceTrack::eyeBlinkLeft, FaceTrack::eyeBlinkRight}) {
+      float& weight = face_.tracks[static_cast<std::size_t>(lid)][at];
+      const auto lowered = static_cast<float>(0.42 * std::max(0.0, down) / kMost);
+      weight = lowered + (1 - lowered) * weight;
+    }
+    of(pose, signer_.jaw) =
+        turn(0.02 + 0.24 * static_cast<double>(face_.of(FaceTrack::jawOpen)[at]), Vector3f::UnitX());
+  }
 
-    const Held& from = held(piece.from, side, stroke ? 0 : 1);
-    const Held& to = held(piece.to, side, stroke ? 1 : 0);
-    WristAngles angles = mix(from.angles, to.angles, done);
+  struct PosedArm {
+    Vector3f shoulder;
+    Quaternionf clavicle, chest;
+    ArmPose arm;
+  };
+  PosedArm pose_arm(Side side, const Vector3f& wrist, const WristAngles& angles, double breath) const {
+    PosedArm posed;
+    posed.clavicle = clavicle_rotation(wrist - shoulder_) * turn(0.012 * breath, Vector3f::UnitZ());
+    // Clavicle and arm hang on the chest, which has its own rotation.
+    posed.chest = as_left(rotation(signer_.spine2), side);
+    const Vector3f clavicle_place = as_left(position(signer_.side(side).shoulder), side);
+    posed.shoulder = clavicle_place + posed.chest * posed.clavicle * signer_.skeleton->joint(signer_.left.arm).offset;
+    posed.arm = solve_arm(posed.shoulder, wrist, sizes_, angles);
+    return posed;
+  }
+
+  /// Wrist, knuckles, finger joints and tips, model space (of the left arm, or the right one in the mirror).
+  std::vector<Vector3f> hand_points(const ArmPose& arm, const FingerRotations& fingers, Side side) {
+    const Skeleton& skeleton = *signer_.skeleton;
+    std::vector<Vector3f> points = {arm.wrist};
+    for (std::size_t finger = 0; finger < kFingers; ++finger) {
+      Vector3f place = arm.wrist;
+      Quaternionf rotation = arm.hand;
+      for (std::size_t i = 0; i < kPhalanges; ++i) {
+        place += rotation * skeleton.joint(signer_.left.fingers[finger][i]).offset;
+        rotation = rotation * as_left(fingers[finger][i], side);
+        points.push_back(place);
+      }
+      points.push_back(place + rotation * signer_.finger_tip(finger));
+    }
+    return points;
+  }
+
+  WristAngles angles_in(const HandPlan::Piece& piece, Side side, double frame, double seconds, ArmUnrest& unrest) {
+    const auto done = static_cast<float>(HandPlan::done_in(piece, frame));
+    WristAngles angles = mix(angles_of_end(piece.from, side), angles_of_end(piece.to, side), done);
+    if (piece.is_stroke() && acts(*piece.from.sign->shape, side)) {
+      const SignShape& sign = *piece.from.sign->shape;
+      const Token& token = piece.from.sign->token;
+      const bool base = side == Side::left && sign.hands == Hands::on_base;
+      const double u = 2 * static_cast<double>(done) - 1;
+      const double window = 1 - u * u * u * u;
+      const double turns = std::numbers::pi * static_cast<double>(done) * (base ? 0 : 1);
+      const double much = static_cast<double>(token.size * token.small) * window;
+      const int times = times_of(sign, token);
+      if (sign.movement == Movement::twist)
+        angles.twist += static_cast<float>(0.50 * much * std::sin(2 * times * turns));
+      if (sign.movement == Movement::nod)
+        angles.flexion += static_cast<float>(0.42 * much * std::sin(2 * times * turns));
+      // Where the arm goes to and fro the wrist gives a little.
+      if (sign.movement == Movement::repeated) {
+        angles.flexion -= static_cast<float>(0.14 * much * std::sin((2 * times - 1) * turns));
+      }
+    }
+    angles.twist += static_cast<float>(0.020 * unrest.twist.at(seconds));
     angles.flexion += static_cast<float>(0.020 * unrest.flexion.at(seconds));
     angles.radial += static_cast<float>(0.012 * unrest.radial.at(seconds));
     angles.swivel += static_cast<float>(0.030 * unrest.swivel.at(seconds));
-    Vector3f wrist = planned;
-    for (int i = 0; i < 3; ++i) wrist[i] += static_cast<float>(0.0015 * unrest.place[i].at(seconds));
-    wrist = as_left(wrist, side);
+    return limited(angles);
+  }
 
-    const double breath = std::sin(2 * std::numbers::pi * breath_ * seconds);
-    const Quaternionf clavicle = clavicle_rotation(wrist - shoulder_) * turn(0.006 * breath, Vector3f::UnitZ());
-    // Clavicle and arm hang on the chest, which has its own rotation.
-    const Quaternionf chest = as_left(rotation(signer_.spine2), side);
-    const Vector3f clavicle_place = as_left(position(joints.shoulder), side);
-    const Vector3f to_shoulder = signer_.skeleton->joint(signer_.left.arm).offset;
-    const Vector3f shoulder = clavicle_place + chest * clavicle * to_shoulder;
-    const ArmPose arm = solve_arm(shoulder, wrist, sizes_, angles);
+  HandAngles fingers_in(const HandPlan::Piece& piece, Side side, double frame, double seconds,
+                        ArmUnrest& unrest) const {
+    const bool acting = piece.is_stroke() && acts(*piece.from.sign->shape, side);
+    const bool flutter = acting && piece.from.sign->shape->movement == Movement::flutter;
+    HandAngles from = angles_of(shape_of(piece.from, side));
+    HandAngles to = angles_of(shape_of(piece.to, side));
+    // A hand that holds loosens a little.
+    const auto loosen = [&](HandAngles& angles, float let_go) {
+      const HandAngles& relaxed = angles_of(Handshape::relaxed);
+      for (std::size_t finger = 0; finger < kFingers; ++finger) {
+        for (std::size_t i = 0; i < kFingerAngles; ++i) {
+          angles[finger][i] = mix(angles[finger][i], relaxed[finger][i], 2 * let_go);
+        }
+      }
+    };
+    loosen(from, piece.from.let_go);
+    loosen(to, piece.to.let_go);
+    HandAngles angles = blend(from, to, static_cast<float>(HandPlan::shape_done(piece, frame)));
+    const double time = HandPlan::time_in(piece, frame);
+    for (std::size_t finger = 0; finger < kFingers; ++finger) {
+      double bend = 1.4 * unrest.fingers[finger].at(seconds);
+      if (flutter) {
+        const double window = std::sin(std::numbers::pi * time);
+        bend += 17 * static_cast<double>(piece.from.sign->token.size) * window * window *
+                (1 + std::sin(2 * std::numbers::pi * 4.2 * seconds + 1.1 * static_cast<double>(finger)));
+      }
+      const bool thumb = finger == 0;
+      angles[finger][thumb ? 2 : 0] += static_cast<float>(bend) * (thumb ? 0.5f : 1.0f);
+      angles[finger][thumb ? 3 : 1] += static_cast<float>(0.6 * bend);
+      for (std::size_t i = 0; i < kFingerAngles; ++i) {
+        const AngleLimits limits = limits_of(static_cast<int>(finger), static_cast<int>(i));
+        angles[finger][i] = std::clamp(angles[finger][i], limits.least, limits.most);
+      }
+    }
+    return angles;
+  }
+
+  void fill_arm(Side side, double frame, const BodyFrame& body, MutablePoseView pose) {
+    const SideJoints& joints = signer_.side(side);
+    ArmUnrest& unrest = arms_[side == Side::left ? 0 : 1];
+    const double seconds = frame / fps_;
+    const HandPlan::Piece& piece = plan_.piece_at(side, frame);
+    const FingerRotations fingers = finger_rotations(fingers_in(piece, side, frame, seconds, unrest), side);
+    const WristAngles angles = angles_in(piece, side, frame, seconds, unrest);
+
+    Vector3f wrist = as_left(plan_.at(side, frame), side);
+    for (int i = 0; i < 3; ++i) {
+      wrist[i] += static_cast<float>(0.0010 * unrest.place[i].at(seconds) + 0.0002 * unrest.tremor[i].at(seconds));
+    }
+    PosedArm posed = pose_arm(side, wrist, angles, body.breath);
+    std::array<Capsule, 2> forbidden = keep_out_;
+    for (Capsule& capsule : forbidden)
+      capsule = {as_left(capsule.from, side), as_left(capsule.to, side), capsule.radius};
+    const Vector3f push = push_out(forbidden, hand_points(posed.arm, fingers, side));
+    if (push != Vector3f::Zero()) posed = pose_arm(side, wrist + push, angles, body.breath);
+
+    const ArmPose& arm = posed.arm;
     const auto set = [&](JointIndex joint, const Quaternionf& local) {
       of(pose, joint) = as_left(local, side).normalized();
     };
-    set(joints.shoulder, clavicle);
-    set(joints.arm, (chest * clavicle).conjugate() * arm.arm);
+    set(joints.shoulder, posed.clavicle);
+    set(joints.arm, (posed.chest * posed.clavicle).conjugate() * arm.arm);
     set(joints.fore_arm, arm.arm.conjugate() * arm.fore_arm);
     set(joints.hand, arm.fore_arm.conjugate() * arm.hand);
-
-    std::array<float, kFingers> bend{};
-    const bool flutter =
-        stroke && piece.from != nullptr && piece.from->movement == Movement::flutter && acts(*piece.from, side);
-    for (std::size_t i = 0; i < kFingers; ++i) {
-      double extra = 0.025 * unrest.fingers[i].at(seconds);
-      if (flutter) {
-        const double window = std::sin(std::numbers::pi * time);
-        extra += 0.32 * window * window *
-                 (1 + std::sin(2 * std::numbers::pi * 4.2 * seconds + 1.1 * static_cast<double>(i)));
-      }
-      bend[i] = static_cast<float>(extra);
-    }
-    const double formed = std::clamp((time - piece.shape_begin) / (piece.shape_end - piece.shape_begin), 0.0, 1.0);
-    const auto eased = static_cast<float>(formed * formed * formed * (10 + formed * (6 * formed - 15)));
-    const FingerRotations hand =
-        blend(finger_rotations(from.shape, side, bend), finger_rotations(to.shape, side, bend), eased);
     for (std::size_t finger = 0; finger < kFingers; ++finger) {
-      for (std::size_t i = 0; i < kPhalanges; ++i) of(pose, joints.fingers[finger][i]) = hand[finger][i];
+      for (std::size_t i = 0; i < kPhalanges; ++i) of(pose, joints.fingers[finger][i]) = fingers[finger][i];
     }
   }
 
@@ -240,25 +340,29 @@ class Animator {
   }
 
   const Signer& signer_;
-  WristPlan plan_;
+  const HandPlan& plan_;
   double fps_;
-  Wander hip_[3], trunk_[3], head_[3];
+  std::vector<BodyFrame> body_;
+  FaceMotion face_;
   ArmUnrest arms_[2];
-  double breath_;
   ArmSizes sizes_{};
-  Vector3f shoulder_;  ///< the left one in the rest pose
-  WristAngles rest_;
-  std::map<std::tuple<const SignShape*, Side, int>, Held> held_;  ///< found once: each takes a search
-  ModelPose model_;  ///< of the frame being filled, right for the trunk and hips only
+  Vector3f shoulder_;                                                    ///< the left one in the rest pose
+  std::map<std::tuple<const SignShape*, Side, int>, WristAngles> held_;  ///< found once: each takes a search
+  ModelPose model_;                    ///< of the frame being filled, right for trunk, head and hips only
+  std::array<Capsule, 2> keep_out_{};  ///< of the same frame
 };
 
 }  // namespace
 
-Motion animate(const Signer& signer, const Script& script, const Timeline& timeline, Random& random) {
-  Animator animator(signer, script, timeline, random);
+Motion animate(const Signer& signer, const Timeline& timeline, const HandPlan& plan, Random& random) {
+  Animator animator(signer, timeline, plan, random);
   Motion motion(signer.skeleton, timeline.rate, timeline.frames);
   for (std::int64_t frame = 0; frame < timeline.frames; ++frame) animator.fill(frame, motion.pose(frame));
   keep_hemisphere(motion);
+  FaceMotion face = animator.take_face();
+  for (std::size_t i = 0; i < kFaceTracks; ++i) {
+    motion.add_track({std::string(name_of(static_cast<FaceTrack>(i))), std::move(face.tracks[i])});
+  }
   return motion;
 }
 

@@ -103,7 +103,7 @@ class Animator {
   WristAngles angles_at(const Vector3f& place, const Vector3f& palm, const Vector3f& fingers) const {
     // The elbow lifts with the hand.
     const float high = std::clamp((place.y() + 0.15f) / 0.35f, 0.0f, 1.0f);
-    return angles_at(place, palm, fingers, kNaturalSwivel + 0.5f * high * high);
+    return angles_at(place, palm, fingers, kNaturalSwivel + 0.25f * high * high);
   }
 
   /// What an arm is like at an end of a stretch of the plan, without what is special about a token.

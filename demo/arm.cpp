@@ -102,7 +102,7 @@ WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, A
     const auto square = [](float value) { return value * value; };
     const float cost =
         square(excess(twist - kMiddleTwist, radians(55))) * 2 + square(excess(angles.flexion, radians(35))) +
-        square(excess(angles.radial + radians(8), radians(18))) * 2 + 0.25f * square(angles.swivel - swivel);
+        square(excess(angles.radial + radians(8), radians(18))) * 2 + 0.7f * square(angles.swivel - swivel);
     if (cost < least) {
       least = cost;
       best = angles;

@@ -4,8 +4,6 @@
 
 #include <iterator>
 
-#include "signweave/formats/contact_sheet.h"
-
 namespace signweave::demo {
 namespace {
 
@@ -101,20 +99,6 @@ SyntheticRecording make_recording(const Script& script, FrameRate rate, std::uin
   recording.document = annotation_of(script, recording.timeline);
   recording.truth = truth_of(recording.timeline, plan);
   return recording;
-}
-
-std::string stroke_sheet(const SyntheticRecording& recording) {
-  ContactSheetOptions options;
-  options.columns = 8;
-  options.title = recording.name + ": begin and end of every stroke";
-  options.note = "synthetic motion: placeholder shapes, not LSF";
-  for (const PlacedSign& sign : recording.timeline.signs) {
-    options.frames.push_back(sign.stroke_begin);
-    options.captions.push_back(fmt::format("{} [", sign.shape->gloss));
-    options.frames.push_back(sign.stroke_end);
-    options.captions.push_back(fmt::format("{} ]", sign.shape->gloss));
-  }
-  return contact_sheet(recording.motion, options);
 }
 
 }  // namespace signweave::demo

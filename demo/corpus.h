@@ -28,7 +28,7 @@ AnnotationDocument annotation_of(const Script& script, const Timeline& timeline)
 /// movement beside the sign table's. The motion's scalar tracks are the face's (face.h).
 SyntheticRecording make_recording(const Script& script, FrameRate rate, std::uint64_t seed);
 
-/// A contact sheet (SVG) with the middle of every stroke.
+/// A contact sheet (SVG) with the begin and the end of every stroke.
 std::string stroke_sheet(const SyntheticRecording& recording);
 
 }  // namespace signweave::demo

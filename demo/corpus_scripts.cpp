@@ -76,7 +76,7 @@ const Theme kThemes[] = {
      236ms,
      0.20f,
      "greeting news season region",
-     {"season region weather much? weather?", "season TEMPERATURE number DEGRES much",
+     {"season region weather much weather?", "season TEMPERATURE number DEGRES much",
       "season weather region season weather", "region season time weather doing?",
       "season much weather whom VOIR weather"},
      "season weather much farewell"},

@@ -62,7 +62,7 @@ constexpr Row kShapes[kHandshapes] = {
     {"beak",       {Angles{4, 56, 2, 2}, Angles{60, 34, 16, -2}, Angles{62, 32, 16, 0}, Angles{62, 34, 16, 3}, Angles{60, 44, 20, 8}}},
     {"bill",       {Angles{29, 56, 8, 8}, Angles{62, 6, 4, 0}, Angles{62, 6, 4, 0}, Angles{62, 6, 4, 0}, Angles{62, 7, 4, 2}}},
     {"curve",      {Angles{40, 50, 8, 22}, Angles{36, 42, 24, 0}, Angles{38, 44, 24, 0}, Angles{40, 44, 24, 0}, Angles{42, 42, 24, 0}}},
-    {"cup",        {Angles{26, 24, 12, 14}, Angles{18, 22, 12, 0}, Angles{20, 22, 12, 0}, Angles{22, 22, 12, 0}, Angles{24, 22, 12, 3}}},
+    {"cup",        {Angles{18, 30, 10, 12}, Angles{36, 10, 6, 0}, Angles{38, 10, 6, 0}, Angles{40, 10, 6, 0}, Angles{42, 10, 6, 3}}},
     {"bent",       {kBeside, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 2}}},
     {"fan",        {kOut, Angles{48, 8, 5, 12}, Angles{50, 8, 5, 2}, Angles{50, 8, 5, -9}, Angles{48, 8, 5, -19}}},
     {"folded",     {kBeside, Angles{6, 98, 64, 0}, Angles{6, 100, 66, 0}, Angles{6, 100, 66, 0}, Angles{6, 98, 64, 0}}},

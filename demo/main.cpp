@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "demo/corpus.h"
+#include "demo/sheets.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/error.h"
 #include "signweave/formats/bvh.h"
@@ -36,6 +37,7 @@ void write_corpus(const std::filesystem::path& folder, const Wanted& wanted) {
   std::error_code refused;
   std::filesystem::create_directories(folder, refused);
   if (refused) throw Error(ErrorCode::io, folder.string() + ": " + refused.message() + "; name a folder you may write");
+  if (wanted.sheets) write_file(folder / "handshapes.svg", demo::handshape_sheet());
   double seconds = 0;
   const std::vector<demo::Script> scripts = demo::corpus_scripts(wanted.minutes);
   for (const demo::Script& script : scripts) {
@@ -44,7 +46,11 @@ void write_corpus(const std::filesystem::path& folder, const Wanted& wanted) {
     bvh::write(path(".bvh"), recording.motion, bvh::default_layout(recording.motion.skeleton()));
     eaf::write(path(".eaf"), recording.document);
     write_file(path(".truth.csv"), recording.truth);
-    if (wanted.sheets) write_file(path(".svg"), demo::stroke_sheet(recording));
+    if (wanted.sheets) {
+      write_file(path(".svg"), demo::stroke_sheet(recording));
+      write_file(path(".sentence.svg"), demo::sentence_sheet(recording, 1));
+      write_file(path(".side.svg"), demo::sentence_sheet(recording, 1, 75));
+    }
     fmt::print("{}: {} signs, {} frames, {:.1f} s\n", recording.name, recording.timeline.signs.size(),
                recording.motion.frame_count(), recording.motion.duration().count());
     seconds += recording.motion.duration().count();
@@ -69,7 +75,8 @@ int main(int argc, char** argv) {
   app.add_option("--minutes", wanted.minutes, "how long all recordings are together; 2 gives meteo and villes alone")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 10'000.0));
-  app.add_flag("--sheets", wanted.sheets, "also an .svg each: figures at the begin and end of every stroke");
+  app.add_flag("--sheets", wanted.sheets,
+               "also contact sheets (.svg): every stroke, a sentence from the front and from the side, handshapes");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -81,14 +81,17 @@ double stroke_seconds(const SignShape& sign, const Token& token) {
     if (acts(sign, side)) length = std::max(length, stroke_length(sign, side, token));
   }
   // A longer way takes longer, a tenth of a second for 12 cm, and at most some 2.2 m/s in its middle.
-  return std::max(0.38 + 0.85 * static_cast<double>(length), 1.875 * static_cast<double>(length) / 2.2);
+  const double seconds = std::max(0.38 + 0.85 * static_cast<double>(length), 1.875 * static_cast<double>(length) / 2.2);
+  return std::clamp(seconds, 0.38, 0.74);
 }
 
 /// `quick` is the shorter of the transitions before and after, seconds.
 Token draw_token(const SignShape& sign, double quick, Random& random) {
   Token token;
   const auto within = [&](double deviation, double most) {
-    return static_cast<float>(std::clamp(deviation * random.normal(), -most, most));
+    double drawn = deviation * random.normal();
+    while (std::abs(drawn) > most) drawn = deviation * random.normal();
+    return static_cast<float>(drawn);
   };
   token.size = 1 + within(0.08, 0.15);
   token.other_size = static_cast<float>(random.uniform(0.90, 1.0));
@@ -184,7 +187,7 @@ double expected_seconds(const Script& script) {
   double seconds = kFirstRest + kLastRest;
   std::size_t signs = 0;
   for (const auto& unit : script.units) {
-    for (const std::string_view gloss : unit) seconds += std::clamp(stroke_seconds(sign_for(gloss), {}), 0.35, 0.80);
+    for (const std::string_view gloss : unit) seconds += stroke_seconds(sign_for(gloss), {});
     signs += unit.size();
   }
   if (signs == 0) return seconds;

@@ -34,6 +34,24 @@ Quaternionf turn(double angle, const Vector3f& axis) {
   return Quaternionf(AngleAxisf(static_cast<float>(angle), axis));
 }
 
+Vector3f middle_of(const std::vector<Vector3f>& points) {
+  Vector3f sum = Vector3f::Zero();
+  for (const Vector3f& point : points) sum += point;
+  return sum / static_cast<float>(points.size());
+}
+
+/// Running means over 2 × half + 1 frames.
+std::vector<Vector3f> smoothed(const std::vector<Vector3f>& values, int half) {
+  const auto count = static_cast<int>(values.size());
+  std::vector<Vector3f> result(values.size());
+  for (int i = 0; i < count; ++i) {
+    Vector3f sum = Vector3f::Zero();
+    for (int k = i - half; k <= i + half; ++k) sum += values[static_cast<std::size_t>(std::clamp(k, 0, count - 1))];
+    result[static_cast<std::size_t>(i)] = sum / static_cast<float>(2 * half + 1);
+  }
+  return result;
+}
+
 float mix(float a, float b, float t) {
   return a + t * (b - a);
 }
@@ -75,12 +93,28 @@ class Animator {
 
   void fill(std::int64_t frame, MutablePoseView pose) {
     const BodyFrame& body = body_[static_cast<std::size_t>(frame)];
-    fill_trunk(body, pose);
-    to_model_space(*signer_.skeleton, pose, model_);
-    keep_out_ = keep_out_of(signer_, model_);
+    stand(body, pose);
     fill_face(frame, body, pose);
-    for (const Side side : kSides) fill_arm(side, static_cast<double>(frame), body, pose);
+    fill_arms(static_cast<std::size_t>(frame), body, pose);
     for (const Side side : kSides) fill_leg(side, pose);
+  }
+
+  /// To be done for every frame, in order, before any is filled: looks where hands would meet. `pose` is overwritten.
+  void look_ahead(std::int64_t frame, MutablePoseView pose) {
+    const BodyFrame& body = body_[static_cast<std::size_t>(frame)];
+    stand(body, pose);
+    const auto at = static_cast<double>(frame);
+    Limbs limbs = {planned_limb(Side::left, at, body), planned_limb(Side::right, at, body)};
+    const Vector3f before[] = {limbs[0].wrist, limbs[1].wrist};
+    give_way(limbs, body.breath);
+    for (std::size_t side = 0; side < 2; ++side) given_way_[side].push_back(limbs[side].wrist - before[side]);
+  }
+  /// Hands give way smoothly: they see the other coming.
+  void give_way_smoothly() {
+    for (std::vector<Vector3f>& away : given_way_) {
+      for (int round = 0; round < 3; ++round) away = smoothed(away, std::max(1, static_cast<int>(0.04 * fps_)));
+      for (Vector3f& one : away) one *= 1.25f;  // smoothing has taken from the peaks
+    }
   }
 
   /// The face's tracks, once every frame is filled.
@@ -118,7 +152,7 @@ class Animator {
     if (sign == nullptr && static_cast<Rest>(which) == Rest::hips) {
       return angles_at(rest_place(Rest::hips), {-1.0f, 0.0f, -0.15f}, {0.05f, -1.0f, 0.22f});
     }
-    if (sign == nullptr) return angles_at(rest_place(), {-0.2f, 0.2f, -1.0f}, {-0.62f, -0.55f, 0.40f});
+    if (sign == nullptr) return angles_at(rest_place(), {-0.2f, 0.2f, -1.0f}, {-0.46f, -0.68f, 0.45f});
     if (side == Side::left && sign->hands == Hands::on_base) {
       return angles_at(sign->base.place, sign->base.palm, sign->base.fingers);
     }
@@ -138,6 +172,12 @@ class Animator {
       angles = mix(angles, held({.rest = end.rest}, side), end.let_go);
     }
     return angles;
+  }
+
+  void stand(const BodyFrame& body, MutablePoseView pose) {
+    fill_trunk(body, pose);
+    to_model_space(*signer_.skeleton, pose, model_);
+    keep_out_ = keep_out_of(signer_, model_);
   }
 
   void fill_trunk(const BodyFrame& body, MutablePoseView pose) {
@@ -199,19 +239,25 @@ class Animator {
     return posed;
   }
 
-  /// Wrist, knuckles, finger joints and tips, model space (of the left arm, or the right one in the mirror).
-  std::vector<Vector3f> hand_points(const ArmPose& arm, const FingerRotations& fingers, Side side) {
+  /// Wrist, finger joints, tips, and the middles between them, model space.
+  std::vector<Vector3f> hand_points(const ArmPose& arm, const FingerRotations& fingers, Side side) const {
     const Skeleton& skeleton = *signer_.skeleton;
-    std::vector<Vector3f> points = {arm.wrist};
+    std::vector<Vector3f> points = {as_left(arm.wrist, side)};
+    points.reserve(1 + 2 * kFingers * (kPhalanges + 1));
     for (std::size_t finger = 0; finger < kFingers; ++finger) {
       Vector3f place = arm.wrist;
       Quaternionf rotation = arm.hand;
+      const auto go_on = [&](const Vector3f& offset) {
+        const Vector3f next = place + rotation * offset;
+        points.push_back(as_left(Vector3f(0.5f * (place + next)), side));
+        points.push_back(as_left(next, side));
+        place = next;
+      };
       for (std::size_t i = 0; i < kPhalanges; ++i) {
-        place += rotation * skeleton.joint(signer_.left.fingers[finger][i]).offset;
+        go_on(skeleton.joint(signer_.left.fingers[finger][i]).offset);
         rotation = rotation * as_left(fingers[finger][i], side);
-        points.push_back(place);
       }
-      points.push_back(place + rotation * signer_.finger_tip(finger));
+      go_on(signer_.finger_tip(finger));
     }
     return points;
   }
@@ -281,25 +327,71 @@ class Animator {
     return angles;
   }
 
-  void fill_arm(Side side, double frame, const BodyFrame& body, MutablePoseView pose) {
-    const SideJoints& joints = signer_.side(side);
+  /// One arm and hand, as the left one (the right in the mirror).
+  struct Limb {
+    Vector3f wrist;  ///< where it is wanted
+    WristAngles angles;
+    FingerRotations fingers;
+    PosedArm posed;
+    std::vector<Vector3f> points;  ///< of the hand, model space
+  };
+  void pose_limb(Limb& limb, Side side, double breath) const {
+    limb.posed = pose_arm(side, limb.wrist, limb.angles, breath);
+    limb.points = hand_points(limb.posed.arm, limb.fingers, side);
+  }
+  Limb planned_limb(Side side, double frame, const BodyFrame& body) {
     ArmUnrest& unrest = arms_[side == Side::left ? 0 : 1];
     const double seconds = frame / fps_;
     const HandPlan::Piece& piece = plan_.piece_at(side, frame);
-    const FingerRotations fingers = finger_rotations(fingers_in(piece, side, frame, seconds, unrest), side);
-    const WristAngles angles = angles_in(piece, side, frame, seconds, unrest);
-
-    Vector3f wrist = as_left(plan_.at(side, frame), side);
+    Limb limb;
+    limb.fingers = finger_rotations(fingers_in(piece, side, frame, seconds, unrest), side);
+    limb.angles = angles_in(piece, side, frame, seconds, unrest);
+    limb.wrist = as_left(plan_.at(side, frame), side);
     for (int i = 0; i < 3; ++i) {
-      wrist[i] += static_cast<float>(0.0010 * unrest.place[i].at(seconds) + 0.0002 * unrest.tremor[i].at(seconds));
+      limb.wrist[i] += static_cast<float>(0.0010 * unrest.place[i].at(seconds) + 0.0002 * unrest.tremor[i].at(seconds));
     }
-    PosedArm posed = pose_arm(side, wrist, angles, body.breath);
-    std::array<Capsule, 2> forbidden = keep_out_;
-    for (Capsule& capsule : forbidden)
-      capsule = {as_left(capsule.from, side), as_left(capsule.to, side), capsule.radius};
-    const Vector3f push = push_out(forbidden, hand_points(posed.arm, fingers, side));
-    if (push != Vector3f::Zero()) posed = pose_arm(side, wrist + push, angles, body.breath);
+    pose_limb(limb, side, body.breath);
+    return limb;
+  }
 
+  using Limbs = std::array<Limb, 2>;  ///< [side]
+
+  /// Moves hands that touch each other apart, and out of head and trunk.
+  void give_way(Limbs& limbs, double breath) const {
+    for (int round = 0; round < 3; ++round) {
+      const float apart = too_close(limbs[0].points, limbs[1].points);
+      if (apart <= 0) break;
+      const Vector3f across = middle_of(limbs[0].points) - middle_of(limbs[1].points);
+      const Vector3f way = 0.5f * apart * (across + Vector3f(0.03f, 0, 0)).normalized();
+      limbs[0].wrist += way;
+      limbs[1].wrist += in_mirror(-way);
+      for (const Side side : kSides) pose_limb(limbs[static_cast<std::size_t>(side)], side, breath);
+    }
+    for (const Side side : kSides) stay_outside(limbs[static_cast<std::size_t>(side)], side, breath);
+  }
+  void stay_outside(Limb& limb, Side side, double breath) const {
+    const Vector3f push = push_out(keep_out_, limb.points);
+    if (push == Vector3f::Zero()) return;
+    limb.wrist += as_left(push, side);
+    pose_limb(limb, side, breath);
+  }
+
+  void fill_arms(std::size_t frame, const BodyFrame& body, MutablePoseView pose) {
+    for (const Side side : kSides) {
+      Limb limb = planned_limb(side, static_cast<double>(frame), body);
+      const Vector3f& away = given_way_[static_cast<std::size_t>(side)][frame];
+      if (away != Vector3f::Zero()) {
+        limb.wrist += away;
+        pose_limb(limb, side, body.breath);
+      }
+      stay_outside(limb, side, body.breath);
+      write_limb(limb, side, pose);
+    }
+  }
+
+  void write_limb(const Limb& limb, Side side, MutablePoseView pose) const {
+    const SideJoints& joints = signer_.side(side);
+    const PosedArm& posed = limb.posed;
     const ArmPose& arm = posed.arm;
     const auto set = [&](JointIndex joint, const Quaternionf& local) {
       of(pose, joint) = as_left(local, side).normalized();
@@ -309,7 +401,7 @@ class Animator {
     set(joints.fore_arm, arm.arm.conjugate() * arm.fore_arm);
     set(joints.hand, arm.fore_arm.conjugate() * arm.hand);
     for (std::size_t finger = 0; finger < kFingers; ++finger) {
-      for (std::size_t i = 0; i < kPhalanges; ++i) of(pose, joints.fingers[finger][i]) = fingers[finger][i];
+      for (std::size_t i = 0; i < kPhalanges; ++i) of(pose, joints.fingers[finger][i]) = limb.fingers[finger][i];
     }
   }
 
@@ -348,8 +440,9 @@ class Animator {
   ArmSizes sizes_{};
   Vector3f shoulder_;                                                    ///< the left one in the rest pose
   std::map<std::tuple<const SignShape*, Side, int>, WristAngles> held_;  ///< found once: each takes a search
-  ModelPose model_;                    ///< of the frame being filled, right for trunk, head and hips only
-  std::array<Capsule, 2> keep_out_{};  ///< of the same frame
+  ModelPose model_;                                 ///< of the frame being filled, right for trunk, head and hips only
+  std::array<std::vector<Vector3f>, 2> given_way_;  ///< [side][frame], metres, as the left arm
+  std::array<Capsule, 2> keep_out_{};               ///< of the same frame
 };
 
 }  // namespace
@@ -357,6 +450,8 @@ class Animator {
 Motion animate(const Signer& signer, const Timeline& timeline, const HandPlan& plan, Random& random) {
   Animator animator(signer, timeline, plan, random);
   Motion motion(signer.skeleton, timeline.rate, timeline.frames);
+  for (std::int64_t frame = 0; frame < timeline.frames; ++frame) animator.look_ahead(frame, motion.pose(frame));
+  animator.give_way_smoothly();
   for (std::int64_t frame = 0; frame < timeline.frames; ++frame) animator.fill(frame, motion.pose(frame));
   keep_hemisphere(motion);
   FaceMotion face = animator.take_face();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <span>
 
 #include "demo/signer.h"
 #include "signweave/motion/kinematics.h"
@@ -23,5 +24,9 @@ float clearance(const Capsule& capsule, const Eigen::Vector3f& point);
 /// The shift that takes points out of the capsules as far as the deepest is in, with a soft beginning before they
 /// touch. Smooth over time where the points are.
 Eigen::Vector3f push_out(std::span<const Capsule> capsules, std::span<const Eigen::Vector3f> points);
+
+/// How far two hands, each given by points within its bones, must be moved apart for the fingers' thickness, with a
+/// soft beginning. Metres.
+float too_close(std::span<const Eigen::Vector3f> one, std::span<const Eigen::Vector3f> other);
 
 }  // namespace signweave::demo

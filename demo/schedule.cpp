@@ -127,7 +127,7 @@ bool ends_unit(const Timeline& timeline, std::size_t sign) noexcept {
 }
 
 Eigen::Vector3f rest_place(Rest rest) {
-  return rest == Rest::belly ? Eigen::Vector3f(0.095f, -0.400f, 0.190f) : Eigen::Vector3f(0.265f, -0.490f, 0.060f);
+  return rest == Rest::belly ? Eigen::Vector3f(0.155f, -0.385f, 0.185f) : Eigen::Vector3f(0.265f, -0.490f, 0.060f);
 }
 
 Timeline schedule(const Script& script, FrameRate rate, Random& random) {

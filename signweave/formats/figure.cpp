@@ -42,6 +42,7 @@ struct Colour {
 
 constexpr Colour kTrunk = {186, 192, 204};
 constexpr Colour kSkin = {226, 196, 172};
+constexpr double kFarAway = 1e3;  // metres
 constexpr const char* kInk = "#3a3034";
 constexpr const char* kRim = "#6b6a72";
 
@@ -257,8 +258,8 @@ void draw_head(const Bone& skull, const ModelPose& pose, const Eyes& eyes, const
   head.forward = head.left.cross(head.up);
   head.size = height / 0.19f;
   const float deep = 0.88f * along;
-  drawing.ellipse(middle, up, 1.05 * pixels(std::hypot(across * head.left.x(), deep * head.forward.x())),
-                  1.03 * pixels(along), "#5e493a", kRim);
+  drawing.ellipse(middle + 0.035f * up, up, 1.04 * pixels(std::hypot(across * head.left.x(), deep * head.forward.x())),
+                  pixels(along), "#5e493a", kRim);
   // The face is what the hair leaves free of the skull: a cap about an axis that points forward and down. Where its
   // edge is behind, the skull's outline takes its place.
   const Vector3f axis = Vector3f(0, -0.50f, 0.866f);  // left, up, forward
@@ -366,6 +367,15 @@ void draw_figure(const Skeleton& skeleton, const std::vector<FigurePart>& parts,
   Drawing drawing(view, out);
   const std::vector<Bone> bones = bones_of(skeleton, parts, pose);
 
+  // The trunk lies between the shoulders; whatever is not before it is behind.
+  std::optional<Vector3f> left, right;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    // The first joint below which an arm's bone hangs.
+    if (!parts[i].arm || parts[i].side == BodySide::none) continue;
+    const Vector3f& shoulder = pose.positions[static_cast<std::size_t>(skeleton.joints()[i].parent)];
+    std::optional<Vector3f>& found = parts[i].side == BodySide::left ? left : right;
+    if (!found) found = shoulder;
+  }
   // What is drawn at once, the farthest first: a finger, a palm, one bone of the rest.
   struct Item {
     std::vector<const Bone*> bones;
@@ -392,20 +402,13 @@ void draw_figure(const Skeleton& skeleton, const std::vector<FigurePart>& parts,
   for (Item& item : items) {
     for (const Bone* bone : item.bones) item.depth += 0.5 * static_cast<double>(bone->from.z() + bone->to.z());
     item.depth /= static_cast<double>(item.bones.size());
+    const FigurePart& part = parts[item.bones.front()->joint];
+    if (left && !part.arm && !part.finger && !item.bones.front()->skull) item.depth = -kFarAway;  // inside the trunk
   }
   std::vector<const Item*> order;
   for (const Item& item : items) order.push_back(&item);
   std::stable_sort(order.begin(), order.end(), [](const Item* a, const Item* b) { return a->depth < b->depth; });
 
-  // The trunk lies between the shoulders; whatever is not before it is behind.
-  std::optional<Vector3f> left, right;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    // The first joint below which an arm's bone hangs.
-    if (!parts[i].arm || parts[i].side == BodySide::none) continue;
-    const Vector3f& shoulder = pose.positions[static_cast<std::size_t>(skeleton.joints()[i].parent)];
-    std::optional<Vector3f>& found = parts[i].side == BodySide::left ? left : right;
-    if (!found) found = shoulder;
-  }
   const Eyes eyes = eyes_of(parts);
   bool trunk_drawn = !left || !right;
   for (const Item* item : order) {
@@ -432,7 +435,7 @@ void draw_figure(const Skeleton& skeleton, const std::vector<FigurePart>& parts,
     if (part.finger) {
       const bool palm = part.palm && item->bones.front()->from != pose.positions[item->bones.front()->joint];
       const double width = drawing.pixels(palm ? 0.021 : 0.0165, palm ? 2.2 : 1.2);
-      const std::string colour = shade(colour_of(part), near, palm ? 0.45 : 0.30);
+      const std::string colour = shade(colour_of(part), near, 0.35);
       // A dark rim keeps what overlaps apart.
       std::string path = fmt::format("M{}", drawing.at(item->bones.front()->from));
       for (const Bone* bone : item->bones) path += fmt::format("L{}", drawing.at(bone->to));
@@ -444,7 +447,7 @@ void draw_figure(const Skeleton& skeleton, const std::vector<FigurePart>& parts,
     const Bone& bone = *item->bones.front();
     const bool neck = !part.arm && (!left || bone.to.y() > left->y() + 0.02f);
     // Inside the trunk bones would show nothing but themselves.
-    const Colour colour = part.arm || !left ? colour_of(part) : neck ? kSkin : kTrunk;
+    const Colour colour = part.side != BodySide::none || !neck || !left ? colour_of(part) : kSkin;
     double width = neck ? drawing.pixels(0.085, 2.0) : left ? 1.0 : drawing.pixels(0.055, 2.0);
     if (part.arm) {
       const auto parent = static_cast<std::size_t>(skeleton.joints()[bone.joint].parent);
@@ -454,7 +457,7 @@ void draw_figure(const Skeleton& skeleton, const std::vector<FigurePart>& parts,
       drawing.stroke(fmt::format("M{}L{}", drawing.at(bone.from), drawing.at(bone.to)), shade(rim_of(part), near, 0.3),
                      width + drawing.pixels(0.008, 1.0));
     }
-    drawing.line(bone, shade(colour, near, part.arm ? 0.40 : 0.30), width);
+    drawing.line(bone, shade(colour, near, part.side != BodySide::none ? 0.40 : 0.30), width);
   }
 }
 

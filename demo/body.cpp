@@ -171,7 +171,7 @@ std::vector<BodyFrame> move_body(const Timeline& timeline, const HandPlan& plan,
     body.head_yaw = 0.025 * head[0].at(seconds) + 0.35 * body.yaw +
                     head_yaw.step(0.45 * gaze.yaw + stances[stance].turn, seconds_of_frame);
     body.head_pitch =
-        0.012 * head[1].at(seconds) + 0.02 + nod + head_pitch.step(std::min(0.36 * gaze.pitch, 0.26), seconds_of_frame);
+        0.012 * head[1].at(seconds) + 0.02 + nod + head_pitch.step(std::min(0.36 * gaze.pitch, 0.23), seconds_of_frame);
     body.head_roll =
         0.015 * head[2].at(seconds) + 0.4 * body.roll + head_roll.step(stances[stance].tilt, seconds_of_frame);
   }

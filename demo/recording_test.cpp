@@ -182,6 +182,7 @@ TEST_P(EveryRecording, MovesItsHandsUnderFourMetresASecondAndWithoutJerks) {
   double fastest_hand = 0;  // m/s
   double fastest = 0;
   double hardest = 0;  // m/s²
+  std::string where;
   for (std::int64_t frame = 2; frame < motion.frame_count(); ++frame) {
     ModelPose next = to_model_space(skeleton, motion.pose(frame));
     for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
@@ -191,15 +192,19 @@ TEST_P(EveryRecording, MovesItsHandsUnderFourMetresASecondAndWithoutJerks) {
       const auto joint = static_cast<JointIndex>(i);
       if (joint == signer.left.hand || joint == signer.right.hand) fastest_hand = std::max(fastest_hand, speed);
       fastest = std::max(fastest, speed);
-      hardest = std::max(hardest, static_cast<double>(change.norm()) * 100 * 100);
+      const double hard = static_cast<double>(change.norm()) * 100 * 100;
+      if (hard > hardest) {
+        hardest = hard;
+        where = skeleton.joints()[i].name + " in frame " + std::to_string(frame);
+      }
     }
     before = std::move(now);
     now = std::move(next);
   }
   EXPECT_LT(fastest_hand, 4.0);
-  EXPECT_GT(fastest_hand, 0.8);  // it does sign
-  EXPECT_LT(fastest, 8.0);       // fingertips turn with the wrist; a jump of 25 cm would be 25 m/s
-  EXPECT_LT(hardest, 120.0);     // a step in velocity shows here: 1.2 m/s from one frame to the next
+  EXPECT_GT(fastest_hand, 0.8);        // it does sign
+  EXPECT_LT(fastest, 8.0);             // fingertips turn with the wrist; a jump of 25 cm would be 25 m/s
+  EXPECT_LT(hardest, 120.0) << where;  // a step in velocity shows here: 1.2 m/s from one frame to the next
 }
 
 TEST_P(EveryRecording, KeepsTheFeetOnTheGroundAndTheHeadUp) {
@@ -217,7 +222,7 @@ TEST_P(EveryRecording, KeepsTheFeetOnTheGroundAndTheHeadUp) {
     const Vector3f head = pose.positions[static_cast<std::size_t>(signer.head)];
     ASSERT_LT((head - signer.rest_position(signer.head)).norm(), 0.06f) << frame;
     const Vector3f facing = pose.rotations[static_cast<std::size_t>(signer.head)] * Vector3f::UnitZ();
-    ASSERT_GT(facing.z(), 0.9f) << frame;
+    ASSERT_GT(facing.z(), 0.88f) << frame;
   }
 }
 

@@ -80,8 +80,11 @@ double stroke_seconds(const SignShape& sign, const Token& token) {
   for (const Side side : kSides) {
     if (acts(sign, side)) length = std::max(length, stroke_length(sign, side, token));
   }
-  // A longer way takes longer, a tenth of a second for 12 cm, and at most some 2.2 m/s in its middle.
-  const double seconds = std::max(0.38 + 0.85 * static_cast<double>(length), 1.875 * static_cast<double>(length) / 2.2);
+  // A longer way takes longer, a tenth of a second for 12 cm, and at most some 2.2 m/s in its middle; nobody turns or
+  // bends a wrist to and fro more than four times a second.
+  const double turns = sign.movement == Movement::repeated ? 0 : times_of(sign, token);
+  const double seconds =
+      std::max({0.38 + 0.85 * static_cast<double>(length), 1.875 * static_cast<double>(length) / 2.2, 0.25 * turns});
   return std::clamp(seconds, 0.38, 0.74);
 }
 

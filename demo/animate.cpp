@@ -339,6 +339,15 @@ class Animator {
     limb.posed = pose_arm(side, limb.wrist, limb.angles, breath);
     limb.points = hand_points(limb.posed.arm, limb.fingers, side);
   }
+  /// The planned wrist without its full stops: a hand rounds the corners between a way and a stroke.
+  Vector3f flowing(Side side, double frame) const {
+    constexpr float kWeights[] = {1, 2, 3, 2, 1};
+    Vector3f sum = Vector3f::Zero();
+    for (int i = 0; i < 5; ++i) {
+      sum += kWeights[i] / 9 * plan_.at(side, frame + static_cast<double>(i - 2) * 0.018 * fps_);
+    }
+    return sum;
+  }
   Limb planned_limb(Side side, double frame, const BodyFrame& body) {
     ArmUnrest& unrest = arms_[side == Side::left ? 0 : 1];
     const double seconds = frame / fps_;
@@ -346,7 +355,7 @@ class Animator {
     Limb limb;
     limb.fingers = finger_rotations(fingers_in(piece, side, frame, seconds, unrest), side);
     limb.angles = angles_in(piece, side, frame, seconds, unrest);
-    limb.wrist = as_left(plan_.at(side, frame), side);
+    limb.wrist = as_left(flowing(side, frame), side);
     for (int i = 0; i < 3; ++i) {
       limb.wrist[i] += static_cast<float>(0.0010 * unrest.place[i].at(seconds) + 0.0002 * unrest.tremor[i].at(seconds));
     }

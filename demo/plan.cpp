@@ -92,7 +92,7 @@ class HandPlan::Builder {
       piece.shape_begin = 0.7 * part;
       piece.shape_end = 1 - 0.12 * (1 - part);
     }
-    piece.skew = random_.uniform(0.05, 0.30);
+    piece.skew = random_.uniform(0.10, 0.34);
     // Around the body and outwards, never in a straight line.
     const Vector3f line = to_place - from_place;
     Vector3f across = line.cross(Vector3f::UnitZ());
@@ -189,7 +189,7 @@ double HandPlan::done_in(const Piece& piece, double frame) {
     return evenly(t);
   }
   // Between the curve of least jerk (Flash and Hogan 1985), which dwells at both ends, and a quicker start and stop.
-  return 0.65 * t * t * t * (10 + t * (6 * t - 15)) + 0.35 * t * t * (3 - 2 * t);
+  return 0.35 * t * t * t * (10 + t * (6 * t - 15)) + 0.65 * t * t * (3 - 2 * t);
 }
 
 Vector3f HandPlan::at(Side side, double frame) const {

@@ -43,9 +43,12 @@ Eigen::Vector3f place_of(const SignShape& sign, Side side, float done) {
   return acts(sign, side) ? stroke_place(sign, side, done) : rest_place();
 }
 
+/// Of the hands that the next sign needs; one that it does not may take its time.
 double way_between(const SignShape& from, const SignShape& to) {
   float way = 0;
-  for (const Side side : kSides) way = std::max(way, (place_of(to, side, 0) - place_of(from, side, 1)).norm());
+  for (const Side side : kSides) {
+    if (acts(to, side)) way = std::max(way, (stroke_place(to, side, 0) - place_of(from, side, 1)).norm());
+  }
   return static_cast<double>(way);
 }
 

@@ -225,8 +225,10 @@ void draw_trunk(const Vector3f& left, const Vector3f& right, const Vector3f& roo
   const Vector3f middle = 0.5f * (left + right);
   const auto at = [&](float x, float y) { return drawing.at(Vector3f(root + y * (middle - root) + x * across)); };
   const std::string path =
-      fmt::format("M{}L{}L{}L{}L{}L{}L{}L{}Z", at(0.98f, 0.99f), at(0.36f, 1.10f), at(-0.36f, 1.10f), at(-0.98f, 0.99f),
-                  at(-0.64f, 0.42f), at(-0.74f, -0.02f), at(0.74f, -0.02f), at(0.64f, 0.42f));
+      fmt::format("M{}Q{} {}Q{} {}Q{} {}Q{} {}Q{} {}L{}Q{} {}Q{} {}Z", at(0.98f, 0.96f), at(0.84f, 1.07f),
+                  at(0.34f, 1.11f), at(0.0f, 1.0f), at(-0.34f, 1.11f), at(-0.84f, 1.07f), at(-0.98f, 0.96f),
+                  at(-0.72f, 0.62f), at(-0.64f, 0.38f), at(-0.66f, 0.2f), at(-0.75f, -0.02f), at(0.75f, -0.02f),
+                  at(0.66f, 0.2f), at(0.64f, 0.38f), at(0.72f, 0.62f), at(0.98f, 0.96f));
   const std::string colour = shade(kTrunk, drawing.near(static_cast<double>(middle.z())), 0.30);
   // A trunk is about as deep as its shoulders are half as wide; from the front only its rim shows that.
   const double depth = 0.95 * static_cast<double>(std::abs(across.z()));

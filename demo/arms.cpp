@@ -290,10 +290,12 @@ void Arms::give_way(Limbs& limbs, const Trunk& trunk) const {
   for (const Side side : kSides) stay_outside(limbs[static_cast<std::size_t>(side)], side, trunk);
 }
 void Arms::stay_outside(Limb& limb, Side side, const Trunk& trunk) const {
-  const Vector3f push = push_out(trunk.keep_out, limb.points);
-  if (push == Vector3f::Zero()) return;
-  limb.wrist += as_left(push, side);
-  pose_limb(limb, side, trunk);
+  for (int round = 0; round < 3; ++round) {
+    const Vector3f push = push_out(trunk.keep_out, limb.points);
+    if (push == Vector3f::Zero()) return;
+    limb.wrist += as_left(push, side);
+    pose_limb(limb, side, trunk);
+  }
 }
 
 void Arms::write_limb(const Limb& limb, Side side, MutablePoseView pose) const {

@@ -127,6 +127,28 @@ TEST_P(EveryRecording, IsTheSameForTheSameSeedAndNotForAnother) {
   EXPECT_NE(made().truth, other.truth);
 }
 
+TEST(OtherRates, GiveTheSameSigningInOtherFrames) {
+  const Script script{.name = "short",
+                      .units = {{"BONJOUR", "METEO", "NORD"}, {"MARSEILLE", "NEIGE"}},
+                      .transition_mean = 735ms,
+                      .transition_deviation = 224ms};
+  const Signer signer = make_signer();
+  for (const FrameRate rate : {FrameRate{25, 1}, FrameRate{50, 1}, FrameRate{120, 1}, FrameRate{250, 1}}) {
+    const SyntheticRecording made = make_recording(script, rate, 1);
+    ASSERT_EQ(made.motion.rate(), rate);
+    for (const ScalarTrack& track : made.motion.tracks()) {
+      ASSERT_EQ(track.values.size(), static_cast<std::size_t>(made.motion.frame_count())) << track.name;
+    }
+    for (const Quaternionf& rotation : made.motion.rotations()) ASSERT_NEAR(rotation.norm(), 1.0f, 1e-5f);
+    for (const PlacedSign& sign : made.timeline.signs) {
+      const ModelPose pose = to_model_space(made.motion.skeleton(), made.motion.pose(sign.stroke_end));
+      const Vector3f wrist = pose.positions[static_cast<std::size_t>(signer.right.hand)];
+      const Vector3f place = to_model(stroke_place(*sign.shape, Side::right, 1, sign.token), Side::right);
+      EXPECT_LT((wrist - place).norm(), 0.02f) << to_string(rate) << ' ' << sign.shape->gloss;
+    }
+  }
+}
+
 TEST_P(EveryRecording, HasUnitQuaternionsThatNeverLeaveTheirHemisphere) {
   const Motion& motion = made().motion;
   for (const Quaternionf& rotation : motion.rotations()) ASSERT_NEAR(rotation.norm(), 1.0f, 1e-5f);

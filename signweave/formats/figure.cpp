@@ -42,7 +42,7 @@ Colour colour_of(const FigurePart& part) {
 /// Around what has that part's colour.
 Colour rim_of(const FigurePart& part) {
   const Colour colour = colour_of(part);
-  return {0.38 * colour.red, 0.38 * colour.green, 0.38 * colour.blue};
+  return {0.46 * colour.red, 0.46 * colour.green, 0.46 * colour.blue};
 }
 
 struct Bone {

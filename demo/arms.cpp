@@ -116,7 +116,9 @@ WristAngles Arms::angles_at(const Vector3f& place, const Vector3f& palm, const V
 /// What an arm is like at an end of a stretch of the plan, without what is special about a token.
 const WristAngles& Arms::held(const HandPlan::End& end, Side side) {
   const SignShape* sign = end.sign != nullptr && acts(*end.sign->shape, side) ? end.sign->shape : nullptr;
-  const int which = sign != nullptr ? end.stroke : static_cast<int>(end.rest);
+  return held(sign, side, sign != nullptr ? end.stroke : static_cast<int>(end.rest));
+}
+const WristAngles& Arms::held(const SignShape* sign, Side side, int which) {
   const auto [at, fresh] = held_.try_emplace({sign, side, which});
   if (fresh) at->second = find_held(sign, side, which);
   return at->second;
@@ -132,10 +134,8 @@ WristAngles Arms::find_held(const SignShape* sign, Side side, int which) {
   const Vector3f place = stroke_place(*sign, side, static_cast<float>(which));
   if (which == 0) return angles_at(place, sign->palm, sign->fingers);
   // In the stroke the elbow stays about where it is.
-  const auto begin = held_.try_emplace({sign, side, 0}).first;
-  if (begin->second.swivel == 0) begin->second = find_held(sign, side, 0);
-  return angles_at(place, sign->palm_end.value_or(sign->palm), sign->fingers_end.value_or(sign->fingers),
-                   begin->second.swivel);
+  const float swivel = held(sign, side, 0).swivel;
+  return angles_at(place, sign->palm_end.value_or(sign->palm), sign->fingers_end.value_or(sign->fingers), swivel);
 }
 WristAngles Arms::angles_of_end(const HandPlan::End& end, Side side) {
   WristAngles angles = held(end, side);

@@ -55,15 +55,20 @@ class Arms {
   };
   using Limbs = std::array<Limb, 2>;  ///< [side]
 
+  /// Angles of the left arm (the right's are the same in the mirror) for a wrist at a place of the sign table.
   WristAngles angles_at(const Eigen::Vector3f& place, const Eigen::Vector3f& palm, const Eigen::Vector3f& fingers,
                         float swivel) const;
   WristAngles angles_at(const Eigen::Vector3f& place, const Eigen::Vector3f& palm,
                         const Eigen::Vector3f& fingers) const;
+  /// What an arm is like at an end of a stretch of the plan, without what is special about a token. `which` is 0 where
+  /// the stroke begins and 1 where it ends; without a sign a Rest.
   const WristAngles& held(const HandPlan::End& end, Side side);
+  const WristAngles& held(const SignShape* sign, Side side, int which);
   WristAngles find_held(const SignShape* sign, Side side, int which);
   WristAngles angles_of_end(const HandPlan::End& end, Side side);
   WristAngles angles_in(const HandPlan::Piece& piece, Side side, double frame);
   HandAngles fingers_in(const HandPlan::Piece& piece, Side side, double frame) const;
+  /// The planned wrist without its full stops, model space.
   Eigen::Vector3f flowing(Side side, double frame) const;
 
   PosedArm pose_arm(Side side, const Eigen::Vector3f& wrist, const WristAngles& angles, const Trunk& trunk) const;

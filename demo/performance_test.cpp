@@ -157,7 +157,7 @@ TEST(HandPlan, TheHandshapeFormsDuringThePreparation) {
   }
 }
 
-class Face : public testing::Test {
+class Performance : public testing::Test {
  protected:
   static const SyntheticRecording& made() {
     static const SyntheticRecording recording = make_recording(meteo(), kRate, 1);
@@ -176,7 +176,7 @@ class Face : public testing::Test {
   }
 };
 
-TEST_F(Face, HasTracksOfEveryFrameFromZeroToOneThatNeverLeap) {
+TEST_F(Performance, HasTracksOfEveryFrameFromZeroToOneThatNeverLeap) {
   EXPECT_GE(made().motion.tracks().size(), 18U);
   for (const char* name : {"browInnerUp", "browOuterUpLeft", "browDownRight", "eyeBlinkLeft", "eyeWideRight", "jawOpen",
                            "mouthPucker", "mouthFunnel", "mouthSmileLeft", "mouthPressLeft", "cheekPuff"}) {
@@ -197,7 +197,7 @@ TEST_F(Face, HasTracksOfEveryFrameFromZeroToOneThatNeverLeap) {
   }
 }
 
-TEST_F(Face, ShowsEverySignsBrowsAndMouth) {
+TEST_F(Performance, ShowsEverySignsBrowsAndMouth) {
   for (const PlacedSign& sign : made().timeline.signs) {
     const auto over = [&](const char* name) { return mean(track(name), sign.stroke_begin, sign.stroke_end); };
     if (sign.shape->face.brows == Brows::raised) {
@@ -221,7 +221,7 @@ TEST_F(Face, ShowsEverySignsBrowsAndMouth) {
   }
 }
 
-TEST_F(Face, BeginsBeforeTheStrokeAndOutlastsIt) {
+TEST_F(Performance, BeginsBeforeTheStrokeAndOutlastsIt) {
   int looked_at = 0;
   const Timeline& timeline = made().timeline;
   for (std::size_t i = 1; i + 1 < timeline.signs.size(); ++i) {
@@ -238,7 +238,7 @@ TEST_F(Face, BeginsBeforeTheStrokeAndOutlastsIt) {
   EXPECT_GE(looked_at, 3);
 }
 
-TEST_F(Face, BlinksNowAndThenMostlyBetweenStrokes) {
+TEST_F(Performance, BlinksNowAndThenMostlyBetweenStrokes) {
   const std::vector<float>& lid = track("eyeBlinkLeft");
   EXPECT_EQ(lid, track("eyeBlinkRight"));
   int blinks = 0, within = 0;
@@ -259,7 +259,7 @@ TEST_F(Face, BlinksNowAndThenMostlyBetweenStrokes) {
   EXPECT_LE(within * 4, blinks);
 }
 
-TEST_F(Face, TheJawFollowsItsTrack) {
+TEST_F(Performance, TheJawFollowsItsTrack) {
   const Signer signer = make_signer();
   const std::vector<float>& open = track("jawOpen");
   for (std::size_t i = 0; i < open.size(); i += 5) {
@@ -273,7 +273,7 @@ double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
 }
 
-TEST_F(Face, LooksAtTheHandWhereTheSignSaysSoAndAtTheViewerElse) {
+TEST_F(Performance, LooksAtTheHandWhereTheSignSaysSoAndAtTheViewerElse) {
   const Motion& motion = made().motion;
   const Signer signer = make_signer();
   double worst = 0;
@@ -313,7 +313,7 @@ TEST_F(Face, LooksAtTheHandWhereTheSignSaysSoAndAtTheViewerElse) {
   EXPECT_GT(worst, 10.0);
 }
 
-TEST_F(Face, TheHeadComesAfterTheEyesAndNodsWhereASentenceEnds) {
+TEST_F(Performance, TheHeadComesAfterTheEyesAndNodsWhereASentenceEnds) {
   const Planned plan(meteo());
   Random random(5);
   const std::vector<BodyFrame> body = move_body(plan.timeline, plan.plan, random);
@@ -344,7 +344,7 @@ TEST_F(Face, TheHeadComesAfterTheEyesAndNodsWhereASentenceEnds) {
   }
 }
 
-TEST_F(Face, TheChestBreathesAtTwelveToEighteenAMinute) {
+TEST_F(Performance, TheChestBreathesAtTwelveToEighteenAMinute) {
   const Motion& motion = made().motion;
   const Signer signer = make_signer();
   std::vector<double> pitch;
@@ -373,7 +373,7 @@ TEST_F(Face, TheChestBreathesAtTwelveToEighteenAMinute) {
   EXPECT_GT(best, 0.008);  // radians: about 3 mm at the breastbone
 }
 
-TEST_F(Face, NothingIsEverQuiteStill) {
+TEST_F(Performance, NothingIsEverQuiteStill) {
   const Motion& motion = made().motion;
   const Signer signer = make_signer();
   const Timeline& timeline = made().timeline;

@@ -78,7 +78,7 @@ std::string sentence_sheet(const SyntheticRecording& recording, std::size_t sent
     const bool stroke = frame >= (*sign)->stroke_begin && frame <= (*sign)->stroke_end;
     options.frames.push_back(frame);
     options.captions.push_back(stroke ? std::string((*sign)->shape->gloss)
-                                      : fmt::format("{:.1f} s", static_cast<double>(frame) / timeline.rate.hertz()));
+                                      : fmt::format("{:.2f} s", static_cast<double>(frame) / timeline.rate.hertz()));
   }
   return contact_sheet(recording.motion, options);
 }

@@ -31,6 +31,20 @@ Vector3f middle_of(const std::vector<Vector3f>& points) {
   return sum / static_cast<float>(points.size());
 }
 
+/// The longest of 2 × half + 1 neighbours.
+std::vector<Vector3f> widened(const std::vector<Vector3f>& values, int half) {
+  const auto count = static_cast<int>(values.size());
+  std::vector<Vector3f> result(values.size());
+  for (int i = 0; i < count; ++i) {
+    for (int k = std::max(0, i - half); k <= std::min(count - 1, i + half); ++k) {
+      const Vector3f& value = values[static_cast<std::size_t>(k)];
+      Vector3f& longest = result[static_cast<std::size_t>(i)];
+      if (k == std::max(0, i - half) || value.squaredNorm() > longest.squaredNorm()) longest = value;
+    }
+  }
+  return result;
+}
+
 /// Running means over 2 × half + 1 frames.
 std::vector<Vector3f> smoothed(const std::vector<Vector3f>& values, int half) {
   const auto count = static_cast<int>(values.size());
@@ -81,9 +95,10 @@ void Arms::look_ahead(std::int64_t frame, const Trunk& trunk) {
 }
 
 void Arms::give_way_smoothly() {
+  const int half = std::max(1, static_cast<int>(0.04 * fps_));
   for (std::vector<Vector3f>& away : given_way_) {
-    for (int round = 0; round < 3; ++round) away = smoothed(away, std::max(1, static_cast<int>(0.04 * fps_)));
-    for (Vector3f& one : away) one *= 1.25f;  // smoothing has taken from the peaks
+    away = widened(away, 2 * half);  // or smoothing would take from the peaks
+    for (int round = 0; round < 3; ++round) away = smoothed(away, half);
   }
 }
 
@@ -278,7 +293,7 @@ Arms::Limb Arms::planned_limb(Side side, double frame, const Trunk& trunk) {
 
 /// Moves hands that touch each other apart, and out of head and trunk.
 void Arms::give_way(Limbs& limbs, const Trunk& trunk) const {
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 5; ++round) {
     const float apart = too_close(limbs[0].points, limbs[1].points);
     if (apart <= 0) break;
     const Vector3f across = middle_of(limbs[0].points) - middle_of(limbs[1].points);

@@ -107,9 +107,10 @@ TEST(Arms, GoRoundABarInTheirWay) {
 TEST(Arms, GiveWayToEachOtherWithoutAJerk) {
   float nearest = 1;
   float hardest = 0;
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    const Posed posed(of({{"BREST", "MONTAGNE", "BREST", "MONTAGNE"}, {"MONTAGNE", "RENNES", "MARSEILLE", "RENNES"}}),
-                      seed, {kNowhere, kNowhere});
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    // Left to themselves these would pass 5 mm from bone to bone, inside each other.
+    const Posed posed(of({{"MATIN", "AUTOMNE", "MATIN", "AUTOMNE"}, {"CENTRE", "MATIN", "CENTRE", "MATIN"}}), seed,
+                      {kNowhere, kNowhere});
     std::vector<Vector3f> before, earlier;
     for (std::int64_t frame = 0; frame < posed.timeline().frames; ++frame) {
       const std::vector<Vector3f> left = posed.hand(Side::left, frame);

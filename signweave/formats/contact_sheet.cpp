@@ -137,7 +137,8 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
   std::string out = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-      "font-family=\"sans-serif\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<rect width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "font-family=\"sans-serif\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<rect width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\" "
       "fill=\"#ffffff\"/>\n",
       width, height);
   const auto text = [&](double x, double y, int size, std::string_view anchor, std::string_view what) {

@@ -17,12 +17,8 @@ inline std::unique_ptr<const Database> demo_database(const std::filesystem::path
   Database::create(folder, {});
   {
     Database writer(folder, kv::Access::read_write);
-    double made_minutes = 0;
-    for (int i = 0; made_minutes < minutes - 0.5; ++i) {
-      demo::Script script = i % 2 == 0 ? demo::meteo() : demo::villes();
-      if (i > 1) script.name += fmt::format("-{}", i);
-      demo::SyntheticRecording made = demo::make_recording(script, {100, 1}, static_cast<std::uint64_t>(i + 1));
-      made_minutes += made.motion.duration().count() / 60;
+    for (const demo::Script& script : demo::corpus_scripts(minutes)) {
+      demo::SyntheticRecording made = demo::make_recording(script, {100, 1}, 1);
       Recording recording{.name = made.name};
       recording.motion = MotionPart{.motion = std::move(made.motion)};
       TierNames tiers = guess_tier_names(made.document);

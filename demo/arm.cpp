@@ -102,21 +102,25 @@ WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, A
     const auto square = [](float value) { return value * value; };
     const float cost =
         square(excess(twist - kMiddleTwist, radians(55))) * 2 + square(excess(angles.flexion, radians(35))) +
-        square(excess(angles.radial + radians(8), radians(18))) * 2 + 0.25f * square(angles.swivel - swivel);
+        square(excess(angles.radial + radians(8), radians(18))) * 2 + 0.7f * square(angles.swivel - swivel);
     if (cost < least) {
       least = cost;
       best = angles;
     }
   }
-  best.twist = std::clamp(best.twist, radians(-90), radians(85));
+  return limited(best);
+}
+
+WristAngles limited(WristAngles angles) {
+  angles.twist = std::clamp(angles.twist, radians(-90), radians(85));
   // A wrist that is fully bent cannot lean aside as well: the limits lie on an ellipse.
-  const float aside = best.radial / (best.radial > 0 ? radians(25) : radians(40));
-  const float over = std::hypot(best.flexion / radians(70), aside);
+  const float aside = angles.radial / (angles.radial > 0 ? radians(25) : radians(40));
+  const float over = std::hypot(angles.flexion / radians(70), aside);
   if (over > 1) {
-    best.flexion /= over;
-    best.radial /= over;
+    angles.flexion /= over;
+    angles.radial /= over;
   }
-  return best;
+  return angles;
 }
 
 Quaternionf clavicle_rotation(const Vector3f& shoulder_to_wrist) {

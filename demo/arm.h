@@ -39,8 +39,11 @@ ArmPose solve_arm(const Eigen::Vector3f& shoulder, const Eigen::Vector3f& wrist,
 
 inline constexpr float kNaturalSwivel = 0.2f;  ///< radians: the elbow a little away from the body
 
-/// The angles that turn the palm and the fingers as near to two directions as joints allow (forearm 90° to palm up and
-/// 85° to palm down, wrist 70° of flexion and of extension, 25° to the thumb, 40° from it), with the elbow as near to
+/// The nearest angles that joints allow: forearm 90° to palm up and 85° to palm down, wrist 70° of flexion and of
+/// extension, 25° to the thumb, 40° from it.
+WristAngles limited(WristAngles angles);
+
+/// The angles that turn the palm and the fingers as near to two directions as joints allow, with the elbow as near to
 /// `swivel` as is comfortable.
 WristAngles comfortable_wrist(const Eigen::Vector3f& shoulder, const Eigen::Vector3f& wrist, ArmSizes sizes,
                               const Eigen::Vector3f& palm, const Eigen::Vector3f& fingers,

@@ -4,8 +4,6 @@
 
 #include <iterator>
 
-#include "signweave/formats/contact_sheet.h"
-
 namespace signweave::demo {
 namespace {
 
@@ -20,7 +18,33 @@ std::vector<PlacedPhase> phases_of(const PlacedSign& sign) {
           {"Retraction", sign.stroke_end, sign.end}};
 }
 
-AnnotationDocument annotate(const Script& script, const Timeline& timeline) {
+std::string truth_of(const Timeline& timeline, const HandPlan& plan) {
+  const FrameClock clock{.frame_time = timeline.rate.frame_time()};
+  std::string text = "gloss,phase,begin_ms,end_ms,hand,x,y,z,handshape,size\n";
+  for (const PlacedSign& sign : timeline.signs) {
+    for (const PlacedPhase& phase : phases_of(sign)) {
+      const TimeSpan span = span_of({phase.begin, phase.end}, clock);
+      for (const Side side : {Side::right, Side::left}) {
+        if (!acts(*sign.shape, side)) continue;
+        const auto end = static_cast<double>(phase.end);
+        const Eigen::Vector3f wrist = plan.at(side, end);
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{:.4f},{:.4f},{:.4f},{},{:.3f}\n", sign.shape->gloss,
+                       phase.label, span.begin.count(), span.end.count(), side == Side::right ? "right" : "left",
+                       wrist.x(), wrist.y(), wrist.z(), name_of(plan.shape_at(side, end)), sign.token.size);
+      }
+    }
+  }
+  return text;
+}
+
+std::uint64_t mixed(const Script& script, std::uint64_t seed) {
+  for (const char c : script.name) seed = seed * 1'099'511'628'211ull + static_cast<unsigned char>(c);
+  return seed;
+}
+
+}  // namespace
+
+AnnotationDocument annotation_of(const Script& script, const Timeline& timeline) {
   const FrameClock clock{.frame_time = timeline.rate.frame_time()};
   AnnotationDocument document;
   document.author = "signweave demo: synthetic, placeholder shapes, not LSF";
@@ -56,55 +80,25 @@ AnnotationDocument annotate(const Script& script, const Timeline& timeline) {
   return document;
 }
 
-std::string truth_of(const Script& script, const Timeline& timeline) {
-  const FrameClock clock{.frame_time = timeline.rate.frame_time()};
-  const WristPlan plan(script, timeline);
-  std::string text = "gloss,phase,begin_ms,end_ms,hand,x,y,z\n";
-  for (const PlacedSign& sign : timeline.signs) {
-    for (const PlacedPhase& phase : phases_of(sign)) {
-      const TimeSpan span = span_of({phase.begin, phase.end}, clock);
-      for (const Side side : {Side::right, Side::left}) {
-        if (!acts(*sign.shape, side)) continue;
-        const Eigen::Vector3f wrist = plan.at(side, static_cast<double>(phase.end));
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{:.4f},{:.4f},{:.4f}\n", sign.shape->gloss,
-                       phase.label, span.begin.count(), span.end.count(), side == Side::right ? "right" : "left",
-                       wrist.x(), wrist.y(), wrist.z());
-      }
-    }
-  }
-  return text;
+Timeline timeline_of(const Script& script, FrameRate rate, std::uint64_t seed) {
+  Random timing(mixed(script, seed));
+  timing.bits();
+  return schedule(script, rate, timing);
 }
-
-}  // namespace
 
 SyntheticRecording make_recording(const Script& script, FrameRate rate, std::uint64_t seed) {
   // One stream of numbers per recording and use, so that a change of one leaves the others as they are.
-  std::uint64_t mixed = seed;
-  for (const char c : script.name) mixed = mixed * 1'099'511'628'211ull + static_cast<unsigned char>(c);
-  Random timing(mixed);
-  Random unrest(timing.bits());
+  Random unrest(Random(mixed(script, seed)).bits());
   const Signer signer = make_signer();
   SyntheticRecording recording;
   recording.name = script.name;
-  recording.timeline = schedule(script, rate, timing);
-  recording.motion = animate(signer, script, recording.timeline, unrest);
-  recording.document = annotate(script, recording.timeline);
-  recording.truth = truth_of(script, recording.timeline);
+  recording.timeline = timeline_of(script, rate, seed);
+  Random ways(unrest.bits());
+  const HandPlan plan(script, recording.timeline, ways);
+  recording.motion = animate(signer, recording.timeline, plan, unrest);
+  recording.document = annotation_of(script, recording.timeline);
+  recording.truth = truth_of(recording.timeline, plan);
   return recording;
-}
-
-std::string stroke_sheet(const SyntheticRecording& recording) {
-  ContactSheetOptions options;
-  options.columns = 8;
-  options.title = recording.name + ": begin and end of every stroke";
-  options.note = "synthetic motion: placeholder shapes, not LSF";
-  for (const PlacedSign& sign : recording.timeline.signs) {
-    options.frames.push_back(sign.stroke_begin);
-    options.captions.push_back(fmt::format("{} [", sign.shape->gloss));
-    options.frames.push_back(sign.stroke_end);
-    options.captions.push_back(fmt::format("{} ]", sign.shape->gloss));
-  }
-  return contact_sheet(recording.motion, options);
 }
 
 }  // namespace signweave::demo

@@ -1,4 +1,5 @@
-// synthetic_signer: writes the demo corpus, a weather forecast and a list of cities after the paper's section 5.1.
+// synthetic_signer: writes the demo corpus: a weather forecast and a list of cities after the paper's section 5.1,
+// and further recordings of the same kinds.
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include <system_error>
 
 #include "demo/corpus.h"
+#include "demo/sheets.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/error.h"
 #include "signweave/formats/bvh.h"
@@ -24,38 +26,60 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   file.commit();
 }
 
-void write_corpus(const std::filesystem::path& folder, FrameRate rate, std::uint64_t seed, bool sheets) {
+struct Wanted {
+  FrameRate rate;
+  std::uint64_t seed = 1;
+  double minutes = 44;
+  bool sheets = false;
+};
+
+/// One recording after another, so that memory holds one.
+void write_corpus(const std::filesystem::path& folder, const Wanted& wanted) {
   std::error_code refused;
   std::filesystem::create_directories(folder, refused);
   if (refused) throw Error(ErrorCode::io, folder.string() + ": " + refused.message() + "; name a folder you may write");
-  for (const demo::Script& script : {demo::meteo(), demo::villes()}) {
-    const demo::SyntheticRecording recording = demo::make_recording(script, rate, seed);
+  if (wanted.sheets) write_file(folder / "handshapes.svg", demo::handshape_sheet());
+  double seconds = 0;
+  const std::vector<demo::Script> scripts = demo::corpus_scripts(wanted.minutes);
+  for (const demo::Script& script : scripts) {
+    const demo::SyntheticRecording recording = demo::make_recording(script, wanted.rate, wanted.seed);
     const auto path = [&](const char* ending) { return folder / (recording.name + ending); };
     bvh::write(path(".bvh"), recording.motion, bvh::default_layout(recording.motion.skeleton()));
     eaf::write(path(".eaf"), recording.document);
     write_file(path(".truth.csv"), recording.truth);
     if (!recording.motion.tracks().empty()) write_file(path(".face.csv"), face_csv::write_text(recording.motion));
-    if (sheets) write_file(path(".svg"), demo::stroke_sheet(recording));
+    if (wanted.sheets) {
+      write_file(path(".svg"), demo::stroke_sheet(recording));
+      write_file(path(".sentence.svg"), demo::sentence_sheet(recording, 1));
+      write_file(path(".side.svg"), demo::sentence_sheet(recording, 1, 75));
+    }
     fmt::print("{}: {} signs, {} frames, {:.1f} s\n", recording.name, recording.timeline.signs.size(),
                recording.motion.frame_count(), recording.motion.duration().count());
+    seconds += recording.motion.duration().count();
   }
+  fmt::print("{} recordings, {:.1f} minutes\n", scripts.size(), seconds / 60);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Writes a made corpus: meteo and villes as .bvh, .eaf and .truth.csv.\n"
+      "Writes a made corpus, meteo and villes and more, each as .bvh, .eaf, .face.csv\n"
+      "and .truth.csv (what is known of how it was made).\n"
       "The shapes are placeholders, not signs of LSF.\n"
       "Example: synthetic_signer out/corpus --seed 7"};
   std::string folder;
-  std::uint64_t seed = 1;
+  Wanted wanted;
   std::string rate_text = "100";
-  bool sheets = false;
   app.add_option("OUT_FOLDER", folder, "where the files go; made where it does not exist")->required();
-  app.add_option("--seed", seed, "another seed makes another recording of the same signs")->capture_default_str();
+  app.add_option("--seed", wanted.seed, "another seed makes another recording of the same signs")
+      ->capture_default_str();
   app.add_option("--rate", rate_text, "frames a second")->capture_default_str();
-  app.add_flag("--sheets", sheets, "also meteo.svg and villes.svg: stick figures of every stroke");
+  app.add_option("--minutes", wanted.minutes, "how long all recordings are together; 2 gives meteo and villes alone")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 10'000.0));
+  app.add_flag("--sheets", wanted.sheets,
+               "also contact sheets (.svg): every stroke, a sentence from the front and from the side, handshapes");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -66,7 +90,8 @@ int main(int argc, char** argv) {
     if (!rate) {
       throw Error(ErrorCode::bad_input, "--rate '" + rate_text + "': no frame rate; give frames a second, such as 100");
     }
-    write_corpus(folder, *rate, seed, sheets);
+    wanted.rate = *rate;
+    write_corpus(folder, wanted);
   } catch (const Error& error) {
     fmt::print(stderr, "synthetic_signer: {}\n", error.what());
     return 1;

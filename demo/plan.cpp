@@ -1,90 +1,225 @@
+#include "demo/plan.h"
+
 #include <algorithm>
 #include <cassert>
-
-#include "demo/animate.h"
+#include <cmath>
 
 namespace signweave::demo {
 namespace {
 
 using Eigen::Vector3f;
+using Piece = HandPlan::Piece;
+using End = HandPlan::End;
 
-Vector3f end_place(const SignShape* sign, Side side, float done) {
-  return sign != nullptr && acts(*sign, side) ? stroke_place(*sign, side, done) : rest_place();
+// How a hand that has nothing to do in the next signs behaves, seconds.
+constexpr double kHoldsFor = 2.6;       ///< it stays where it is for that long where it will be needed again
+constexpr double kWaitsFor = 1.8;       ///< and for that long until the sentence ends
+constexpr double kDropsAfter = 0.25;    ///< otherwise it drops
+constexpr double kDropsIn = 1.15;       ///< slowly
+constexpr double kRisesEarlier = 0.15;  ///< than the other hand, from rest
+constexpr float kLetGo = 0.07f;         ///< a hand that holds sinks a little
+
+Vector3f place_of(const End& end, Side side) {
+  const Vector3f rest = rest_place(end.rest);
+  if (end.sign == nullptr || !acts(*end.sign->shape, side)) return rest;
+  const Vector3f place = stroke_place(*end.sign->shape, side, static_cast<float>(end.stroke), end.sign->token);
+  return place + end.let_go * (rest - place);
+}
+
+bool keeps_moving(Movement movement) {
+  return movement != Movement::straight && movement != Movement::arc;
+}
+
+/// An even pace with a quick, smooth start and stop.
+double evenly(double t) {
+  constexpr double kRamp = 0.22;
+  if (t < kRamp) return t * t / (2 * kRamp * (1 - kRamp));
+  if (t > 1 - kRamp) return 1 - (1 - t) * (1 - t) / (2 * kRamp * (1 - kRamp));
+  return (t - 0.5 * kRamp) / (1 - kRamp);
 }
 
 }  // namespace
 
-WristPlan::WristPlan(const Script& script, const Timeline& timeline) : fps_(timeline.rate.hertz()), sink_(script.sink) {
-  const auto add = [&](std::int64_t begin, std::int64_t end, const SignShape* from, const SignShape* to) {
-    if (end > begin) {
-      pieces_.push_back({.begin = static_cast<double>(begin), .end = static_cast<double>(end), .from = from, .to = to});
+/// Lays the stretches of one hand end to end.
+class HandPlan::Builder {
+ public:
+  Builder(const Script& script, const Timeline& timeline, Side side, Random& random)
+      : script_(script), timeline_(timeline), side_(side), random_(random), fps_(timeline.rate.hertz()) {}
+
+  std::vector<Piece> build() {
+    for (std::size_t i = 0; i < timeline_.signs.size(); ++i) {
+      const PlacedSign& sign = timeline_.signs[i];
+      if (acts(*sign.shape, side_)) {
+        const bool neighbour = now_.sign != nullptr && now_.sign + 1 == &sign && !ends_unit(timeline_, i - 1);
+        if (!neighbour) wait(frame(sign.begin) - (side_ == Side::left ? kRisesEarlier * fps_ : 0), sign.begin);
+        way(frame(sign.stroke_begin), {.sign = &sign}, sign.begin);
+        add(frame(sign.stroke_end), {.sign = &sign, .stroke = 1});
+      }
+      if (ends_unit(timeline_, i)) finish(i);
     }
-  };
-  std::int64_t at = 0;
-  const SignShape* before = nullptr;  // whose retraction is under way
-  for (std::size_t i = 0; i < timeline.signs.size(); ++i) {
-    const PlacedSign& sign = timeline.signs[i];
-    if (before == nullptr) {
-      add(at, sign.begin, nullptr, nullptr);
-      at = sign.begin;
+    add(frame(timeline_.frames), now_);
+    return std::move(pieces_);
+  }
+
+ private:
+  static double frame(std::int64_t frame) { return static_cast<double>(frame); }
+
+  void add(double end, const End& to) {
+    if (end > at_) {
+      Piece piece{.begin = at_, .end = end, .from = now_, .to = to};
+      if (side_ == Side::left && to.sign != nullptr) {
+        piece.lag = std::min(0.15, to.sign->token.lag * fps_ / (end - at_));
+      }
+      pieces_.push_back(piece);
+      at_ = end;
     }
-    add(at, sign.stroke_begin, before, sign.shape);
-    if (at < sign.stroke_begin) {
+    now_ = to;
+  }
+
+  /// A way to somewhere else. `split`: the frame in which the next sign begins.
+  void way(double end, const End& to, std::int64_t split) {
+    const Vector3f from_place = place_of(now_, side_);
+    const Vector3f to_place = place_of(to, side_);
+    const bool between = now_.sign != nullptr && to.sign != nullptr;
+    const double begin = at_;
+    add(end, to);
+    if (begin == at_) return;
+    Piece& piece = pieces_.back();
+    if (to.sign != nullptr) {
       // The handshape forms in the preparation: it has left the old one when that begins, and is there a little before
       // the stroke.
-      Piece& piece = pieces_.back();
-      const double split = static_cast<double>(sign.begin - at) / static_cast<double>(sign.stroke_begin - at);
-      piece.shape_begin = 0.7 * split;
-      piece.shape_end = 1 - 0.12 * (1 - split);
+      const double part = std::clamp((frame(split) - begin) / (end - begin), 0.0, 0.9);
+      piece.shape_begin = 0.7 * part;
+      piece.shape_end = 1 - 0.12 * (1 - part);
     }
-    add(sign.stroke_begin, sign.stroke_end, sign.shape, sign.shape);
-    at = sign.stroke_end;
-    before = sign.shape;
-    const bool last = i + 1 == timeline.signs.size();
-    if (last || timeline.signs[i + 1].begin > sign.end) {
-      add(at, sign.end, sign.shape, nullptr);
-      at = sign.end;
-      before = nullptr;
+    piece.skew = random_.uniform(0.10, 0.34);
+    // Around the body and outwards, never in a straight line.
+    const Vector3f line = to_place - from_place;
+    Vector3f across = line.cross(Vector3f::UnitZ());
+    if (across.norm() > 0.25f * line.norm() && line.norm() > 0.01f) {
+      across *= (across.x() < 0 ? -1.0f : 1.0f) / across.norm();
+      piece.bulge = static_cast<float>(0.09 + 0.04 * random_.normal()) * line.norm() * across;
+    }
+    piece.bulge.z() += 0.12f * line.norm();
+    if (between) {
+      // A quick transition has no time to sink.
+      const double seconds = (end - begin) / fps_;
+      piece.sink = script_.sink * static_cast<float>(std::clamp((seconds - 0.35) / 0.6, 0.0, 1.0) *
+                                                     std::clamp(1 + 0.2 * random_.normal(), 0.6, 1.3));
     }
   }
-  add(at, timeline.frames, nullptr, nullptr);
+
+  /// What a hand does until it is needed again: `until` at the earliest, `sign_begin` at the latest.
+  void wait(double until, std::int64_t sign_begin) {
+    until = std::max(until, at_);
+    if (now_.sign != nullptr) {
+      if (until - at_ < kHoldsFor * fps_) {
+        hold(until);
+      } else {
+        drop(until, sign_begin);
+      }
+    }
+    add(until, now_);
+  }
+
+  void hold(double until) {
+    End held = now_;
+    held.let_go = kLetGo;
+    add(std::min(at_ + 0.4 * fps_, until), held);
+    add(until, held);
+  }
+
+  void drop(double until, std::int64_t split) {
+    add(std::min(at_ + kDropsAfter * fps_, until), now_);
+    way(std::min(at_ + kDropsIn * fps_, until), {.rest = rest_}, split);
+  }
+
+  /// The end of a sentence whose last sign is number i.
+  void finish(std::size_t i) {
+    rest_ = i + 1 == timeline_.signs.size() ? Rest::hips : Rest::belly;
+    const PlacedSign& last = timeline_.signs[i];
+    const auto end = frame(last.end);
+    if (now_.sign == &last) {
+      way(end, {.rest = rest_}, last.end);
+    } else if (now_.sign != nullptr) {
+      if (frame(last.stroke_end) - at_ < kWaitsFor * fps_) {
+        hold(std::max(at_, frame(last.stroke_end)));
+        way(std::max(end, at_ + 0.5 * fps_), {.rest = rest_}, last.end);
+      } else {
+        drop(end, last.end);
+      }
+    } else if (now_.rest != rest_) {
+      way(std::max(end, at_ + 0.7 * fps_), {.rest = rest_}, last.end);
+    }
+  }
+
+  const Script& script_;
+  const Timeline& timeline_;
+  Side side_;
+  Random& random_;
+  double fps_;
+  std::vector<Piece> pieces_;
+  double at_ = 0;
+  End now_ = {.rest = Rest::hips};
+  Rest rest_ = Rest::belly;
+};
+
+HandPlan::HandPlan(const Script& script, const Timeline& timeline, Random& random) {
+  for (const Side side : kSides) {
+    pieces_[static_cast<std::size_t>(side)] = Builder(script, timeline, side, random).build();
+  }
 }
 
-const WristPlan::Piece& WristPlan::piece_at(double frame) const {
-  assert(!pieces_.empty());
-  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), frame,
+const Piece& HandPlan::piece_at(Side side, double frame) const {
+  const std::vector<Piece>& pieces = pieces_[static_cast<std::size_t>(side)];
+  assert(!pieces.empty());
+  const auto after = std::upper_bound(pieces.begin(), pieces.end(), frame,
                                       [](double value, const Piece& piece) { return value < piece.begin; });
-  return after == pieces_.begin() ? pieces_.front() : *(after - 1);
+  return after == pieces.begin() ? pieces.front() : *(after - 1);
 }
 
-double WristPlan::time_in(const Piece& piece, double frame) {
+double HandPlan::time_in(const Piece& piece, double frame) {
   return std::clamp((frame - piece.begin) / (piece.end - piece.begin), 0.0, 1.0);
 }
 
-double WristPlan::done_in(const Piece& piece, double frame) {
-  const double t = time_in(piece, frame);
-  return t * t * t * (10 + t * (6 * t - 15));  // minimum jerk (Flash and Hogan 1985)
+double HandPlan::done_in(const Piece& piece, double frame) {
+  double t = time_in(piece, frame);
+  t += (piece.skew - 4 * piece.lag) * t * (1 - t);
+  if (piece.is_stroke() && keeps_moving(piece.from.sign->shape->movement)) {
+    return evenly(t);
+  }
+  // Between the curve of least jerk (Flash and Hogan 1985), which dwells at both ends, and a quicker start and stop.
+  return 0.35 * t * t * t * (10 + t * (6 * t - 15)) + 0.65 * t * t * (3 - 2 * t);
 }
 
-Vector3f WristPlan::at(Side side, double frame) const {
-  const Piece& piece = piece_at(frame);
+Vector3f HandPlan::at(Side side, double frame) const {
+  const Piece& piece = piece_at(side, frame);
   const auto done = static_cast<float>(done_in(piece, frame));
-  if (piece.from == piece.to && piece.from != nullptr && acts(*piece.from, side)) {
-    return to_model(stroke_place(*piece.from, side, done), side);
+  if (piece.is_stroke() && acts(*piece.from.sign->shape, side)) {
+    return to_model(stroke_place(*piece.from.sign->shape, side, done, piece.from.sign->token), side);
   }
-  const Vector3f from = end_place(piece.from, side, 1);
-  const Vector3f to = end_place(piece.to, side, 0);
-  Vector3f place = from + done * (to - from);
-  const float middle = 4 * done * (1 - done);        // 0 at both ends, where it neither starts nor stops the hand
-  place.z() += 0.12f * middle * (to - from).norm();  // around the body, not through it
-  const bool between = piece.from != nullptr && piece.to != nullptr && acts(*piece.from, side) && acts(*piece.to, side);
-  if (between && piece.from != piece.to) {
-    // A quick transition has no time to sink.
-    const double seconds = (piece.end - piece.begin) / fps_;
-    const auto depth = sink_ * static_cast<float>(std::clamp((seconds - 0.35) / 0.6, 0.0, 1.0));
-    place += depth * middle * middle * (rest_place() - 0.5f * (from + to));
-  }
+  const Vector3f from = place_of(piece.from, side);
+  const Vector3f to = place_of(piece.to, side);
+  const float middle = 4 * done * (1 - done);  // 0 at both ends, where it neither starts nor stops the hand
+  Vector3f place = from + done * (to - from) + middle * piece.bulge;
+  place += piece.sink * middle * middle * (rest_place() - 0.5f * (from + to));
   return to_model(place, side);
+}
+
+double HandPlan::shape_done(const Piece& piece, double frame) {
+  return std::clamp((time_in(piece, frame) - piece.shape_begin) / (piece.shape_end - piece.shape_begin), 0.0, 1.0);
+}
+
+Handshape HandPlan::shape_at(Side side, double frame) const {
+  const Piece& piece = piece_at(side, frame);
+  return shape_of(shape_done(piece, frame) < 0.5 ? piece.from : piece.to, side);
+}
+
+Handshape shape_of(const HandPlan::End& end, Side side) {
+  if (end.sign == nullptr || !acts(*end.sign->shape, side)) return Handshape::relaxed;
+  const SignShape& sign = *end.sign->shape;
+  if (side == Side::left && sign.hands == Hands::on_base) return sign.base.shape;
+  return end.stroke == 0 ? sign.shape : sign.shape_end.value_or(sign.shape);
 }
 
 }  // namespace signweave::demo

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,10 +33,17 @@ Script meteo();
 /// RENNES, LE MANS and some others twice.
 Script villes();
 
+/// The whole corpus: meteo and villes, then as many further recordings of about two minutes as make the minutes asked
+/// for (none where those two are enough). Their units are 4 to 9 signs long and come from a small grammar
+/// (corpus_scripts.cpp), the rarest words first, so that at 44 minutes nearly every word of the table occurs five times
+/// or more. The same minutes give the same scripts.
+std::vector<Script> corpus_scripts(double minutes);
+
 /// A sign at its time. Frames; the phases touch: [begin, stroke_begin) is the preparation, then stroke, then
 /// retraction.
 struct PlacedSign {
   const SignShape* shape = nullptr;  ///< a row of sign_table()
+  Token token = {};                  ///< what is special about this one
   std::int64_t begin = 0;
   std::int64_t stroke_begin = 0;
   std::int64_t stroke_end = 0;
@@ -50,13 +56,21 @@ struct Timeline {
   std::int64_t frames = 0;        ///< with the rests before, between and after
 };
 
-/// Where the hands rest: `to_model` coordinates of the wrist.
-Eigen::Vector3f rest_place();
+/// True where the hands rest after that sign.
+bool ends_unit(const Timeline& timeline, std::size_t sign) noexcept;
 
-/// Gives every sign its frames. Every bound is a whole number of milliseconds as well as of frames, and the durations
-/// of transitions (within units, and those across a rest by themselves) have the script's mean and deviation to within
-/// rounding: longer ways take longer. Throws Error{unsupported} for a rate whose frames meet whole milliseconds less
-/// often than every 50 ms.
+/// Where hands rest: between sentences in front of the belly, before the first and after the last along the hips.
+enum class Rest { belly, hips };
+/// `to_model` coordinates of the wrist.
+Eigen::Vector3f rest_place(Rest rest = Rest::belly);
+
+/// Gives every sign its frames and its token. Every bound is a whole number of milliseconds as well as of frames, and
+/// the durations of transitions (within units, and those across a rest by themselves) have the script's mean and
+/// deviation to within rounding: longer ways take longer. Throws Error{unsupported} for a rate whose frames meet whole
+/// milliseconds less often than every 50 ms.
 Timeline schedule(const Script& script, FrameRate rate, Random& random);
+
+/// About how long a recording of that script is, seconds.
+double expected_seconds(const Script& script);
 
 }  // namespace signweave::demo

@@ -113,6 +113,10 @@ Signer make_signer() {
   return signer;
 }
 
+Eigen::Vector3f Signer::finger_tip(std::size_t finger) const {
+  return kHand[finger].points[kPhalanges] - kHand[finger].points[kPhalanges - 1];
+}
+
 Eigen::Vector3f Signer::rest_position(JointIndex joint) const {
   Vector3f place = Vector3f::Zero();
   for (JointIndex at = joint; at != kNoJoint; at = skeleton->joint(at).parent) place += skeleton->joint(at).offset;

@@ -41,6 +41,8 @@ struct Signer {
   SideJoints left, right;
 
   const SideJoints& side(Side which) const noexcept { return which == Side::left ? left : right; }
+  /// From a finger's last joint to its tip, left hand, metres.
+  Eigen::Vector3f finger_tip(std::size_t finger) const;
   /// Where a joint is in the rest pose, metres, model space.
   Eigen::Vector3f rest_position(JointIndex joint) const;
 };

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "demo/face.h"
 #include "demo/handshapes.h"
 
 namespace signweave::demo {
@@ -25,8 +26,11 @@ enum class Movement {
   straight,  ///< from place to place + move
   arc,       ///< the same, bulging by `size` towards `side`
   circle,    ///< turns of radius `size` on the way, in the plane of `side` and up (or forward, where side is up)
-  repeated,  ///< there and back and there again: `times` strokes towards place + move
+  repeated,  ///< there and back and there again: `times` strokes towards place + move, each way back a little shorter
+  zigzag,    ///< straight, going `times` times to and fro by `size` along `side`
   flutter,   ///< straight, with playing fingers
+  twist,     ///< straight, the forearm turning to and fro `times` times
+  nod,       ///< straight, the wrist bending to and fro `times` times
 };
 
 /// A hand that holds still.
@@ -39,6 +43,7 @@ struct Hold {
 /// How one sign is made. PLACEHOLDERS: invented for this demo to move like signing. No sign here is one of LSF.
 struct SignShape {
   std::string_view gloss;
+  Face face = {};
   Hands hands = Hands::one;
   Handshape shape = Handshape::flat;
   std::optional<Handshape> shape_end = {};                         ///< where the shape changes during the stroke
@@ -62,14 +67,31 @@ const SignShape& sign_for(std::string_view gloss);
 /// True where that side does something in the sign.
 bool acts(const SignShape& sign, Side side) noexcept;
 
+/// How one token differs from its description: no two are alike.
+struct Token {
+  float size = 1;            ///< of the movement, 0.85 to 1.15
+  float other_size = 1;      ///< the left hand's beside the right one's, 0.9 to 1: the dominant hand does more
+  float small = 1;           ///< of what is repeated, circles or shakes; under 1 in a quick context
+  int fewer = 0;             ///< repetitions left out in a quick context
+  double lag = 0;            ///< seconds by which the left hand is behind in the middle of a movement
+  float turn = 0, bend = 0;  ///< radians by which forearm and wrist differ
+  Eigen::Vector3f shift = Eigen::Vector3f::Zero();  ///< of the whole stroke, metres, at most 2 cm
+};
+
+/// How often a token's movement is repeated.
+int times_of(const SignShape& sign, const Token& token) noexcept;
+
 /// Where the wrist of a side is when a fraction of the stroke is done, in the coordinates above (x away from the
 /// middle on that side). For a side that acts.
-Eigen::Vector3f stroke_place(const SignShape& sign, Side side, float done);
+Eigen::Vector3f stroke_place(const SignShape& sign, Side side, float done, const Token& token = {});
 
 /// The same in metres of model space, which is where the recordings put it.
 Eigen::Vector3f to_model(const Eigen::Vector3f& place, Side side);
 
 /// How far the wrist travels in the stroke, metres.
-float stroke_length(const SignShape& sign, Side side);
+float stroke_length(const SignShape& sign, Side side, const Token& token = {});
+
+/// True where every place of the stroke lies within an arm's reach, before chest and face, and on its own side.
+bool within_reach(const SignShape& sign, const Token& token = {});
 
 }  // namespace signweave::demo

@@ -147,6 +147,48 @@ TEST(ContactSheet, LooksTheSameWhereverTheSignerStandsAndFaces) {
   EXPECT_EQ(contact_sheet(motion), contact_sheet(turned));
 }
 
+TEST(ContactSheet, ShowsTheFaceThatTheTracksTellOf) {
+  Motion motion = standing(4);
+  motion.add_track({"jawOpen", {0, 1, 0, 0}});
+  motion.add_track({"eyeBlinkLeft", {0, 0, 1, 0}});
+  motion.add_track({"browDownRight", {0, 0, 0, 1}});
+  motion.add_track({"noSuchShape", {1, 1, 1, 1}});
+  ContactSheetOptions options;
+  options.captions = {"", "", "", ""};
+  const pugi::xml_document document = parsed(contact_sheet(motion, options));
+  std::set<std::string> faces;
+  std::vector<std::ptrdiff_t> pupils;
+  for (const pugi::xml_node& cell : cells(document)) {
+    std::string face;
+    for (const pugi::xml_node path : cell.children("path")) face += path.attribute("d").value();
+    faces.insert(face);
+    const auto circles = cell.children("circle");
+    pupils.push_back(std::distance(circles.begin(), circles.end()));
+  }
+  EXPECT_EQ(faces.size(), 4U);
+  EXPECT_THAT(pupils, testing::ElementsAre(2, 2, 1, 2));  // a shut eye shows none
+}
+
+TEST(ContactSheet, TurnsItsFiguresWhereAsked) {
+  const auto extent = [](double turn) {
+    ContactSheetOptions options;
+    options.turn = turn;
+    const pugi::xml_document document = parsed(contact_sheet(standing(1), options));
+    double least = 1000;
+    double most = 0;
+    for (const pugi::xml_node line : cells(document)[0].children("line")) {
+      for (const char* x : {"x1", "x2"}) {
+        least = std::min(least, line.attribute(x).as_double());
+        most = std::max(most, line.attribute(x).as_double());
+      }
+    }
+    return most - least;
+  };
+  EXPECT_GT(extent(0), 150);  // arms held out to the sides
+  EXPECT_LT(extent(90), 2);
+  EXPECT_NEAR(extent(180), extent(0), 0.2);
+}
+
 TEST(ContactSheet, EscapesEveryTextOfAnyScript) {
   ContactSheetOptions options;
   options.captions = {"<A & \"B\">"};

@@ -4,6 +4,7 @@
 #include <utf8proc.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -77,11 +78,11 @@ bool is_utf8(std::string_view text) noexcept {
   const auto* at = reinterpret_cast<const utf8proc_uint8_t*>(text.data());
   auto left = static_cast<utf8proc_ssize_t>(text.size());
   while (left > 0) {
-    // Eight letters of ASCII at a time, which most text is.
-    std::uint64_t eight = 0;
-    for (; left >= 8; at += 8, left -= 8) {
-      std::memcpy(&eight, at, sizeof eight);
-      if ((eight & 0x8080808080808080u) != 0) break;
+    // Many letters of ASCII at a time, which most text is.
+    std::array<std::uint64_t, 4> many{};
+    for (; left >= 32; at += 32, left -= 32) {
+      std::memcpy(many.data(), at, sizeof many);
+      if (((many[0] | many[1] | many[2] | many[3]) & 0x8080808080808080u) != 0) break;
     }
     for (; left > 0 && *at < 0x80; ++at) --left;
     if (left == 0) break;

@@ -34,15 +34,16 @@ constexpr std::array<char, 200> kPairs = [] {
   return pairs;
 }();
 
-/// `value` in units of its last decimal, rounded as the exact value of the double is; none where that cannot be told
-/// from the product, which is itself rounded: it is within 1e-5 of the exact one below 1e11.
+/// `value` in units of its last decimal, rounded as the exact value of the double is; none where that is not known
+/// here. The product with an exact power of ten is rounded once, and never across a half, which is a double itself:
+/// only where it falls on one may the exact value lie on either side.
 std::optional<std::uint64_t> in_last_places(double value, int decimals) noexcept {
   if (decimals >= static_cast<int>(kPowers.size())) return std::nullopt;
   const double scaled = value * kPowers[static_cast<std::size_t>(decimals)];
-  if (!(scaled < 1e11)) return std::nullopt;
+  if (!(scaled < 1e15)) return std::nullopt;
   const auto whole = static_cast<std::int64_t>(scaled);
   const double rest = scaled - static_cast<double>(whole);
-  if (std::abs(rest - 0.5) < 1e-4) return std::nullopt;
+  if (rest == 0.5) return std::nullopt;
   return static_cast<std::uint64_t>(whole + (rest > 0.5 ? 1 : 0));
 }
 

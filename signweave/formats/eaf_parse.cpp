@@ -103,12 +103,10 @@ class Parser {
   }
 
   void read_slots(pugi::xml_node order) {
-    const pugi::xml_object_range<pugi::xml_named_node_iterator> all = order.children("TIME_SLOT");
-    const auto count = parts_.slots.size() + static_cast<std::size_t>(std::distance(all.begin(), all.end()));
-    slots_.reserve(count);
-    annotations_.reserve(count);  // about as many, as a rule
-    parts_.slots.reserve(count);
-    for (const pugi::xml_node child : all) {
+    const std::size_t most = xml_.text().size() / 32;  // elements of either kind are longer
+    slots_.reserve(most);
+    annotations_.reserve(most);
+    for (const pugi::xml_node child : order.children("TIME_SLOT")) {
       Slot slot;
       slot.element = child;
       slot.id = xml_.required(child, "TIME_SLOT_ID");

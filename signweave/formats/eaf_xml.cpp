@@ -170,7 +170,12 @@ std::string Xml::where(pugi::xml_node node) const {
 }
 
 std::string_view Xml::attribute(pugi::xml_node node, const char* name) const {
-  const std::string_view value = node.attribute(name).value();
+  // Most files have their attributes in the order in which they are asked for: the search goes on where it last ended.
+  if (node != last_node_) {
+    last_node_ = node;
+    last_attribute_ = pugi::xml_attribute();
+  }
+  const std::string_view value = node.attribute(name, last_attribute_).value();
   // A character reference may name half a surrogate pair.
   if (has_references_ && !is_utf8(value)) fail(node, fmt::format("{} is no Unicode text; write it again", name));
   return value;

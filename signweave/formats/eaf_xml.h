@@ -58,6 +58,8 @@ class Xml {
   bool has_references_ = false;                   ///< to characters by number, which may name half a surrogate pair
   mutable std::vector<std::size_t> line_starts_;  ///< made when the first line is asked for: most files are in order
   pugi::xml_document document_;
+  mutable pugi::xml_node last_node_;  ///< whose attribute was asked for last
+  mutable pugi::xml_attribute last_attribute_;
 };
 
 /// `text` as it stands in XML between tags or in a quoted attribute. Throws Error{bad_input} for what XML cannot hold:

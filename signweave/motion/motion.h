@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "signweave/core/time.h"
@@ -96,6 +97,8 @@ class Motion {
   const std::vector<ScalarTrack>& tracks() const noexcept { return tracks_; }
   /// Adds a track, which must have one value per frame.
   void add_track(ScalarTrack track);
+  /// Hands over the tracks; the motion has none then.
+  std::vector<ScalarTrack> take_tracks() noexcept { return std::exchange(tracks_, {}); }
 
   /// A copy of some frames, with their part of every track. `range` must lie within the motion.
   Motion slice(FrameRange range) const;

@@ -8,68 +8,90 @@
 namespace signweave {
 namespace {
 
-/// Reads and joins the tracks of all stretches. `values_` is [track of the result][output frame].
+/// Reads and joins the tracks of all stretches. `tracks_` are the result's, in its frames.
 class TrackCarrier {
  public:
-  TrackCarrier(std::vector<std::string> names, std::int64_t frames)
-      : names_(std::move(names)),
-        values_(names_.size(), std::vector<float>(static_cast<std::size_t>(frames), 0.0f)),
-        faded_(names_.size()) {}
+  TrackCarrier(const std::vector<std::string>& names, std::int64_t frames, std::vector<ScalarTrack> used)
+      : tracks_(std::move(used)), faded_(names.size()) {
+    tracks_.resize(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      tracks_[i].name = names[i];
+      tracks_[i].values.resize(static_cast<std::size_t>(frames));
+    }
+  }
 
   /// A stretch, and the transition from the one before, which ends at output frame `last_end`.
   void carry(const Laid& laid, std::int64_t last_end, bool first) {
     const std::int64_t shared = std::max<std::int64_t>(0, last_end - laid.begin());
     const FrameRange own{laid.begin() + shared, laid.end()};
-    for (std::vector<float>& values : faded_) values.assign(static_cast<std::size_t>(shared), 0.0f);
+    for (std::vector<float>& values : faded_) values.resize(static_cast<std::size_t>(shared));
     read(laid, {laid.begin(), own.begin}, [&](std::size_t track) { return std::span(faded_[track]); });
     read(laid, own, [&](std::size_t track) {
-      return std::span(values_[track])
+      return std::span(tracks_[track].values)
           .subspan(static_cast<std::size_t>(own.begin), static_cast<std::size_t>(own.size()));
     });
     if (first) return;
-    for (std::size_t track = 0; track < values_.size(); ++track) {
-      std::vector<float>& values = values_[track];
-      for (std::int64_t k = 0; k < shared; ++k) {
-        float& value = values[static_cast<std::size_t>(laid.begin() + k)];
-        value += crossfade_weight(k, shared) * (faded_[track][static_cast<std::size_t>(k)] - value);
-      }
-      const std::int64_t gap = laid.begin() - last_end;
-      if (gap <= 0) continue;
-      const float left = values[static_cast<std::size_t>(last_end - 1)];
-      const float right = values[static_cast<std::size_t>(laid.begin())];
-      for (std::int64_t k = 0; k < gap; ++k) {
-        values[static_cast<std::size_t>(last_end + k)] = left + crossfade_weight(k, gap) * (right - left);
-      }
-    }
+    fade(laid.begin(), shared);
+    fill_gap(last_end, laid.begin() - last_end);
   }
 
   void hand_over(Motion& motion) {
-    for (std::size_t track = 0; track < names_.size(); ++track) {
-      motion.add_track({std::move(names_[track]), std::move(values_[track])});
-    }
+    for (ScalarTrack& track : tracks_) motion.add_track(std::move(track));
   }
 
  private:
-  /// Reads all tracks of a stretch at once, each to where it belongs among the result's.
+  /// Reads all tracks of a stretch at once, each to where it belongs among the result's; those that it lacks are 0.
   template <typename Place>
   void read(const Laid& laid, FrameRange output, Place place) {
     if (output.empty()) return;
+    const std::span<const std::string> names = laid.stretch->source->tracks();
     spans_.clear();
-    for (const std::string& name : laid.stretch->source->tracks()) {
-      spans_.push_back(place(static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin())));
-    }
+    for (const std::string& name : names) spans_.push_back(place(index_of(name)));
     read_tracks(laid, output, spans_);
+    for (std::size_t track = 0; track < tracks_.size(); ++track) {
+      if (std::ranges::find(names, tracks_[track].name) == names.end()) std::ranges::fill(place(track), 0.0f);
+    }
   }
 
-  std::vector<std::string> names_;
-  std::vector<std::vector<float>> values_;
+  std::size_t index_of(const std::string& name) const {
+    const auto at = std::ranges::find(tracks_, name, &ScalarTrack::name);
+    return static_cast<std::size_t>(at - tracks_.begin());
+  }
+
+  void fade(std::int64_t begin, std::int64_t count) {
+    weigh(count);
+    for (std::size_t track = 0; track < tracks_.size(); ++track) {
+      float* const values = tracks_[track].values.data() + begin;
+      const float* const other = faded_[track].data();
+      for (std::size_t k = 0; k < weights_.size(); ++k) values[k] += weights_[k] * (other[k] - values[k]);
+    }
+  }
+
+  void fill_gap(std::int64_t begin, std::int64_t count) {
+    if (count <= 0) return;
+    weigh(count);
+    for (ScalarTrack& track : tracks_) {
+      float* const values = track.values.data() + begin;
+      const float left = values[-1];
+      const float right = values[count];
+      for (std::size_t k = 0; k < weights_.size(); ++k) values[k] = left + weights_[k] * (right - left);
+    }
+  }
+
+  void weigh(std::int64_t count) {
+    weights_.resize(static_cast<std::size_t>(count));
+    for (std::int64_t k = 0; k < count; ++k) weights_[static_cast<std::size_t>(k)] = crossfade_weight(k, count);
+  }
+
+  std::vector<ScalarTrack> tracks_;
   std::vector<std::vector<float>> faded_;
   std::vector<std::span<float>> spans_;
+  std::vector<float> weights_;  ///< of the frames of one transition
 };
 
 }  // namespace
 
-void carry_tracks(const std::vector<Laid>& laid, Synthesis& out) {
+void carry_tracks(const std::vector<Laid>& laid, std::vector<ScalarTrack> used, Motion& motion) {
   std::vector<std::string> names;
   const MotionSource* seen = nullptr;
   for (const Laid& one : laid) {
@@ -80,11 +102,11 @@ void carry_tracks(const std::vector<Laid>& laid, Synthesis& out) {
     }
   }
   if (names.empty()) return;
-  TrackCarrier carrier(std::move(names), out.motion.frame_count());
+  TrackCarrier carrier(names, motion.frame_count(), std::move(used));
   for (std::size_t i = 0; i < laid.size(); ++i) {
     carrier.carry(laid[i], i == 0 ? laid[i].begin() : laid[i - 1].end(), i == 0);
   }
-  carrier.hand_over(out.motion);
+  carrier.hand_over(motion);
 }
 
 }  // namespace signweave

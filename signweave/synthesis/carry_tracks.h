@@ -7,7 +7,8 @@
 /// Inside this module only.
 namespace signweave {
 
-/// Adds to `out.motion` every scalar track that one of the stretches has. Its motion and junctions must be there.
-void carry_tracks(const std::vector<Laid>& laid, Synthesis& out);
+/// Adds to `motion`, which has its frames already, every scalar track that one of the stretches has. The memory of
+/// `used` is used again.
+void carry_tracks(const std::vector<Laid>& laid, std::vector<ScalarTrack> used, Motion& motion);
 
 }  // namespace signweave

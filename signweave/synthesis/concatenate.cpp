@@ -219,6 +219,7 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
   const Plan plan = plan_of(stretches, options, rate, method);
 
   Synthesis out;
+  std::vector<ScalarTrack> used_tracks = used.motion.take_tracks();
   out.motion = std::move(used.motion);
   out.sources = std::move(used.sources);
   out.motion.reset(reference.source->skeleton(), rate, plan.frames);
@@ -242,7 +243,7 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
                              .method = std::string(method.name)});
     assert(out.junctions.back().frames.size() == plan.cuts[i - 1].length);
   }
-  carry_tracks(plan.laid, out);
+  carry_tracks(plan.laid, std::move(used_tracks), out.motion);
   place_signs(stretches, out);
   return out;
 }

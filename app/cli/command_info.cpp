@@ -186,8 +186,8 @@ void info_of_database(const std::string& folder, Io& io) {
   io.out << fmt::format("{}: {} {}, {}, {:.1f} MiB on disk, new motions {}\n", folder, engine.name, engine.version,
                         counted(engine.entries, "record"), static_cast<double>(engine.bytes_on_disk) / 1048576.0,
                         to_string(database.access_mode()));
-  std::vector<std::vector<std::string>> rows = {
-      {"recording", "signer", "frames", "per second", "seconds", "joints", "access mode", "packets", "signs"}};
+  std::vector<std::vector<std::string>> rows = {{"recording", "signer", "frames", "per second", "seconds", "joints",
+                                                 "tracks", "access mode", "packets", "signs"}};
   for (std::size_t i = 0; i < contents->recordings.size(); ++i) {
     const RecordingInfo& info = contents->recordings[i];
     std::size_t signs = 0;
@@ -199,20 +199,15 @@ void info_of_database(const std::string& folder, Io& io) {
       const motion_db::StoredMotion& motion = *info.motion;
       row.insert(row.end(), {std::to_string(motion.frames), to_string(motion.rate),
                              fmt::format("{:.2f}", static_cast<double>(motion.frames) / motion.rate.hertz()),
-                             std::to_string(motion.joints), to_string(motion.mode),
-                             std::to_string(motion_db::packet_count(motion))});
+                             std::to_string(motion.joints), std::to_string(motion.tracks.size()),
+                             to_string(motion.mode), std::to_string(motion_db::packet_count(motion))});
     } else {
-      row.insert(row.end(), 6, "-");
+      row.insert(row.end(), 7, "-");
     }
     row.push_back(info.document != 0 ? std::to_string(signs) : "-");
     rows.push_back(std::move(row));
   }
   if (rows.size() > 1) io.out << format_table(rows);
-  for (const RecordingInfo& info : contents->recordings) {
-    if (!info.motion || info.motion->tracks.empty()) continue;
-    io.out << fmt::format("{}: {}: {}\n", info.name, counted(info.motion->tracks.size(), "scalar track"),
-                          short_list(info.motion->tracks));
-  }
   for (const std::string& fault : contents->faults) io.err << "signweave: " << fault << '\n';
   if (!contents->faults.empty()) io.status = 1;
 }

@@ -260,9 +260,18 @@ Face read_text(const std::string& name, std::string_view text) {
 }
 
 std::vector<ScalarTrack> resampled(const Face& face, FrameRate rate, std::int64_t frames) {
-  std::vector<ScalarTrack> tracks;
+  const auto says_something = [](const ScalarTrack& track) {
+    return std::ranges::find(kNames, track.name) == std::end(kNames) ||
+           std::ranges::any_of(track.values, [](float value) { return value != 0; });
+  };
+  std::vector<const ScalarTrack*> wanted;
   for (const ScalarTrack& track : face.tracks) {
-    tracks.push_back({.name = track.name, .values = {}});
+    if (says_something(track)) wanted.push_back(&track);
+  }
+  if (wanted.empty() && !face.tracks.empty()) wanted.push_back(&face.tracks.front());  // a face was captured, at rest
+  std::vector<ScalarTrack> tracks;
+  for (const ScalarTrack* track : wanted) {
+    tracks.push_back({.name = track->name, .values = {}});
     tracks.back().values.reserve(static_cast<std::size_t>(frames));
   }
   std::size_t next = 0;  // the first row after the frame's time
@@ -275,7 +284,7 @@ std::vector<ScalarTrack> resampled(const Face& face, FrameRate rate, std::int64_
     const double span = (face.times[after] - face.times[before]).count();
     const double part = span > 0 ? (time - face.times[before]).count() / span : 0;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-      const std::vector<float>& values = face.tracks[i].values;
+      const std::vector<float>& values = wanted[i]->values;
       tracks[i].values.push_back(
           static_cast<float>(values[before] + part * (static_cast<double>(values[after]) - values[before])));
     }

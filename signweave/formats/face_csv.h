@@ -31,7 +31,8 @@ Face read(const std::filesystem::path& path);
 Face read_text(const std::string& name, std::string_view text);
 
 /// The tracks at the frames of a motion, the first row at frame 0: linear between rows, the last value held after the
-/// last row.
+/// last row. An ARKit track that is 0 throughout says nothing and is left out (of a face all at rest one is kept): the
+/// file always has its column, and `write_text` writes it as 0.
 std::vector<ScalarTrack> resampled(const Face& face, FrameRate rate, std::int64_t frames);
 
 /// The scalar tracks of a motion: every ARKit name, 0 where the motion has no such track, then its other tracks. The

@@ -176,5 +176,19 @@ RC_GTEST_PROP(FaceCsvProperty, WhatIsWrittenIsReadBackAtTheSameFrames, ()) {
   }
 }
 
+TEST(FaceCsvResampled, LeavesOutArkitTracksThatSayNothing) {
+  const auto names = [](const std::string& text) {
+    std::vector<std::string> found;
+    for (const ScalarTrack& track : face_csv::resampled(face_csv::read_text("f.csv", text), {60, 1}, 3)) {
+      found.push_back(track.name);
+    }
+    return found;
+  };
+  const std::string heading = "Timecode,BlendShapeCount,EyeBlinkLeft,JawOpen,Ear\n";
+  EXPECT_THAT(names(heading + "0:0:0:0,3,0,0.5,0\n0:0:0:1,3,0,0,0\n"), testing::ElementsAre("jawOpen", "ear"));
+  EXPECT_THAT(names("Timecode,BlendShapeCount,EyeBlinkLeft,JawOpen\n0:0:0:0,2,0,0\n"),
+              testing::ElementsAre("eyeBlinkLeft"));
+}
+
 }  // namespace
 }  // namespace signweave

@@ -118,7 +118,8 @@ std::vector<BodyFrame> move_body(const Timeline& timeline, const HandPlan& plan,
     if (!ends_unit(timeline, i)) continue;
     gestures.push_back({end - 0.10 * fps, end + 0.55 * fps, random.uniform(0.10, 0.16)});
     stance.from = end;
-    stance.tilt = random.uniform(0.03, 0.08) * (random.uniform() < 0.5 ? -1 : 1);
+    const double tilt = random.uniform(0.03, 0.08);
+    stance.tilt = random.uniform() < 0.5 ? -tilt : tilt;
     stance.weight = random.uniform(-0.016, 0.016);
     stances.push_back(stance);
   }

@@ -126,6 +126,7 @@ Run export_recording(CLI::App& verb) {
       }
       write_recording(path, recording);
     }
+    for (const auto& [name, value] : info.declarations) io.err << "signweave: " << value << '\n';
     if (io.json) {
       io.out << nlohmann::json{{"recording", info.name}, {"files", options->outputs}, {"frames", frames.size()}}.dump(
                     2, ' ', false, nlohmann::json::error_handler_t::replace)

@@ -17,7 +17,7 @@ Run formats(CLI::App&) {
         {".json", "no", "yes", "a synthesis: poses, signs, sources, junctions", "nothing"},
         {".csv", "no", "yes", "joint positions per frame, metres", "rotations, annotation"},
         {".face.csv", "yes", "yes", "scalar tracks, as Live Link Face writes them", "everything else"},
-        {".svg", "no", "yes", "contact sheet of stick figures", "everything but the picture"},
+        {".svg", "no", "yes", "contact sheet: frames as pictures", "everything but the picture"},
     };
     if (!io.json) {
       io.out << format_table(rows);

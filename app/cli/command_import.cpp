@@ -122,13 +122,15 @@ void run_import(const Options& given, Io& io) {
         recordings.push_back({{"name", report.name},
                               {"outcome", name_of(report.outcome)},
                               {"frames", report.frames},
+                              {"tracks", report.tracks},
                               {"signs", report.signs},
                               {"notices", std::move(notices)}});
       } else {
         std::string line = fmt::format("{}: {}", report.name, name_of(report.outcome));
         if (report.outcome != ImportOutcome::unchanged) {
-          line += fmt::format(", {}, {}", counted(static_cast<std::size_t>(report.frames), "frame"),
-                              counted(report.signs, "sign"));
+          line += ", " + counted(static_cast<std::size_t>(report.frames), "frame");
+          if (report.tracks > 0) line += ", " + counted(report.tracks, "face track");
+          line += ", " + counted(report.signs, "sign");
         }
         io.out << line << '\n';
       }

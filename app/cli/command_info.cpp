@@ -87,18 +87,22 @@ void info_of_face(const std::string& path, Io& io) {
   const face_csv::Face face = face_csv::read(path);
   std::vector<std::string> names;
   for (const ScalarTrack& track : face.tracks) names.push_back(track.name);
+  const double seconds = face.times.back().count();
+  const double rows_per_second = seconds > 0 ? static_cast<double>(face.times.size() - 1) / seconds : 0;
   nlohmann::ordered_json fields = {{"file", path},
                                    {"format", "Live Link Face CSV"},
                                    {"rows", face.times.size()},
                                    {"seconds", face.times.back().count()},
-                                   {"frames_per_second", face.rate.hertz()}};
+                                   {"rows_per_second", rows_per_second},
+                                   {"timecode_frames_per_second", face.rate.hertz()}};
   if (io.json) {
     fields["tracks"] = names;
     fields["notices"] = json_of(face.notices);
     io.out << fields.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return;
   }
-  fields["frames_per_second"] = to_string(face.rate);
+  fields["rows_per_second"] = fmt::format("{:.2f}", rows_per_second);
+  fields["timecode_frames_per_second"] = to_string(face.rate);
   fields["seconds"] = fmt::format("{:.3f}", face.times.back().count());
   fields["tracks"] = fmt::format("{}: {}", names.size(), short_list(names));
   print_pairs(io, fields);

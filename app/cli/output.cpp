@@ -53,11 +53,26 @@ json json_of(const Motion& motion) {
     for (const Eigen::Vector3f& t : pose.translations) row.insert(row.end(), {t.x(), t.y(), t.z()});
     translations.push_back(std::move(row));
   }
+  json tracks = json::object();
+  for (const ScalarTrack& track : motion.tracks()) tracks[track.name] = track.values;
   return {{"frames_per_second", motion.rate().hertz()},
           {"frames", motion.frame_count()},
           {"joints", std::move(joints)},
           {"rotations_xyzw", std::move(rotations)},
-          {"translations_m", std::move(translations)}};
+          {"translations_m", std::move(translations)},
+          {"tracks", std::move(tracks)}};
+}
+
+json declarations_json(const std::vector<std::pair<std::string, std::string>>& declarations) {
+  json object = json::object();
+  for (const auto& [name, value] : declarations) object[name] = value;
+  return object;
+}
+
+std::string note_of(const std::vector<std::pair<std::string, std::string>>& declarations) {
+  std::string note;
+  for (const auto& [name, value] : declarations) note += (note.empty() ? "" : "; ") + value;
+  return note;
 }
 
 json span_json(TimeSpan span) {
@@ -88,10 +103,12 @@ bvh::Layout layout_for(const std::optional<bvh::Layout>& layout, const Skeleton&
 ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string& title) {
   ContactSheetOptions options;
   options.title = title;
-  for (const auto& [name, value] : synthesis.declarations) options.note += (options.note.empty() ? "" : "; ") + value;
+  options.note = note_of(synthesis.declarations);
+  enum class Worth { side, middle, junction };  // in a long result the last go last
   struct Cell {
     std::int64_t frame;
     std::string caption;
+    Worth worth;
   };
   std::vector<Cell> cells;
   const double hertz = synthesis.motion.rate().hertz();
@@ -101,34 +118,40 @@ ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string&
   for (const PlacedSign& placed : synthesis.signs) {
     const auto stroke = placed.sign.stroke_span();
     if (!stroke) continue;
-    const auto add = [&](double part, const char* mark) {
+    const auto add = [&](double part, const char* mark, Worth worth) {
       const Milliseconds at =
           stroke->begin + Milliseconds(std::llround(static_cast<double>(stroke->duration().count()) * part));
-      cells.push_back({frame_of(at), placed.sign.gloss + mark});
+      cells.push_back({frame_of(at), placed.sign.gloss + mark, worth});
     };
-    add(0.1, " ·");
-    add(0.5, " ··");
-    add(0.9, " ···");
+    add(0.1, " ·", Worth::side);
+    add(0.5, " ··", Worth::middle);
+    add(0.9, " ···", Worth::side);
   }
   for (std::size_t i = 0; i < synthesis.stretches.size(); ++i) {  // bare pieces have no sign to show
     const Placed& placed = synthesis.stretches[i];
     const bool bare = std::none_of(synthesis.signs.begin(), synthesis.signs.end(),
                                    [&](const PlacedSign& sign) { return sign.stretch == i; });
     for (const int part : {1, 5, 9}) {
-      if (bare) cells.push_back({placed.core.begin + placed.core.size() * part / 10, placed.recording});
+      const Worth worth = part == 5 ? Worth::middle : Worth::side;
+      if (bare) cells.push_back({placed.core.begin + placed.core.size() * part / 10, placed.recording, worth});
     }
   }
   for (const Junction& junction : synthesis.junctions) {
-    cells.push_back({(junction.frames.begin + junction.frames.end) / 2, junction.from + " → " + junction.to});
+    const std::int64_t middle = (junction.frames.begin + junction.frames.end) / 2;
+    cells.push_back({middle, junction.from + " → " + junction.to, Worth::junction});
   }
   std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.frame < b.frame; });
-  // A long result is thinned to what still can be looked at.
+  // A long result is thinned to what still can be looked at: first begins and ends of strokes go, then what lies close.
   constexpr std::size_t kMostCells = 96;
-  const std::size_t step = (cells.size() + kMostCells - 1) / kMostCells;
-  for (std::size_t i = 0; i < cells.size(); i += std::max<std::size_t>(step, 1)) {
-    options.frames.push_back(cells[i].frame);
-    options.captions.push_back(cells[i].caption);
+  const std::size_t all = cells.size();
+  if (cells.size() > kMostCells) std::erase_if(cells, [](const Cell& cell) { return cell.worth == Worth::side; });
+  const std::size_t shown = std::min(cells.size(), kMostCells);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Cell& cell = cells[i * cells.size() / shown];
+    options.frames.push_back(cell.frame);
+    options.captions.push_back(cell.caption);
   }
+  if (shown < all) options.note += fmt::format("{}{} of {} pictures", options.note.empty() ? "" : "; ", shown, all);
   return options;
 }
 
@@ -213,6 +236,7 @@ void write_synthesis(const std::vector<std::string>& paths, const Synthesized& m
         }
       }
       document["sources"] = std::move(sources);
+      document["declarations"] = declarations_json(result.declarations);
       document["motion"] = json_of(result.motion);
       write_text(path, document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
     } else if (ending == ".svg") {
@@ -247,9 +271,12 @@ void write_recording(const std::string& path, const Outgoing& recording) {
   } else if (ending == ".svg") {
     ContactSheetOptions options;
     options.title = recording.title;
+    options.note = note_of(recording.declarations);
     write_text(path, contact_sheet(motion, options));
   } else {
-    write_text(path, json_of(motion).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+    json document = json_of(motion);
+    document["declarations"] = declarations_json(recording.declarations);
+    write_text(path, document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
   }
 }
 

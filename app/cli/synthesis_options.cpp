@@ -25,6 +25,12 @@ double ms_of(Seconds seconds) {
   return seconds.count() * 1000.0;
 }
 
+/// "-" for the first place, and where there was nothing to choose and so nothing was measured.
+std::string join_of(const Selection& selection, std::size_t place) {
+  if (place == 0 || !selection.measured) return "-";
+  return fmt::format("{:.3f}", selection.join_costs[place]);
+}
+
 void explain(const Synthesized& made, Io& io) {
   std::vector<std::vector<std::string>> rows = {
       {"place", "", "gloss", "token", "recording", "at ms", "target", "join"}};
@@ -39,8 +45,7 @@ void explain(const Synthesized& made, Io& io) {
       rows.push_back({std::to_string(place + 1), chosen ? "*" : "", name,
                       candidate.token > 0 ? std::to_string(candidate.token) : "", info.name,
                       std::to_string(span_of(candidate.whole, info.clock).begin.count()),
-                      fmt::format("{:.3f}", candidate.cost),
-                      chosen ? fmt::format("{:.3f}", made.selection.join_costs[place]) : ""});
+                      fmt::format("{:.3f}", candidate.cost), chosen ? join_of(made.selection, place) : ""});
     }
   }
   io.out << format_table(rows);
@@ -66,9 +71,10 @@ nlohmann::json places_of(const Synthesized& made) {
                             {"frames", {{"begin", candidate.whole.begin}, {"end", candidate.whole.end}}},
                             {"target_cost", candidate.cost}});
     }
-    places.push_back({{"candidates", std::move(candidates)},
-                      {"chosen", made.selection.chosen[place]},
-                      {"join_cost", made.selection.join_costs[place]}});
+    places.push_back(
+        {{"candidates", std::move(candidates)},
+         {"chosen", made.selection.chosen[place]},
+         {"join_cost", made.selection.measured ? nlohmann::json(made.selection.join_costs[place]) : nullptr}});
   }
   return places;
 }

@@ -7,7 +7,7 @@
 namespace signweave::catalogue {
 namespace {
 
-constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kVersion = 2;
 
 Bytes key_of(char what) {
   ByteWriter key;

@@ -249,8 +249,10 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   // The motion.
   FrameRate rate = motion_known ? known->motion->rate : FrameRate{};
   report.frames = motion_known ? known->motion->frames : 0;
-  if (new_face && !options.replace_motion) {  // to the motion as it was read then, whatever it was read with
-    recording.motion = MotionPart{.motion = database.read(recording.name),
+  if (new_face || other_face) {  // to the motion as it was read then, whatever it was read with
+    Motion stored = database.read(recording.name);
+    stored.take_tracks();  // all of them are the old face's
+    recording.motion = MotionPart{.motion = std::move(stored),
                                   .layout = known->layout,
                                   .file = known->motion_file,
                                   .fingerprint = motion_print,
@@ -271,8 +273,7 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                                   .face_file = {},
                                   .face_fingerprint = 0};
     if (!job.face && known && !known->face_file.empty()) {
-      recording.notices.push_back({job.motion->string(), fmt::format("'{}' was not given again, so its face is gone",
-                                                                     printable(known->face_file))});
+      recording.notices.push_back({known->face_file, "was not given again, so its face is gone"});
     }
   } else if (known) {
     keep_notices(*known, known->motion_file, recording.notices);
@@ -333,14 +334,17 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   }
   database.put(recording, half(progress, 0.5));
   report.signs = signs.size();
+  report.tracks = recording.motion ? recording.motion->motion.tracks().size()
+                  : motion_known   ? known->motion->tracks.size()
+                                   : 0;
   report.notices = recording.notices;
-  report.outcome = !known                                ? ImportOutcome::added
-                   : new_motion && !motion_known         ? ImportOutcome::motion_added
-                   : new_annotation && !document_known   ? ImportOutcome::annotation_added
-                   : new_face && !options.replace_motion ? ImportOutcome::face_added
-                   : new_motion                          ? ImportOutcome::motion_replaced
-                   : new_annotation                      ? ImportOutcome::annotation_replaced
-                                                         : ImportOutcome::clock_changed;
+  report.outcome = !known                              ? ImportOutcome::added
+                   : new_motion && !motion_known       ? ImportOutcome::motion_added
+                   : new_annotation && !document_known ? ImportOutcome::annotation_added
+                   : new_face                          ? ImportOutcome::face_added
+                   : new_motion                        ? ImportOutcome::motion_replaced
+                   : new_annotation                    ? ImportOutcome::annotation_replaced
+                                                       : ImportOutcome::clock_changed;
   return report;
 }
 

@@ -75,6 +75,7 @@ struct ImportReport {
   std::string name;  ///< of the recording; the job's, or the one under which the same files are stored already
   ImportOutcome outcome = ImportOutcome::unchanged;
   std::int64_t frames = 0;  ///< of the motion as it now is; 0: none
+  std::size_t tracks = 0;   ///< scalar tracks of the motion; 0 where the outcome is `unchanged`
   std::size_t signs = 0;    ///< in the annotation as it now is; 0 where the outcome is `unchanged`
   std::vector<Notice> notices;
 };

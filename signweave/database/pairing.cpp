@@ -25,9 +25,11 @@ Kind kind_of(const fs::path& path) {
 }
 
 [[noreturn]] void refuse_kind(const fs::path& path) {
-  throw Error(ErrorCode::unsupported,
-              fmt::format("{}: neither a motion file (.bvh), an annotation file (.eaf) nor a face capture (.face.csv)",
-                          path.string()));
+  throw Error(
+      ErrorCode::unsupported,
+      fmt::format("{}: neither a motion file (.bvh), an annotation file (.eaf) nor a face capture, which is called "
+                  "as its motion, NAME.face.csv",
+                  path.string()));
 }
 
 struct Files {
@@ -52,19 +54,32 @@ void take(const fs::path& path, Files& files) {
   }
 }
 
-/// Gives each face capture to the motion beside it that has its stem; one without is told.
+/// Gives each motion the face capture that lies beside it, whether it was named or not; and each face that was named to
+/// its motion, whether that was named or not. A face without a motion is told.
 void pair_faces(const std::vector<fs::path>& faces, std::vector<ImportJob>& jobs, std::vector<Notice>& notices) {
+  std::error_code ignored;
+  for (ImportJob& job : jobs) {
+    if (!job.motion) continue;
+    const fs::path face = job.motion->parent_path() / (job.motion->stem().string() + ".face.csv");
+    if (fs::is_regular_file(face, ignored)) job.face = face;
+  }
   const auto beside = [](const fs::path& folder, const fs::path& stem) {
-    std::error_code ignored;
-    return fs::weakly_canonical(folder.empty() ? "." : folder, ignored) / stem;
+    std::error_code unresolved;
+    return fs::weakly_canonical(folder.empty() ? "." : folder, unresolved) / stem;
   };
   for (const fs::path& face : faces) {
     const fs::path stem = beside(face.parent_path(), face.stem().stem());
     const auto job = std::find_if(jobs.begin(), jobs.end(), [&](const ImportJob& one) {
       return one.motion && beside(one.motion->parent_path(), one.motion->stem()) == stem;
     });
+    const fs::path motion = face.parent_path() / (face.stem().stem().string() + ".bvh");
     if (job != jobs.end()) {
       job->face = face;
+    } else if (fs::is_regular_file(motion, ignored)) {
+      ImportJob with_motion;
+      with_motion.motion = motion;
+      with_motion.face = face;
+      jobs.push_back(std::move(with_motion));
     } else {
       notices.push_back({face.string(), fmt::format("a face without its motion, passed over; put it beside a '{}.bvh'",
                                                     printable(stem.filename().string()))});
@@ -94,7 +109,9 @@ Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
       }
     }
     if (fault) throw Error(ErrorCode::io, fmt::format("{}: cannot be walked: {}", input.string(), fault.message()));
-    if (others > 0) notices.push_back({input.string(), fmt::format("{} files of other kinds passed over", others)});
+    if (others > 0)
+      notices.push_back({input.string(), fmt::format("{} of other kinds passed over",
+                                                     others == 1 ? "1 file" : fmt::format("{} files", others))});
   }
   for (std::vector<fs::path>* list : {&files.motions, &files.annotations, &files.faces}) {
     std::sort(list->begin(), list->end());

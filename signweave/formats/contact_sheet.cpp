@@ -120,7 +120,7 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
   for (const std::int64_t frame : frames) {
     // Seen from where the signer faces, wherever that is on the floor.
     Pose pose(motion.pose(frame));
-    apply(align(standing_over(motion, {frame, frame + 1}), Standing{}), pose.view());
+    apply(align(standing_over(motion, {frame, frame + 1}), Standing{}), motion.skeleton(), pose.view());
     poses.push_back(to_model_space(skeleton, pose.view()));
     if (parts.empty()) parts = figure_parts(skeleton, poses.front());
     if (options.turn != 0) turn_about_vertical(options.turn, poses.back());

@@ -85,7 +85,11 @@ std::string declared_encoding(std::string_view bytes) {
   if (head.starts_with(kUtf8Mark)) head.remove_prefix(kUtf8Mark.size());
   if (!head.starts_with("<?xml")) return {};
   head = head.substr(0, head.find("?>"));
-  const std::size_t at = head.find("encoding");
+  std::size_t at = head.find("encoding");
+  // The name of an attribute, not the end of another's.
+  while (at != std::string_view::npos && std::string_view(" \t\r\n").find(head[at - 1]) == std::string_view::npos) {
+    at = head.find("encoding", at + 1);
+  }
   if (at == std::string_view::npos) return {};
   const std::size_t open = head.find_first_of("\"'", at);
   if (open == std::string_view::npos) return {};

@@ -164,6 +164,11 @@ std::vector<std::string> read_heading(TextReader& reader) {
     reader.fail(
         "expected the heading Timecode,BlendShapeCount,EyeBlinkLeft,…; this is no face capture of Live Link Face");
   }
+  // Each column becomes a number for each frame of the motion: a heading alone must not ask for gigabytes.
+  constexpr std::size_t kMostColumns = 500;
+  if (columns.size() > kMostColumns) {
+    reader.fail(fmt::format("{} columns, and {} is the most; Live Link Face writes 63", columns.size(), kMostColumns));
+  }
   std::vector<std::string> names;
   std::set<std::string> seen;
   bool known = false;
@@ -222,7 +227,8 @@ Face read(TextReader& reader) {
                               face.tracks.size() + 2));
     }
     for (std::size_t i = 0; i < face.tracks.size(); ++i) {
-      const auto value = number<float>(fields[i + 2]);
+      const auto read = number<double>(fields[i + 2]);  // what is too small for a float is 0
+      const std::optional<float> value = read ? std::optional(static_cast<float>(*read)) : std::nullopt;
       if (!value || !std::isfinite(*value)) {
         reader.fail(fmt::format("'{}' in column {} is no finite number", printable(fields[i + 2]),
                                 printable(with_first(face.tracks[i].name, true))));

@@ -176,6 +176,16 @@ RC_GTEST_PROP(FaceCsvProperty, WhatIsWrittenIsReadBackAtTheSameFrames, ()) {
   }
 }
 
+TEST(FaceCsv, TakesNumbersTooSmallForAFloatAsZero) {
+  EXPECT_EQ(face_csv::read_text("f.csv", "Timecode,BlendShapeCount,JawOpen\n0:0:0:0,1,1e-50\n").tracks[0].values[0], 0);
+}
+
+TEST(FaceCsv, RefusesAHeadingOfThousands) {
+  std::string heading = "Timecode,BlendShapeCount,JawOpen";
+  for (int i = 0; i < 600; ++i) heading += fmt::format(",C{}", i);
+  EXPECT_THROW(face_csv::read_text("f.csv", heading + "\n"), Error);
+}
+
 TEST(FaceCsvResampled, LeavesOutArkitTracksThatSayNothing) {
   const auto names = [](const std::string& text) {
     std::vector<std::string> found;

@@ -56,9 +56,10 @@ Standing standing_over(const Motion& motion, FrameRange frames) noexcept {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double sine = 0;
   double cosine = 0;
+  const bool root_moves = motion.skeleton().joint(0).translated;
   for (std::int64_t frame = frames.begin; frame < frames.end; ++frame) {
     const PoseView pose = motion.pose(frame);
-    if (!pose.translations.empty()) position += pose.translations[0].cast<double>();
+    if (root_moves) position += pose.translations[0].cast<double>();
     // The twist of the root's rotation about the vertical: twice the angle whose tangent is y / w.
     const double y = static_cast<double>(pose.rotations[0].y());
     const double w = static_cast<double>(pose.rotations[0].w());
@@ -85,9 +86,9 @@ GroundTransform align(const Standing& from, const Standing& to) noexcept {
   return transform;
 }
 
-void apply(const GroundTransform& transform, MutablePoseView pose) noexcept {
+void apply(const GroundTransform& transform, const Skeleton& skeleton, MutablePoseView pose) noexcept {
   pose.rotations[0] = transform.turn * pose.rotations[0];
-  if (!pose.translations.empty()) pose.translations[0] = transform.turn * pose.translations[0] + transform.shift;
+  if (skeleton.joint(0).translated) pose.translations[0] = transform.turn * pose.translations[0] + transform.shift;
 }
 
 }  // namespace signweave

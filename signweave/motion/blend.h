@@ -71,7 +71,8 @@ Standing standing_over(const Motion& motion, FrameRange frames) noexcept;
 /// The transform that takes a signer who stands as `from` to where `to` stands.
 GroundTransform align(const Standing& from, const Standing& to) noexcept;
 
-/// Applies a transform to a pose's root. Other joints keep their bits.
-void apply(const GroundTransform& transform, MutablePoseView pose) noexcept;
+/// Applies a transform to a pose's root; a root that only turns, where another joint may move, is turned alone. Other
+/// joints keep their bits.
+void apply(const GroundTransform& transform, const Skeleton& skeleton, MutablePoseView pose) noexcept;
 
 }  // namespace signweave

@@ -170,10 +170,22 @@ TEST(Align, MovesAQuarterTurnByHand) {
   const GroundTransform transform = align(from, to);
   Pose pose(*skeleton());
   pose.translations[0] = {1, 0.9f, 2};  // two metres in front of where they stand
-  apply(transform, pose.view());
+  apply(transform, *skeleton(), pose.view());
   // In front is now +x, and the height is what it was.
   EXPECT_TRUE(pose.translations[0].isApprox(Vector3f(7, 0.9f, 7), 1e-5f)) << pose.translations[0].transpose();
   EXPECT_EQ(pose.rotations[1].coeffs(), Quaternionf::Identity().coeffs());
+}
+
+TEST(Align, TurnsARootThatCannotMoveAndLeavesTheOthers) {
+  const auto fixed = std::make_shared<const Skeleton>(
+      std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, false}, {"Spine", 0, {0.3f, 0, 0}, true}}, std::vector<Tip>{});
+  Motion motion(fixed, {100, 1}, 2);
+  for (std::int64_t frame = 0; frame < 2; ++frame) motion.pose(frame).translations[0] = {0.3f, 0.1f, 0.2f};
+  EXPECT_EQ(standing_over(motion, {0, 2}).position, Vector3f::Zero());
+  const Standing there{.position = {5, 0, 7}, .heading = kPi / 2};
+  apply(align(standing_over(motion, {0, 2}), there), *fixed, motion.pose(0));
+  EXPECT_EQ(motion.pose(0).translations[0], Vector3f(0.3f, 0.1f, 0.2f));  // the spine's way from the hips
+  EXPECT_NEAR(standing_over(motion, {0, 1}).heading, kPi / 2, 1e-5f);
 }
 
 RC_GTEST_PROP(Align, PutsASignerWhereAnotherStands, ()) {
@@ -185,7 +197,7 @@ RC_GTEST_PROP(Align, PutsASignerWhereAnotherStands, ()) {
   Motion motion(skeleton(), {100, 1}, 1);
   motion.pose(0).translations[0] = from.position + Vector3f(0, 1, 0);
   motion.pose(0).rotations[0] = AngleAxisf(from.heading, Vector3f::UnitY());
-  apply(align(from, to), motion.pose(0));
+  apply(align(from, to), motion.skeleton(), motion.pose(0));
   const Standing now = standing_over(motion, {0, 1});
   RC_ASSERT((now.position - to.position).norm() < 1e-5f);
   RC_ASSERT(std::abs(std::remainder(now.heading - to.heading, 2 * kPi)) < 1e-5f);

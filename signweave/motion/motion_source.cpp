@@ -6,6 +6,7 @@
 namespace signweave {
 
 MemorySource::MemorySource(Motion motion) : motion_(std::move(motion)) {
+  if (!keeps_hemisphere(motion_)) keep_hemisphere(motion_);
   for (const ScalarTrack& track : motion_.tracks()) tracks_.push_back(track.name);
 }
 

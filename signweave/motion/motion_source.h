@@ -12,7 +12,7 @@
 namespace signweave {
 
 /// Where frames come from: a motion in memory or one that is stored. Reading goes straight to where the frames are
-/// wanted.
+/// wanted. Quaternions keep one hemisphere from frame to frame (see keep_hemisphere).
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
@@ -34,6 +34,7 @@ class MotionSource {
 /// A motion in memory.
 class MemorySource : public MotionSource {
  public:
+  /// Turns the signs of quaternions that leave their hemisphere.
   explicit MemorySource(Motion motion);
 
   const Motion& motion() const noexcept { return motion_; }

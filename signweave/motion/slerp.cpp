@@ -111,7 +111,7 @@ template <Arc arc>
 /// A rotation turned on by half of a rotation vector.
 [[gnu::always_inline]] inline Numbers turned(Numbers q, float hx, float hy, float hz) noexcept {
   const float y = hx * hx + hy * hy + hz * hz;  // the half angle squared, at most (pi / 2)²
-  // Taylor series of cos h and sin h / h in h², off by at most 6e-8.
+  // Taylor series of cos h and sin h / h in h², off by at most 5e-7 and 6e-8.
   const float w =
       1.0f + y * (-0.5f + y * (4.1666667e-2f + y * (-1.3888889e-3f + y * (2.4801587e-5f + y * -2.7557319e-7f))));
   const float high = 2.7557319e-6f - y * 2.5052108e-8f;

@@ -42,6 +42,19 @@ const std::string& name_at_begin(const Stretch& stretch) {
   return stretch.signs.empty() ? stretch.recording : stretch.signs.front().gloss;
 }
 
+/// A day of signing at a hundred frames a second. Frame rates come from files: a wrong one must not ask for a terabyte.
+constexpr std::int64_t kMostFrames = 24 * 60 * 60 * 100;
+
+void check_length(const std::vector<Stretch>& stretches, std::int64_t frames, FrameRate rate) {
+  if (frames >= 0 && frames <= kMostFrames) return;
+  const auto slowest =
+      std::ranges::min_element(stretches, {}, [](const Stretch& stretch) { return stretch.source->rate().hertz(); });
+  throw Error(ErrorCode::bad_input,
+              fmt::format("the result would have more than {} frames at {} frames a second ('{}' has {}); sign fewer "
+                          "signs, or give a lower --rate",
+                          kMostFrames, to_string(rate), slowest->recording, to_string(slowest->source->rate())));
+}
+
 /// Where everything will lie: Algorithm 1 before any frame is touched.
 struct Plan {
   std::vector<Laid> laid;
@@ -74,6 +87,7 @@ Plan plan_of(const std::vector<Stretch>& stretches, const ConcatenateOptions& op
     plan.cuts.push_back(cut);
   }
   plan.frames = plan.laid.back().end();
+  check_length(stretches, plan.frames, rate);
   return plan;
 }
 
@@ -125,8 +139,9 @@ class Filler {
     if (!is_aligned(i)) return;
     const Laid& now = plan_.laid[i];
     const GroundTransform transform = align(standing_over(out_.motion, {now.core, now.core_end()}), home(i));
-    for (std::int64_t k = 0; k < faded_.frame_count(); ++k) apply(transform, faded_.pose(k));
-    for (std::int64_t frame = own.begin; frame < own.end; ++frame) apply(transform, out_.motion.pose(frame));
+    for (std::int64_t k = 0; k < faded_.frame_count(); ++k) apply(transform, out_.motion.skeleton(), faded_.pose(k));
+    for (std::int64_t frame = own.begin; frame < own.end; ++frame)
+      apply(transform, out_.motion.skeleton(), out_.motion.pose(frame));
   }
 
   /// The transition: Algorithm 1, lines 3 to 6. What both sides keep of it is there already.

@@ -308,6 +308,52 @@ TEST_P(Concatenate, ScalarTracksComeAlong) {
   }
 }
 
+TEST_P(Concatenate, SignsOfQuaternionsInASourceDoNotMatter) {
+  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 40, 40, 45), stretch("B", 0.8f, 40, 33, 40)};
+  std::vector<Stretch> flipped = stretches;
+  for (Stretch& one : flipped) {
+    Motion motion = motion_of(one);
+    for (std::int64_t frame = 0; frame < motion.frame_count(); frame += 2) {
+      for (Eigen::Quaternionf& q : motion.pose(frame).rotations) q.coeffs() *= -1.0f;
+    }
+    one.source = std::make_shared<MemorySource>(std::move(motion));
+  }
+  const Synthesis expected = concatenate(stretches, options());
+  const Synthesis made = concatenate(flipped, options());
+  for (std::size_t i = 0; i < expected.motion.rotations().size(); ++i) {
+    ASSERT_LT(angle(made.motion.rotations()[i], expected.motion.rotations()[i]), 1e-5) << i;
+  }
+}
+
+TEST_P(Concatenate, RatesThatAskForATerabyteAreRefused) {
+  const std::vector<Stretch> stretches = {stretch("slow", 0.1f, 2, 4, 2, {1, 10'000}),
+                                          stretch("fast", 0.8f, 2, 4, 2, {1'000'000, 1})};
+  try {
+    concatenate(stretches, options());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("('slow' has"));
+  }
+}
+
+TEST_P(Concatenate, AStrokeShorterThanAFrameHasAMillisecondAtLeast) {
+  Stretch one = stretch("A", 0.1f, 20, 40, 25, {30, 1});
+  const Milliseconds begin = one.signs[0].phases[1].span.begin;
+  one.signs[0].phases[1].span.end = begin + 8ms;
+  one.signs[0].phases[2].span.begin = begin + 8ms;
+  Sign second = one.signs[0];
+  second.span = {begin + 60ms, one.signs[0].span.end};
+  second.phases = {{PhaseKind::stroke, second.span, "Stroke", {}}};
+  one.signs[0].span.end = begin + 60ms;
+  one.signs[0].phases[2].span.end = begin + 60ms;
+  one.signs.push_back(second);
+  const Synthesis made = concatenate({stretch("B", 0.8f, 20, 33, 20, {30, 1}), one}, options());
+  ASSERT_EQ(made.signs.size(), 3u);
+  const auto stroke = made.signs[1].sign.stroke_span();
+  ASSERT_TRUE(stroke);
+  EXPECT_GE(stroke->duration(), 1ms);
+}
+
 TEST_P(Concatenate, TheMemoryOfAnOlderResultIsUsedAgain) {
   const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20)};
   Synthesis first = concatenate(stretches, options());

@@ -30,9 +30,11 @@ Laid lay(const Stretch& stretch, FrameRate rate, double tempo) {
   const FrameRate own = stretch.source->rate();
   laid.step = own == rate ? tempo : own.hertz() / rate.hertz() * tempo;
   const auto frames = [&](std::int64_t count) {
-    return static_cast<std::int64_t>(static_cast<double>(count) / laid.step + 1e-9);
+    return static_cast<std::int64_t>(std::min(static_cast<double>(count) / laid.step, 1e12) + 1e-9);
   };
-  laid.core_frames = std::max<std::int64_t>(1, std::llround(static_cast<double>(stretch.core.size()) / laid.step));
+  // No more than can be added up; the whole is checked before anything is made.
+  const double core = std::min(static_cast<double>(stretch.core.size()) / laid.step, 1e12);
+  laid.core_frames = std::max<std::int64_t>(1, std::llround(core));
   laid.preparation = frames(stretch.core.begin - stretch.whole.begin);
   laid.retraction = frames(stretch.whole.end - stretch.core.end);
   return laid;

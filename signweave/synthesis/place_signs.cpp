@@ -57,6 +57,7 @@ void place_signs_of(const Stretch& stretch, const Placed& placed, std::size_t in
     TimeSpan stroke{output_time(recorded_stroke->begin), output_time(recorded_stroke->end)};
     if (first) stroke.begin = time_of(placed.core.begin, rate);
     if (last) stroke.end = time_of(placed.core.end, rate);
+    stroke.end = std::max(stroke.end, stroke.begin + Milliseconds(1));  // shorter than a frame, but there
     sign.sign.span = {std::min(sign.sign.span.begin, stroke.begin), std::max(sign.sign.span.end, stroke.end)};
     const auto add = [&](PhaseKind kind, TimeSpan span, const std::string& label) {
       if (span.begin < span.end) phases.push_back({kind, span, label, {}});

@@ -88,6 +88,7 @@ Selection select(const Snapshot& snapshot, std::span<const Choice> choices) {
   // With one candidate everywhere there is nothing to choose, and no frame need be read.
   const bool open =
       std::any_of(choices.begin(), choices.end(), [](const Choice& c) { return c.candidates.size() > 1; });
+  selection.measured = open;
   for (std::size_t place = 0; place < choices.size(); ++place) {
     const std::vector<Candidate>& here = choices[place].candidates;
     std::vector<Ends> ends = open ? ends_of(choices[place]) : std::vector<Ends>(here.size());

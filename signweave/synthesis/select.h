@@ -20,6 +20,7 @@ struct Selection {
   std::vector<std::size_t> chosen;  ///< [place] index into its candidates
   std::vector<double> join_costs;   ///< [place] cost of the join to the place before; 0 for the first
   double total = 0;
+  bool measured = false;  ///< false where each place has one candidate: nothing is chosen, and no join cost is known
 };
 
 /// The candidates whose sum of target and join costs is least (Viterbi). The join cost of two signs that were

@@ -60,6 +60,7 @@ std::vector<Candidate> merge_neighbours(const Contents& contents, const std::vec
     if (!merged.empty() && pause == Milliseconds(0) && are_neighbours(contents, merged.back(), next)) {
       Candidate& last = merged.back();
       last.signs.insert(last.signs.end(), next.signs.begin(), next.signs.end());
+      last.left_out.insert(last.left_out.end(), next.left_out.begin(), next.left_out.end());
       last.core.end = next.core.end;
       last.whole.end = next.whole.end;
     } else {

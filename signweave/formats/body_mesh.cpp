@@ -242,10 +242,13 @@ void add_trunk(BodyMesh& mesh, const BodyPlan& plan) {
 }
 
 void add_nose(BodyMesh& mesh, const HeadShape& head) {
-  const Vector3f front = head.centre + 0.96f * head.half.z() * head.forward;
   const float scale = head.half.y();
-  add_limb(mesh, head.joint, front + 0.12f * scale * head.up,
-           front - 0.14f * scale * head.up + 0.1f * scale * head.forward, 0.07f * scale, 0.12f * scale);
+  // On the skull's surface, so that no gap is seen from the side.
+  const auto before_skull = [&](float height, float distance) {
+    const float surface = head.half.z() * std::sqrt(1 - height * height) * (0.88f + 0.12f * height);
+    return Vector3f(head.centre + height * scale * head.up + (surface + distance * scale) * head.forward);
+  };
+  add_limb(mesh, head.joint, before_skull(0.12f, -0.02f), before_skull(-0.14f, 0.03f), 0.07f * scale, 0.12f * scale);
 }
 
 }  // namespace

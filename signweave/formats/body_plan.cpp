@@ -116,6 +116,8 @@ HeadShape head_shape(const Skeleton& skeleton, const BodyPlan& plan, const Branc
   }
   const float length = std::clamp(top.norm(), 0.08f * plan.size, 0.15f * plan.size);
   head.up = top.norm() > 0.04f * plan.size ? Vector3f(top.normalized()) : plan.up;
+  // Nobody lays the head on the shoulder: some rigs' skull ends point aside, whatever the head does.
+  if (head.up.dot(plan.up) < 0.5f) head.up = plan.up;
   Vector3f front = Vector3f::Zero();  // eyes and jaw are in front
   for (const JointIndex child : plan.children[at(joint)]) {
     const Vector3f& bone = plan.bones[at(child)];
@@ -172,7 +174,13 @@ void find_trunk(const Skeleton& skeleton, const Branches& branches, JointIndex c
     }
     if (!legs.empty()) plan.trunk.erase(plan.trunk.begin(), plan.trunk.begin() + static_cast<std::ptrdiff_t>(i));
   }
+  // Without legs, a root on the ground shows by its bone, which is longer than all the trunk.
+  const auto to_neck = [&](JointIndex joint) { return (plan.place(plan.neck) - plan.place(joint)).norm(); };
+  if (legs.empty() && plan.trunk.size() > 1 && plan.bones[at(plan.trunk[1])].norm() > 1.2f * to_neck(plan.trunk[1])) {
+    plan.trunk.erase(plan.trunk.begin());
+  }
   const JointIndex shoulders[] = {limb_from(plan, branches, grown[0]), limb_from(plan, branches, grown[1])};
+  plan.shoulders = {shoulders[0], shoulders[1]};
   const Vector3f arms[] = {plan.place(shoulders[0]), plan.place(shoulders[1])};
   for (const JointIndex shoulder : shoulders) {
     for (JointIndex joint = skeleton.joint(shoulder).parent; joint != chest; joint = skeleton.joint(joint).parent) {

@@ -38,11 +38,12 @@ struct BodyPlan {
   Eigen::Vector3f left = Eigen::Vector3f::UnitX();  ///< unit, of the trunk
   Eigen::Vector3f up = Eigen::Vector3f::UnitY();
   Eigen::Vector3f forward = Eigen::Vector3f::UnitZ();
-  std::vector<JointIndex> trunk;    ///< from the hips to the chest; empty where no chest was found
-  JointIndex neck = kNoJoint;       ///< child of the chest that leads to the head
-  std::vector<JointIndex> collars;  ///< between the chest and the shoulders
-  float hip_width = 0;              ///< half the distance between the legs
-  float shoulder_width = 0;         ///< half the distance between the arms
+  std::vector<JointIndex> trunk;      ///< from the hips to the chest; empty where no chest was found
+  JointIndex neck = kNoJoint;         ///< child of the chest that leads to the head
+  std::vector<JointIndex> shoulders;  ///< where the two arms begin
+  std::vector<JointIndex> collars;    ///< between the chest and the shoulders
+  float hip_width = 0;                ///< half the distance between the legs
+  float shoulder_width = 0;           ///< half the distance between the arms
   std::optional<HeadShape> head;
   std::vector<HandShape> hands;
 

@@ -183,6 +183,57 @@ TEST(BodyMesh, TheSkullIsDeeperThanWideAndHigherThanDeep) {
   EXPECT_LT(extent.x(), extent.z());
 }
 
+TEST(BodyMesh, TheNoseGrowsFromTheHead) {
+  const Motion motion(person(), {100, 1}, 1);
+  const BodyPlan plan = plan_of(motion);
+  const HeadShape& head = *plan.head;
+  const BodyMesh mesh = body_mesh(motion.skeleton(), plan);
+  // The nose comes last: four rings of ten between two ends.
+  ASSERT_GT(mesh.positions.size(), 42u);
+  const std::size_t nose = mesh.positions.size() - 42;
+  const auto depth = [&](std::size_t vertex) {  // 1 at the skull's surface
+    const Vector3f from = mesh.positions[vertex] - head.centre;
+    const float height = from.dot(head.up) / head.half.y();
+    const float round = std::sqrt(1 - height * height) * (0.88f + 0.12f * height);
+    return from.dot(head.forward) / (round * head.half.z());
+  };
+  for (std::size_t ring = 0; ring < 4; ++ring) {
+    float deepest = 2;
+    for (std::size_t i = 0; i < 10; ++i) deepest = std::min(deepest, depth(nose + 1 + 10 * ring + i));
+    EXPECT_LT(deepest, 0.97f) << ring;
+  }
+  float tip = 0;
+  for (std::size_t i = nose; i < mesh.positions.size(); ++i) tip = std::max(tip, depth(i));
+  EXPECT_GT(tip, 1.1f);
+  EXPECT_LT(tip, 1.35f);
+}
+
+TEST(BodyPlan, AHeadStandsUprightWhereItsEndPointsAside) {
+  const auto straight = person();
+  for (const Vector3f& aside : {Vector3f(0.2f, 0, 0), Vector3f(0, 0.18f, 0.08f)}) {
+    std::vector<Tip> tips(straight->tips().begin(), straight->tips().end());
+    tips[0].offset = aside;
+    std::vector<Joint> joints(straight->joints().begin(), straight->joints().end());
+    const Motion motion(std::make_shared<const Skeleton>(joints, tips), {100, 1}, 1);
+    const Vector3f up = plan_of(motion).head->up;
+    // A head that nods keeps its way.
+    EXPECT_LT((up - (aside.x() > 0 ? Vector3f(Vector3f::UnitY()) : Vector3f(aside.normalized()))).norm(), 0.1f);
+  }
+}
+
+TEST(BodyPlan, ARootOnTheGroundIsNoTrunkEvenWithoutLegs) {
+  std::vector<Joint> joints = {{"Scene", kNoJoint, {0, 0, 0}, true}};
+  std::vector<Tip> tips;
+  const auto skeleton = person();
+  for (Joint joint : skeleton->joints()) {
+    if (joint.name.find("Leg") != std::string::npos || joint.name.find("Foot") != std::string::npos) continue;
+    ++joint.parent;
+    joints.push_back(std::move(joint));
+  }
+  const Motion motion(std::make_shared<const Skeleton>(joints, tips), {100, 1}, 1);
+  EXPECT_THAT(plan_of(motion).trunk, ElementsAre(1, 2, 3));
+}
+
 TEST(FaceMesh, LiesOnTheFrontOfTheHead) {
   const HeadShape head = *plan_of(Motion(person(), {100, 1}, 1)).head;
   const FaceMesh face = face_mesh(head, {});

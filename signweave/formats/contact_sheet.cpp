@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <numbers>
 #include <string_view>
 
@@ -23,6 +25,10 @@ constexpr double kCellWidth = 190;   // pixels, with the margins
 constexpr double kCellHeight = 214;  // with the caption
 constexpr double kCaption = 26;
 constexpr double kMargin = 8;
+constexpr double kCaptionSize = 11;  // pixels, as are the next two
+constexpr double kTitleSize = 16;
+constexpr double kNoteSize = 12;
+constexpr std::string_view kArrow = " → ";
 
 std::string xml(std::string_view text) {
   const bool readable = is_utf8(text);
@@ -56,28 +62,114 @@ std::string xml(std::string_view text) {
   return result;
 }
 
-/// One scale for all cells.
-FigureView view_of(const std::vector<std::vector<Vector3f>>& figures) {
-  double half_width = 0.1;  // metres
-  double top = 0;
-  FigureView view;
-  bool first = true;
-  for (const auto& points : figures) {
-    for (const Vector3f& point : points) {
-      const Eigen::Vector3d at = point.cast<double>();
-      half_width = std::max(half_width, std::abs(at.x()));
-      view.low = first ? at.y() : std::min(view.low, at.y());
-      top = first ? at.y() : std::max(top, at.y());
-      view.near = first ? at.z() : std::max(view.near, at.z());
-      view.far = first ? at.z() : std::min(view.far, at.z());
-      first = false;
-    }
+/// About how wide a text is, in its font's size: nothing here knows the font that a viewer takes.
+double ems(std::string_view text) {
+  double width = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xc0U) == 0x80) continue;  // goes on with a character
+    const bool wide = byte >= 0xe3;        // the scripts of East Asia, pictures
+    const bool capital = c >= 'A' && c <= 'Z';
+    width += wide ? 1.0 : capital ? 0.7 : 0.6;
   }
-  view.left = kCellWidth / 2;
-  view.bottom = kCellHeight - kCaption - kMargin;
-  view.scale = std::min((kCellWidth / 2 - kMargin) / half_width,
-                        (kCellHeight - kCaption - 2 * kMargin) / std::max(top - view.low, 1e-6));
+  return width;
+}
+
+/// One line of text, no wider than `room` pixels: as large as `size`, smaller where that is too wide.
+struct Line {
+  double x = 0, y = 0, size = 0, room = 0;
+  std::string_view anchor;
+};
+
+void put_text(const Line& line, std::string_view what, std::string& out) {
+  constexpr double kLeast = 5;  // pixels; what is smaller is no text
+  const double wide = ems(what);
+  const double fits = wide > 0 ? std::floor(10 * line.room / wide) / 10 : line.size;
+  const double size = std::clamp(fits, kLeast, line.size);
+  const std::string squeezed =
+      fits < kLeast ? fmt::format(" textLength=\"{:.1f}\" lengthAdjust=\"spacingAndGlyphs\"", line.room) : "";
+  fmt::format_to(std::back_inserter(out),
+                 "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\"{} text-anchor=\"{}\" fill=\"#202226\">{}</text>\n",
+                 line.x, line.y, size, squeezed, line.anchor, xml(what));
+}
+
+void put_caption(std::string_view caption, std::string& out) {
+  Line line{.x = kCellWidth / 2,
+            .y = kCellHeight - 10,
+            .size = kCaptionSize,
+            .room = kCellWidth - 2 * kMargin,
+            .anchor = "middle"};
+  const std::size_t arrow = caption.find(kArrow);
+  if (arrow == std::string_view::npos || ems(caption) * kCaptionSize <= line.room) {
+    put_text(line, caption, out);
+    return;
+  }
+  line.y = kCellHeight - 19;
+  put_text(line, caption.substr(0, arrow + kArrow.size() - 1), out);
+  line.y = kCellHeight - 7;
+  put_text(line, caption.substr(arrow + kArrow.size()), out);
+}
+
+/// How far one figure goes, metres.
+struct Extent {
+  double half_width = 0.1;
+  double low = 0, top = 0;
+  double far = 0, near = 0;
+};
+
+Extent extent_of(const std::vector<Vector3f>& points) {
+  Extent extent;
+  bool first = true;
+  for (const Vector3f& point : points) {
+    const Eigen::Vector3d at = point.cast<double>();
+    extent.half_width = std::max(extent.half_width, std::abs(at.x()));
+    extent.low = first ? at.y() : std::min(extent.low, at.y());
+    extent.top = first ? at.y() : std::max(extent.top, at.y());
+    extent.near = first ? at.z() : std::max(extent.near, at.z());
+    extent.far = first ? at.z() : std::min(extent.far, at.z());
+    first = false;
+  }
+  return extent;
+}
+
+FigureView view_of(const Extent& extent) {
+  FigureView view{.left = kCellWidth / 2, .bottom = kCellHeight - kCaption - kMargin, .low = extent.low};
+  view.near = extent.near;
+  view.far = extent.far;
+  view.scale = std::min((kCellWidth / 2 - kMargin) / extent.half_width,
+                        (kCellHeight - kCaption - 2 * kMargin) / std::max(extent.top - extent.low, 1e-6));
   return view;
+}
+
+/// One extent for all cells, from all but a twentieth at each end: a rest pose among them must not make the rest small.
+Extent common_extent(const std::vector<Extent>& figures) {
+  const std::size_t left_out = (figures.size() + 10) / 20;
+  const auto at_most = [&](double Extent::*what) {
+    std::vector<double> values;
+    for (const Extent& figure : figures) values.push_back(figure.*what);
+    std::sort(values.begin(), values.end());
+    return values[values.size() - 1 - left_out];
+  };
+  const auto at_least = [&](double Extent::*what) {
+    std::vector<double> values;
+    for (const Extent& figure : figures) values.push_back(figure.*what);
+    std::sort(values.begin(), values.end());
+    return values[left_out];
+  };
+  return {.half_width = at_most(&Extent::half_width),
+          .low = at_least(&Extent::low),
+          .top = at_most(&Extent::top),
+          .far = at_least(&Extent::far),
+          .near = at_most(&Extent::near)};
+}
+
+/// The common view, or a smaller one of its own for a figure that would leave its cell.
+FigureView view_of(const Extent& figure, const Extent& common) {
+  Extent both = common;
+  both.half_width = std::max(both.half_width, figure.half_width);
+  both.low = std::min(both.low, figure.low);
+  both.top = std::max(both.top, figure.top);
+  return view_of(both);
 }
 
 void turn_about_vertical(double degrees, ModelPose& pose) {
@@ -108,30 +200,59 @@ std::vector<std::int64_t> frames_to_show(const Motion& motion, const ContactShee
   return options.frames;
 }
 
+struct Cell {
+  std::int64_t frame = 0;
+  std::size_t given = 0;  ///< which of the frames asked for
+};
+
+/// Of `all`, `most` at the largest: the most important, evenly where not all of one importance have room.
+std::vector<Cell> thinned(const std::vector<Cell>& all, std::size_t most, const std::vector<int>& importance) {
+  if (most == 0 || all.size() <= most) return all;
+  const auto importance_of = [&](const Cell& cell) {
+    return cell.given < importance.size() ? importance[cell.given] : 0;
+  };
+  std::map<int, std::vector<Cell>, std::greater<>> ranks;
+  for (const Cell& cell : all) ranks[importance_of(cell)].push_back(cell);
+  std::vector<Cell> kept;
+  for (const auto& [rank, cells] : ranks) {
+    const std::size_t room = std::min(most - kept.size(), cells.size());
+    for (std::size_t i = 0; i < room; ++i) {
+      kept.push_back(cells[room == 1 ? 0 : i * (cells.size() - 1) / (room - 1)]);
+    }
+  }
+  std::sort(kept.begin(), kept.end(), [](const Cell& a, const Cell& b) { return a.given < b.given; });
+  return kept;
+}
+
 }  // namespace
 
 std::string contact_sheet(const Motion& motion, const ContactSheetOptions& options) {
-  const std::vector<std::int64_t> frames = frames_to_show(motion, options);
+  std::vector<Cell> all;
+  for (const std::int64_t frame : frames_to_show(motion, options)) all.push_back({frame, all.size()});
+  const std::vector<Cell> shown = thinned(all, options.frames.empty() ? 0 : options.most_cells, options.importance);
+  std::string note = options.note;
+  if (shown.size() < all.size()) {
+    note += fmt::format("{}{} of {} frames shown", note.empty() ? "" : "; ", shown.size(), all.size());
+  }
   const Skeleton& skeleton = motion.skeleton();
 
   std::vector<ModelPose> poses;
-  std::vector<std::vector<Vector3f>> figures;
-  std::vector<FigurePart> parts;
-  for (const std::int64_t frame : frames) {
+  std::vector<Extent> figures;
+  const FigurePlan plan = figure_plan(motion);
+  for (const auto& [frame, given] : shown) {
     // Seen from where the signer faces, wherever that is on the floor.
     Pose pose(motion.pose(frame));
     apply(align(standing_over(motion, {frame, frame + 1}), Standing{}), motion.skeleton(), pose.view());
     poses.push_back(to_model_space(skeleton, pose.view()));
-    if (parts.empty()) parts = figure_parts(skeleton, poses.front());
     if (options.turn != 0) turn_about_vertical(options.turn, poses.back());
-    figures.push_back(figure_points(skeleton, parts, poses.back()));
+    figures.push_back(extent_of(figure_points(skeleton, plan, poses.back())));
   }
-  const FigureView view = view_of(figures);
+  const Extent common = common_extent(figures);
 
-  const std::size_t columns = std::min(options.columns, frames.size());
-  const std::size_t rows = (frames.size() + columns - 1) / columns;
+  const std::size_t columns = std::min(options.columns, shown.size());
+  const std::size_t rows = (shown.size() + columns - 1) / columns;
   const double header = options.title.empty() ? kMargin : 34;
-  const double footer = options.note.empty() ? kMargin : 28;
+  const double footer = note.empty() ? kMargin : 28;
   const double width = kCellWidth * static_cast<double>(columns) + 2 * kMargin;
   const double height = header + kCellHeight * static_cast<double>(rows) + footer;
   std::string out = fmt::format(
@@ -141,26 +262,23 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
       "height=\"{1:.0f}\" "
       "fill=\"#ffffff\"/>\n",
       width, height);
-  const auto text = [&](double x, double y, int size, std::string_view anchor, std::string_view what) {
-    fmt::format_to(std::back_inserter(out),
-                   "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"#202226\">{}</text>\n",
-                   x, y, size, anchor, xml(what));
-  };
-  if (!options.title.empty()) text(2 * kMargin, 23, 16, "start", options.title);
-  for (std::size_t cell = 0; cell < frames.size(); ++cell) {
+  const double room = width - 4 * kMargin;
+  if (!options.title.empty()) put_text({2 * kMargin, 23, kTitleSize, room, "start"}, options.title, out);
+  for (std::size_t cell = 0; cell < shown.size(); ++cell) {
     const double x = kMargin + kCellWidth * static_cast<double>(cell % columns);
     const double y = header + kCellHeight * static_cast<double>(cell / columns);
     fmt::format_to(std::back_inserter(out),
                    "<g transform=\"translate({:.1f} {:.1f})\">\n<rect x=\"2\" y=\"2\" width=\"{:.1f}\" "
                    "height=\"{:.1f}\" fill=\"#f6f7f9\" rx=\"4\"/>\n",
                    x, y, kCellWidth - 4, kCellHeight - 4);
-    draw_figure(skeleton, parts, poses[cell], figure_face(motion, frames[cell]), view, out);
-    const double seconds = static_cast<double>(frames[cell]) * motion.rate().frame_time().count();
-    text(kCellWidth / 2, kCellHeight - 10, 11, "middle",
-         cell < options.captions.size() ? options.captions[cell] : fmt::format("{:.2f} s", seconds));
+    draw_figure(skeleton, plan, poses[cell], figure_face(motion, shown[cell].frame), view_of(figures[cell], common),
+                out);
+    const double seconds = static_cast<double>(shown[cell].frame) * motion.rate().frame_time().count();
+    const std::size_t given = shown[cell].given;
+    put_caption(given < options.captions.size() ? options.captions[given] : fmt::format("{:.2f} s", seconds), out);
     out += "</g>\n";
   }
-  if (!options.note.empty()) text(2 * kMargin, height - 10, 12, "start", options.note);
+  if (!note.empty()) put_text({2 * kMargin, height - 10, kNoteSize, room, "start"}, note, out);
   out += "</svg>\n";
   return out;
 }

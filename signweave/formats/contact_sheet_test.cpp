@@ -1,5 +1,6 @@
 #include "signweave/formats/contact_sheet.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -88,6 +89,65 @@ TEST(ContactSheet, SpreadsItsCellsFromTheFirstFrameToTheLast) {
   EXPECT_THAT(captions, testing::ElementsAre("0.00 s", "0.50 s", "1.00 s", "1.50 s", "2.00 s"));
   EXPECT_EQ(cells(parsed(contact_sheet(standing(1000)))).size(), 24U);
   EXPECT_EQ(cells(parsed(contact_sheet(standing(3)))).size(), 3U);  // not more cells than frames
+}
+
+TEST(ContactSheet, KeepsTheMostImportantOfTooManyAndSaysSo) {
+  ContactSheetOptions options;
+  options.most_cells = 96;
+  options.note = "placeholder";
+  for (std::int64_t i = 0; i < 116; ++i) {
+    const bool junction = i % 9 == 4;
+    options.frames.push_back(i);
+    options.captions.push_back(junction ? fmt::format("J{}", i) : fmt::format("{}", i));
+    options.importance.push_back(junction ? 1 : 0);
+  }
+  const std::string svg = contact_sheet(standing(200), options);
+  const pugi::xml_document document = parsed(svg);
+  std::vector<int> order;
+  int junctions = 0;
+  for (const pugi::xml_node& cell : cells(document)) {
+    const std::string caption = cell.child_value("text");
+    junctions += caption.front() == 'J' ? 1 : 0;
+    order.push_back(std::stoi(caption.substr(caption.front() == 'J' ? 1 : 0)));
+  }
+  ASSERT_EQ(order.size(), 96U);
+  EXPECT_EQ(junctions, 13);
+  EXPECT_EQ(order.front(), 0);
+  EXPECT_EQ(order.back(), 115);
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    EXPECT_GT(order[i], order[i - 1]);
+    EXPECT_LE(order[i], order[i - 1] + 2);  // evenly
+  }
+  EXPECT_THAT(svg, HasSubstr(">placeholder; 96 of 116 frames shown</text>"));
+  options.most_cells = 0;
+  EXPECT_EQ(cells(parsed(contact_sheet(standing(200), options))).size(), 116U);
+  options.most_cells = 116;
+  EXPECT_THAT(contact_sheet(standing(200), options), Not(HasSubstr("frames shown")));
+}
+
+TEST(ContactSheet, MakesItsTextsFit) {
+  ContactSheetOptions options;
+  options.captions = {"SOLEIL → PLUIE", "SOLEIL-BRILLER → CE-SERA-LE-MOMENT", "UN-MOT-QUI-NE-FINIT-PAS-ENCORE-ICI"};
+  options.title = "a title that is too long for a sheet of so few columns as this one has, and would be cut off there";
+  options.columns = 3;
+  const pugi::xml_document document = parsed(contact_sheet(standing(3), options));
+  const auto size = [](const pugi::xml_node& text) { return text.attribute("font-size").as_double(); };
+  const auto width = [&](const pugi::xml_node& text) {  // of ASCII, where capitals are wide
+    return 0.6 * size(text) * static_cast<double>(std::string(text.child_value()).size());
+  };
+  EXPECT_LT(width(document.child("svg").child("text")), 3 * 190);
+  EXPECT_LT(size(document.child("svg").child("text")), 16);
+  const std::vector<pugi::xml_node> found = cells(document);
+  EXPECT_STREQ(found[0].child_value("text"), "SOLEIL → PLUIE");
+  EXPECT_EQ(size(found[0].child("text")), 11);
+  const pugi::xml_node first = found[1].child("text");
+  EXPECT_STREQ(first.child_value(), "SOLEIL-BRILLER →");
+  EXPECT_STREQ(first.next_sibling("text").child_value(), "CE-SERA-LE-MOMENT");
+  EXPECT_LT(first.attribute("y").as_double() + 10, first.next_sibling("text").attribute("y").as_double());
+  EXPECT_LT(size(found[2].child("text")), 11);
+  EXPECT_LT(width(found[2].child("text")), 190 - 8);
+  options.captions[2] = std::string(400, 'W');
+  EXPECT_THAT(contact_sheet(standing(3), options), HasSubstr("textLength=\"174.0\""));
 }
 
 TEST(ContactSheet, DrawsTheUpperBodyAndTellsRightFromLeft) {

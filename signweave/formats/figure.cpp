@@ -52,7 +52,8 @@ struct Bone {
   bool skull = false;
 };
 
-std::vector<Bone> bones_of(const Skeleton& skeleton, const std::vector<FigurePart>& parts, const ModelPose& pose) {
+std::vector<Bone> bones_of(const Skeleton& skeleton, const FigurePlan& plan, const ModelPose& pose) {
+  const std::vector<FigurePart>& parts = plan.parts;
   std::vector<Bone> bones;
   std::vector<std::size_t> chain(skeleton.joint_count());
   for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
@@ -66,7 +67,12 @@ std::vector<Bone> bones_of(const Skeleton& skeleton, const std::vector<FigurePar
   for (const Tip& tip : skeleton.tips()) {
     const auto joint = static_cast<std::size_t>(tip.joint);
     if (!parts[joint].shown || parts[joint].in_head) continue;
-    bones.push_back({pose.positions[joint], position_of(tip, pose), joint, chain[joint], parts[joint].head});
+    const Vector3f& from = pose.positions[joint];
+    Vector3f to = position_of(tip, pose);
+    if (plan.head && plan.head->up && plan.head->joint == tip.joint) {
+      to = from + (to - from).norm() * (pose.rotations[joint] * *plan.head->up);
+    }
+    bones.push_back({from, to, joint, chain[joint], parts[joint].head});
   }
   return bones;
 }
@@ -218,8 +224,9 @@ void draw_trunk(const Vector3f& left, const Vector3f& right, const Vector3f& roo
 }
 
 /// Skull, hair, face.
-void draw_head(const Bone& skull, const ModelPose& pose, const Eyes& eyes, const std::array<Vector3f, 2>& gaze,
-               const FigureFace& face, double near, double scale, Drawing& drawing) {
+void draw_head(const Bone& skull, const ModelPose& pose, const Eyes& eyes, const std::optional<FigureHead>& shape,
+               const std::array<Vector3f, 2>& gaze, const FigureFace& face, double near, double scale,
+               Drawing& drawing) {
   const Vector3f up = skull.to - skull.from;
   const float height = up.norm();
   const Vector3f middle = skull.from + 0.42f * up;
@@ -227,19 +234,23 @@ void draw_head(const Bone& skull, const ModelPose& pose, const Eyes& eyes, const
   const float across = 0.74f * along * (1 + 0.06f * face.puff);
   const std::string skin = shade(kSkin, near, 0.25);
   const auto pixels = [&](float metres) { return scale * static_cast<double>(metres); };
-  if (!eyes.left || !eyes.right) {
+  const bool no_eyes = !eyes.left || !eyes.right;
+  if (no_eyes && !(face.known && shape)) {
     drawing.ellipse(middle, up, pixels(across), pixels(along), skin, kRim);
     return;
   }
   FaceSpace head;
-  const Vector3f& left_eye = pose.positions[*eyes.left];
-  const Vector3f& right_eye = pose.positions[*eyes.right];
-  head.middle = 0.5f * (left_eye + right_eye);
-  head.left = (left_eye - right_eye).normalized();
+  if (no_eyes) {
+    head.left = pose.rotations[static_cast<std::size_t>(shape->joint)] * shape->left;
+  } else {
+    head.left = (pose.positions[*eyes.left] - pose.positions[*eyes.right]).normalized();
+    head.middle = 0.5f * (pose.positions[*eyes.left] + pose.positions[*eyes.right]);
+  }
   head.up = (up - up.dot(head.left) * head.left).normalized();
   head.forward = head.left.cross(head.up);
   head.size = height / 0.19f;
   const float deep = 0.88f * along;
+  if (no_eyes) head.middle = middle + 0.08f * up + 0.8f * deep * head.forward;
   drawing.ellipse(middle + 0.035f * up, up, 1.04 * pixels(std::hypot(across * head.left.x(), deep * head.forward.x())),
                   pixels(along), "#5e493a", kRim);
   // The face is what the hair leaves free of the skull: a cap about an axis that points forward and down. Where its
@@ -262,25 +273,25 @@ void draw_head(const Bone& skull, const ModelPose& pose, const Eyes& eyes, const
   }
   path += 'Z';
   if (axis.dot(viewer) > -std::sin(kCap)) drawing.area(path, skin, kRim, drawing.pixels(0.003, 0.5));
-  draw_face(head, gaze, face, drawing);
+  draw_face(head, no_eyes ? std::array<Vector3f, 2>{head.forward, head.forward} : gaze, face, drawing);
 }
 
 }  // namespace
 
-std::vector<Vector3f> figure_points(const Skeleton& skeleton, const std::vector<FigurePart>& parts,
-                                    const ModelPose& pose) {
+std::vector<Vector3f> figure_points(const Skeleton& skeleton, const FigurePlan& plan, const ModelPose& pose) {
   std::vector<Vector3f> points;
-  for (const Bone& bone : bones_of(skeleton, parts, pose)) {
+  for (const Bone& bone : bones_of(skeleton, plan, pose)) {
     points.push_back(bone.from);
     points.push_back(bone.to);
   }
   return points;
 }
 
-void draw_figure(const Skeleton& skeleton, const std::vector<FigurePart>& parts, const ModelPose& pose,
-                 const FigureFace& face, const FigureView& view, std::string& out) {
+void draw_figure(const Skeleton& skeleton, const FigurePlan& plan, const ModelPose& pose, const FigureFace& face,
+                 const FigureView& view, std::string& out) {
   Drawing drawing(view, out);
-  const std::vector<Bone> bones = bones_of(skeleton, parts, pose);
+  const std::vector<FigurePart>& parts = plan.parts;
+  const std::vector<Bone> bones = bones_of(skeleton, plan, pose);
 
   // The trunk lies between the shoulders; whatever is not before it is behind.
   std::optional<Vector3f> left, right;
@@ -332,7 +343,7 @@ void draw_figure(const Skeleton& skeleton, const std::vector<FigurePart>& parts,
     const bool before_trunk = part.arm || part.finger;
     if (!trunk_drawn && (before_trunk ? item->depth > static_cast<double>(0.5f * (left->z() + right->z())) - 0.02
                                       : item->bones.front()->skull)) {
-      draw_trunk(*left, *right, pose.positions[0], drawing);
+      draw_trunk(*left, *right, pose.positions[plan.hips], drawing);
       trunk_drawn = true;
     }
     if (item->bones.front()->skull) {
@@ -344,7 +355,8 @@ void draw_figure(const Skeleton& skeleton, const std::vector<FigurePart>& parts,
         }
         return Vector3f(Vector3f::UnitZ());
       };
-      draw_head(*item->bones.front(), pose, eyes, {gaze(eyes.left), gaze(eyes.right)}, face, near, view.scale, drawing);
+      draw_head(*item->bones.front(), pose, eyes, plan.head, {gaze(eyes.left), gaze(eyes.right)}, face, near,
+                view.scale, drawing);
       continue;
     }
     if (part.finger) {

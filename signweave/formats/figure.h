@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "signweave/formats/body_plan.h"
 #include "signweave/motion/kinematics.h"
 #include "signweave/motion/motion.h"
 
@@ -10,7 +12,7 @@ namespace signweave {
 
 enum class BodySide { none, left, right };
 
-/// How a joint is drawn: what its name and its place in the hierarchy say.
+/// How a joint is drawn: what its name, its place in the hierarchy and, where names fail, the body's shape say.
 struct FigurePart {
   BodySide side = BodySide::none;
   bool finger = false;  ///< beyond the wrist
@@ -21,8 +23,19 @@ struct FigurePart {
   bool in_head = false;  ///< eyes, jaw: not drawn as bones
   bool eye = false;
 };
-/// [joint] of a skeleton, standing about as in `pose`.
-std::vector<FigurePart> figure_parts(const Skeleton& skeleton, const ModelPose& pose);
+/// Where a head looks, in its joint's own space.
+struct FigureHead {
+  JointIndex joint = kNoJoint;
+  Eigen::Vector3f left = Eigen::Vector3f::UnitX();  ///< unit, of the person
+  std::optional<Eigen::Vector3f> up;                ///< unit; where the skull's end points elsewhere
+};
+struct FigurePlan {
+  std::vector<FigurePart> parts;  ///< [joint]
+  std::size_t hips = 0;           ///< the joint where the trunk begins
+  std::optional<FigureHead> head;
+};
+/// Of a motion of at least one frame.
+FigurePlan figure_plan(const Motion& motion);
 
 /// Weights of a face from 0 to 1; all 0 for a face that does nothing.
 struct FigureFace {
@@ -32,6 +45,7 @@ struct FigureFace {
   float jaw = 0, close = 0, funnel = 0, pucker = 0, press = 0;
   float smile[2] = {}, stretch[2] = {};  ///< left, right
   float puff = 0;
+  bool known = false;  ///< the motion has a face
 };
 /// From a motion's scalar tracks with the names of ARKit's blend shapes; what is missing is 0.
 FigureFace figure_face(const Motion& motion, std::int64_t frame);
@@ -47,11 +61,10 @@ struct FigureView {
 };
 
 /// The points between which bones are drawn, for the bounds of a figure. Metres, model space.
-std::vector<Eigen::Vector3f> figure_points(const Skeleton& skeleton, const std::vector<FigurePart>& parts,
-                                           const ModelPose& pose);
+std::vector<Eigen::Vector3f> figure_points(const Skeleton& skeleton, const FigurePlan& plan, const ModelPose& pose);
 
 /// Appends the figure's SVG elements: a line for every bone, an ellipse for the head, paths and circles for the rest.
-void draw_figure(const Skeleton& skeleton, const std::vector<FigurePart>& parts, const ModelPose& pose,
-                 const FigureFace& face, const FigureView& view, std::string& out);
+void draw_figure(const Skeleton& skeleton, const FigurePlan& plan, const ModelPose& pose, const FigureFace& face,
+                 const FigureView& view, std::string& out);
 
 }  // namespace signweave

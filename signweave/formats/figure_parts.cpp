@@ -27,11 +27,61 @@ BodySide side_of(std::string_view name, std::string_view folded) {
   return BodySide::none;
 }
 
+/// Marks the arms that names did not tell: two long bones from each shoulder, and what is beyond them.
+void arms_by_shape(const Skeleton& skeleton, const BodyPlan& body, std::vector<FigurePart>& parts) {
+  const auto told = [](const FigurePart& part) { return part.arm && part.side != BodySide::none; };
+  if (std::any_of(parts.begin(), parts.end(), told)) return;
+  for (const JointIndex shoulder : body.shoulders) {
+    std::vector<int> bones(parts.size(), -1);  // from the shoulder
+    bones[static_cast<std::size_t>(shoulder)] = 0;
+    const auto first = static_cast<std::size_t>(shoulder);
+    const Eigen::Vector3f aside = body.place(shoulder) - body.place(body.trunk.front());
+    if (parts[first].side == BodySide::none) {
+      parts[first].side = aside.dot(body.left) > 0 ? BodySide::left : BodySide::right;
+    }
+    for (std::size_t i = first + 1; i < parts.size(); ++i) {
+      const auto parent = static_cast<std::size_t>(skeleton.joints()[i].parent);
+      if (bones[parent] < 0) continue;
+      const bool twist = skeleton.joints()[i].offset.isZero();
+      bones[i] = bones[parent] + (twist ? 0 : 1);
+      parts[i].side = parts[first].side;
+      parts[i].arm = bones[i] <= 2;
+      parts[i].finger = bones[i] > 2;
+      parts[i].palm = parts[i].finger && !parts[parent].finger;
+    }
+  }
+}
+
+std::optional<FigureHead> figure_head(const Skeleton& skeleton, const BodyPlan& body) {
+  if (!body.head) return std::nullopt;
+  const auto joint = static_cast<std::size_t>(body.head->joint);
+  const Eigen::Quaternionf back = body.pose.rotations[joint].conjugate();
+  FigureHead head{.joint = body.head->joint, .left = back * body.head->left, .up = {}};
+  for (std::size_t i = 0; i < skeleton.tips().size(); ++i) {
+    const Eigen::Vector3f& end = body.tip_bones[i];
+    if (skeleton.tips()[i].joint == head.joint && end.dot(body.head->up) < 0.5f * end.norm()) {
+      head.up = back * body.head->up;
+    }
+  }
+  return head;
+}
+
 }  // namespace
 
-std::vector<FigurePart> figure_parts(const Skeleton& skeleton, const ModelPose& pose) {
+FigurePlan figure_plan(const Motion& motion) {
+  const Skeleton& skeleton = motion.skeleton();
+  const BodyPlan body = plan_of(motion);
+  const ModelPose& pose = body.pose;
+  FigurePlan plan;
+  if (!body.trunk.empty()) plan.hips = static_cast<std::size_t>(body.trunk.front());
+  std::vector<bool> above_hips(skeleton.joint_count());  // what is drawn of them is nothing
+  for (JointIndex joint = skeleton.joint(static_cast<JointIndex>(plan.hips)).parent; joint != kNoJoint;
+       joint = skeleton.joint(joint).parent) {
+    above_hips[static_cast<std::size_t>(joint)] = true;
+  }
   const std::size_t count = skeleton.joint_count();
-  std::vector<FigurePart> parts(count);
+  std::vector<FigurePart>& parts = plan.parts;
+  parts.resize(count);
   std::vector<float> highest(count);
   float top = pose.positions[0].y();
   float bottom = top;
@@ -60,11 +110,15 @@ std::vector<FigurePart> figure_parts(const Skeleton& skeleton, const ModelPose& 
     part.arm = !part.finger && contains(above, "arm");
     part.in_head = parts[parent].in_head || (parts[parent].head && !part.head);
     arm[i] = arm[parent] || contains(folded, "arm") || contains(folded, "shoulder") || contains(folded, "hand");
-    const bool leg = joint.parent == 0 && highest[i] < pose.positions[0].y() + 0.03f * (top - bottom);
-    part.shown = parts[parent].shown && (!leg || arm[i]);
+    const bool beside = body.trunk.size() > 1 && static_cast<std::size_t>(body.trunk[1]) != i;
+    const bool low = highest[i] < pose.positions[plan.hips].y() + 0.03f * (top - bottom);
+    const bool leg = parent == plan.hips && (low || beside);
+    part.shown = (parts[parent].shown || parent == plan.hips) && !above_hips[parent] && (!leg || arm[i]);
     if (part.side == BodySide::none) part.side = parts[parent].side;
   }
-  return parts;
+  arms_by_shape(skeleton, body, parts);
+  plan.head = figure_head(skeleton, body);
+  return plan;
 }
 
 FigureFace figure_face(const Motion& motion, std::int64_t frame) {
@@ -75,6 +129,9 @@ FigureFace figure_face(const Motion& motion, std::int64_t frame) {
     return 0.0f;
   };
   FigureFace face;
+  face.known = std::any_of(motion.tracks().begin(), motion.tracks().end(), [](const ScalarTrack& track) {
+    return track.name == "jawOpen" || track.name == "eyeBlinkLeft" || track.name == "browInnerUp";
+  });
   face.brow_inner_up = weight("browInnerUp");
   face.jaw = weight("jawOpen");
   face.close = weight("mouthClose");

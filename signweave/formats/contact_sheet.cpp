@@ -141,26 +141,32 @@ FigureView view_of(const Extent& extent) {
   return view;
 }
 
-/// One extent for all cells, from all but a twentieth at each end: a rest pose among them must not make the rest small.
+/// One extent for all cells. A twentieth at each end does not count where it goes much farther than the rest: a rest
+/// pose among them must not make the others small.
 Extent common_extent(const std::vector<Extent>& figures) {
+  constexpr double kMuch = 1.25;
   const std::size_t left_out = (figures.size() + 10) / 20;
-  const auto at_most = [&](double Extent::*what) {
+  const auto sorted = [&](double Extent::*what) {
     std::vector<double> values;
     for (const Extent& figure : figures) values.push_back(figure.*what);
     std::sort(values.begin(), values.end());
-    return values[values.size() - 1 - left_out];
+    return values;
   };
-  const auto at_least = [&](double Extent::*what) {
-    std::vector<double> values;
-    for (const Extent& figure : figures) values.push_back(figure.*what);
-    std::sort(values.begin(), values.end());
-    return values[left_out];
-  };
-  return {.half_width = at_most(&Extent::half_width),
-          .low = at_least(&Extent::low),
-          .top = at_most(&Extent::top),
-          .far = at_least(&Extent::far),
-          .near = at_most(&Extent::near)};
+  const std::vector<double> widths = sorted(&Extent::half_width);
+  const std::vector<double> lows = sorted(&Extent::low);
+  const std::vector<double> tops = sorted(&Extent::top);
+  const std::size_t last = figures.size() - 1 - left_out;
+  Extent common{.half_width = widths[last],
+                .low = lows[left_out],
+                .top = tops[last],
+                .far = sorted(&Extent::far).front(),
+                .near = sorted(&Extent::near).back()};
+  if (widths.back() < kMuch * common.half_width) common.half_width = widths.back();
+  if (tops.back() - lows.front() < kMuch * (common.top - common.low)) {
+    common.low = lows.front();
+    common.top = tops.back();
+  }
+  return common;
 }
 
 /// The common view, or a smaller one of its own for a figure that would leave its cell.

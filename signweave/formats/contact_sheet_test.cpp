@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <numbers>
 #include <pugixml.hpp>
 #include <set>
@@ -289,6 +290,88 @@ TEST(ContactSheet, DrawsASkeletonWhoseNamesSayNothing) {
   const auto point =
       std::make_shared<const Skeleton>(std::vector<Joint>{{"a", kNoJoint, {0, 1, 0}, true}}, std::vector<Tip>{});
   EXPECT_EQ(cells(parsed(contact_sheet(Motion(point, {30, 1}, 1)))).size(), 1U);
+}
+
+/// The body with its joints changed; tips stay.
+Motion changed(const std::function<void(Joint&)>& change, std::int64_t frames = 1) {
+  const auto straight = body();
+  std::vector<Joint> joints(straight->joints().begin(), straight->joints().end());
+  for (Joint& joint : joints) change(joint);
+  return Motion(
+      std::make_shared<const Skeleton>(joints, std::vector<Tip>(straight->tips().begin(), straight->tips().end())),
+      {100, 1}, frames);
+}
+
+TEST(ContactSheet, DrawsTheSameTrunkWhereTheRootIsOnTheGround) {
+  const auto straight = body();
+  std::vector<Joint> joints = {{"Scene", kNoJoint, {0, 0, 0}, true}};
+  for (Joint joint : straight->joints()) {
+    ++joint.parent;
+    joints.push_back(std::move(joint));
+  }
+  std::vector<Tip> tips(straight->tips().begin(), straight->tips().end());
+  for (Tip& tip : tips) ++tip.joint;
+  const Motion grounded(std::make_shared<const Skeleton>(joints, tips), {100, 1}, 1);
+  EXPECT_EQ(contact_sheet(grounded), contact_sheet(standing(1)));
+}
+
+TEST(ContactSheet, FindsArmsByShapeWhereNamesCallThemOtherwise) {
+  const Motion collars = changed([](Joint& joint) {
+    const std::string side = joint.name.starts_with("Left") ? "Left" : "Right";
+    if (joint.name == side + "Arm") joint.name = side + "Shoulder";
+    if (joint.name == side + "ForeArm") joint.name = side + "Elbow";
+    if (joint.name == side + "Hand") joint.name = side + "Wrist";
+  });
+  EXPECT_EQ(contact_sheet(collars), contact_sheet(standing(1)));
+  // Names without sides: left is told by the toes.
+  const Motion sideless = changed([](Joint& joint) {
+    if (!joint.name.ends_with("Eye") && joint.name != "Head") joint.name = "j";
+  });
+  EXPECT_EQ(contact_sheet(sideless), contact_sheet(standing(1)));
+}
+
+TEST(ContactSheet, GivesAHeadWithoutEyesAFaceWhereTracksTellOfOne) {
+  const auto blind = [] {
+    return changed([](Joint& joint) {
+      if (joint.name.ends_with("Eye")) joint.name = joint.name.starts_with("Left") ? "LeftLid" : "RightLid";
+    });
+  };
+  const auto pupils = [](const Motion& motion) {
+    const pugi::xml_document document = parsed(contact_sheet(motion));
+    const auto circles = cells(document)[0].children("circle");
+    return std::distance(circles.begin(), circles.end());
+  };
+  EXPECT_EQ(pupils(blind()), 0);
+  Motion speaking = blind();
+  speaking.add_track({"jawOpen", {1}});
+  EXPECT_EQ(pupils(speaking), 2);
+}
+
+TEST(ContactSheet, ARestPoseAmongTheFramesDoesNotMakeTheOthersSmall) {
+  const auto heads = [](bool rest) {
+    Motion motion = standing(12);
+    for (std::int64_t frame = rest ? 1 : 0; frame < 12; ++frame) {
+      for (const char* arm : {"LeftArm", "RightArm"}) {
+        const float angle = std::string(arm) == "LeftArm" ? -1.5f : 1.5f;
+        motion.pose(frame).rotations[static_cast<std::size_t>(motion.skeleton().find(arm).value())] =
+            AngleAxisf(angle, Vector3f::UnitZ());
+      }
+    }
+    const pugi::xml_document document = parsed(contact_sheet(motion));
+    std::vector<double> sizes;
+    for (const pugi::xml_node& cell : cells(document)) {
+      sizes.push_back(cell.child("ellipse").attribute("ry").as_double());
+      for (const pugi::xml_node line : cell.children("line")) {
+        EXPECT_GE(line.attribute("x2").as_double(), 2);
+        EXPECT_LE(line.attribute("x2").as_double(), 188);
+      }
+    }
+    return sizes;
+  };
+  const std::vector<double> with = heads(true);
+  const std::vector<double> without = heads(false);
+  EXPECT_NEAR(with[5], without[5], 0.11);
+  EXPECT_LT(with[0], 0.7 * with[5]);  // smaller, so that its hands are inside
 }
 
 TEST(ContactSheet, RefusesWhatItCannotDraw) {

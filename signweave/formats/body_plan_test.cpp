@@ -210,7 +210,7 @@ TEST(BodyMesh, TheNoseGrowsFromTheHead) {
 
 TEST(BodyPlan, AHeadStandsUprightWhereItsEndPointsAside) {
   const auto straight = person();
-  for (const Vector3f& aside : {Vector3f(0.2f, 0, 0), Vector3f(0, 0.18f, 0.08f)}) {
+  for (const Vector3f& aside : {Vector3f(0.2f, 0.03f, 0), Vector3f(0, 0.18f, 0.08f)}) {
     std::vector<Tip> tips(straight->tips().begin(), straight->tips().end());
     tips[0].offset = aside;
     std::vector<Joint> joints(straight->joints().begin(), straight->joints().end());

@@ -141,11 +141,11 @@ FigureView view_of(const Extent& extent) {
   return view;
 }
 
-/// One extent for all cells. A twentieth at each end does not count where it goes much farther than the rest: a rest
-/// pose among them must not make the others small.
+/// One extent for all cells. A twentieth at each end, of five figures at least one, does not count where it goes much
+/// farther than the rest: a rest pose among them must not make the others small.
 Extent common_extent(const std::vector<Extent>& figures) {
   constexpr double kMuch = 1.25;
-  const std::size_t left_out = (figures.size() + 10) / 20;
+  const std::size_t left_out = std::max<std::size_t>((figures.size() + 10) / 20, figures.size() < 5 ? 0 : 1);
   const auto sorted = [&](double Extent::*what) {
     std::vector<double> values;
     for (const Extent& figure : figures) values.push_back(figure.*what);

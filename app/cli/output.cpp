@@ -141,17 +141,12 @@ ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string&
     cells.push_back({middle, junction.from + " → " + junction.to, Worth::junction});
   }
   std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.frame < b.frame; });
-  // A long result is thinned to what still can be looked at: first begins and ends of strokes go, then what lies close.
-  constexpr std::size_t kMostCells = 96;
-  const std::size_t all = cells.size();
-  if (cells.size() > kMostCells) std::erase_if(cells, [](const Cell& cell) { return cell.worth == Worth::side; });
-  const std::size_t shown = std::min(cells.size(), kMostCells);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const Cell& cell = cells[i * cells.size() / shown];
+  options.most_cells = 96;  // what still can be looked at
+  for (const Cell& cell : cells) {
     options.frames.push_back(cell.frame);
     options.captions.push_back(cell.caption);
+    options.importance.push_back(static_cast<int>(cell.worth));
   }
-  if (shown < all) options.note += fmt::format("{}{} of {} pictures", options.note.empty() ? "" : "; ", shown, all);
   return options;
 }
 

@@ -202,6 +202,11 @@ int main(int count, char** arguments) {
     }
     std::vector<Scenario> all = scenarios();
     for (Scenario& one : all) measure(*database, one);
+    if (all[0].junctions != 8 || all[1].junctions != 3) {
+      fmt::print(stderr, "bench_table1: {} and {} junctions where the paper has 8 and 3\n", all[0].junctions,
+                 all[1].junctions);
+      return 1;
+    }
     if (table) {
       print_table(all, motion);
     } else {

@@ -41,6 +41,18 @@ void AtomicFile::fail(const char* what) {
   throw Error(ErrorCode::io, fmt::format("{}: {}: {}", path_.string(), what, std::strerror(errno)));
 }
 
+std::streamsize AtomicFileBuffer::xsputn(const char* text, std::streamsize count) {
+  file_.write({text, static_cast<std::size_t>(count)});
+  bytes_ += static_cast<std::uint64_t>(count);
+  return count;
+}
+
+AtomicFileBuffer::int_type AtomicFileBuffer::overflow(int_type c) {
+  const char one = traits_type::to_char_type(c);
+  xsputn(&one, 1);
+  return c;
+}
+
 std::string read_file(const std::filesystem::path& path, std::size_t most) {
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (file == nullptr) {

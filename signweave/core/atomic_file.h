@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <streambuf>
 #include <string>
 #include <string_view>
 
@@ -27,6 +29,22 @@ class AtomicFile {
   std::filesystem::path path_;
   std::filesystem::path temporary_;
   std::FILE* file_ = nullptr;
+};
+
+/// Sends what a library writes to a stream on to such a file. It must outlive this; its faults pass through a stream
+/// whose exceptions include badbit.
+class AtomicFileBuffer : public std::streambuf {
+ public:
+  explicit AtomicFileBuffer(AtomicFile& file) : file_(file) {}
+  /// How many were written.
+  std::uint64_t bytes() const noexcept { return bytes_; }
+
+ private:
+  std::streamsize xsputn(const char* text, std::streamsize count) override;
+  int_type overflow(int_type c) override;
+
+  AtomicFile& file_;
+  std::uint64_t bytes_ = 0;
 };
 
 /// The whole of a file. Error{not_found} or Error{io} where it cannot be read; Error{bad_input} where it has more than

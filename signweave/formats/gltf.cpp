@@ -370,9 +370,9 @@ void write_to(std::ostream& out, const Motion& motion, const WriteOptions& optio
   }
   require_finite(motion);
   const bool binary = container == Container::binary;
-  Document document(binary ? kMostFileBytes : kMostTextBytes,
-                    binary ? "the motion is larger than the 4 GiB that a .glb file may have; write a part of it"
-                           : "the motion has more than the 64 MiB of numbers that go into a .gltf file; write .glb");
+  Document document(
+      binary ? kMostFileBytes : kMostTextBytes,
+      binary ? kTooLarge : "the motion has more than the 64 MiB of numbers that go into a .gltf file; write .glb");
   Writer(motion, options, document).write();
   tinygltf::TinyGLTF().WriteGltfSceneToStream(&document.model(), out, false, binary);
 }
@@ -381,28 +381,6 @@ void write_to(std::ostream& out, const Motion& motion, const WriteOptions& optio
 void require_size(std::uint64_t bytes) {
   if (bytes > kMostFileBytes) throw Error(ErrorCode::unsupported, kTooLarge);
 }
-
-/// Sends what is written to a stream on to a file.
-class ToFile : public std::streambuf {
- public:
-  explicit ToFile(AtomicFile& file) : file_(file) {}
-  std::uint64_t bytes() const { return bytes_; }
-
- private:
-  std::streamsize xsputn(const char* text, std::streamsize count) override {
-    file_.write({text, static_cast<std::size_t>(count)});
-    bytes_ += static_cast<std::uint64_t>(count);
-    return count;
-  }
-  int_type overflow(int_type c) override {
-    const char one = traits_type::to_char_type(c);
-    xsputn(&one, 1);
-    return c;
-  }
-
-  AtomicFile& file_;
-  std::uint64_t bytes_ = 0;
-};
 
 }  // namespace
 
@@ -417,12 +395,12 @@ std::string to_bytes(const Motion& motion, const WriteOptions& options, Containe
 void write(const std::filesystem::path& path, const Motion& motion, const WriteOptions& options) {
   const bool text = fold_case(path.extension().string()) == ".gltf";
   AtomicFile file(path);
-  ToFile to_file(file);
-  std::ostream out(&to_file);
+  AtomicFileBuffer buffer(file);
+  std::ostream out(&buffer);
   out.exceptions(std::ios::badbit);  // a full disk is AtomicFile's Error, not a flag that nobody reads
   try {
     write_to(out, motion, options, text ? Container::text : Container::binary);
-    if (!text) require_size(to_file.bytes());
+    if (!text) require_size(buffer.bytes());
   } catch (const Error& error) {
     if (error.code() == ErrorCode::io) throw;
     throw Error(error.code(), fmt::format("{}: {}", path.string(), error.what()));

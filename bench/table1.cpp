@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/corpus.h"
+#include "bench/measure.h"
 #include "signweave/core/error.h"
 #include "signweave/synthesis/edit.h"
 #include "signweave/synthesis/synthesizer.h"
+#include "tests/demo_database.h"
 
 namespace {
 
@@ -195,7 +196,8 @@ int main(int count, char** arguments) {
       }
     }
     const bench::Folder folder("table1");
-    const std::unique_ptr<const Database> database = bench::demo_database(folder.path() / "corpus.db", minutes);
+    const std::unique_ptr<const Database> database =
+        demo_database(folder.path() / "corpus.db", demo::corpus_scripts(minutes));
     double motion = 0;
     for (const RecordingInfo& info : database->contents()->recordings) {
       motion += static_cast<double>(info.motion->frames) / info.motion->rate.hertz() / 60;

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <thread>
 
-#include "demo/corpus.h"
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
 #include "signweave/database/test_recording.h"
@@ -13,6 +12,7 @@
 #include "signweave/motion/kinematics.h"
 #include "signweave/synthesis/provenance.h"
 #include "signweave/synthesis/synthesizer.h"
+#include "tests/demo_database.h"
 
 namespace signweave {
 namespace {
@@ -22,20 +22,7 @@ using testing_database::TestFolder;
 /// The demo corpus in a database, made once.
 const Database& corpus() {
   static const TestFolder folder;
-  static const std::unique_ptr<const Database> database = [] {
-    Database::create(folder / "db", {});
-    Database writer(folder / "db", kv::Access::read_write);
-    for (const demo::Script& script : {demo::meteo(), demo::villes()}) {
-      demo::SyntheticRecording made = demo::make_recording(script, {100, 1}, 1);
-      Recording recording{.name = made.name};
-      recording.motion = MotionPart{.motion = std::move(made.motion)};
-      TierNames tiers = guess_tier_names(made.document);
-      recording.annotation = AnnotationPart{.document = std::move(made.document), .tiers = std::move(tiers)};
-      recording.clock = {.frame_time = Seconds(0.01)};
-      writer.put(recording);
-    }
-    return std::make_unique<const Database>(folder / "db", kv::Access::read_only);
-  }();
+  static const std::unique_ptr<const Database> database = demo_database(folder / "db", demo::corpus_scripts(2));
   return *database;
 }
 

@@ -129,7 +129,7 @@ void run_import(const Options& given, Io& io) {
         std::string line = fmt::format("{}: {}", report.name, name_of(report.outcome));
         if (report.outcome != ImportOutcome::unchanged) {
           line += ", " + counted(static_cast<std::size_t>(report.frames), "frame");
-          if (report.tracks > 0) line += ", " + counted(report.tracks, "face track");
+          if (report.tracks > 0) line += ", " + counted(report.tracks, "scalar track");
           line += ", " + counted(report.signs, "sign");
         }
         io.out << line << '\n';

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "signweave/core/error.h"
 #include "signweave/motion/blend.h"
@@ -120,7 +121,7 @@ class Filler {
   /// Where the reference's signer stands, while stretch i is filled: the frames that tell are there already, but for a
   /// stretch before the reference.
   const Standing& home(std::size_t i) {
-    if (home_known_) return home_;
+    if (home_) return *home_;
     const Laid& reference = plan_.laid[options_.reference];
     if (options_.reference <= i) {
       home_ = standing_over(out_.motion, {reference.core, reference.core_end()});
@@ -131,8 +132,7 @@ class Filler {
       source.read(reference.stretch->core, core.poses({0, core.frame_count()}));
       home_ = standing_over(core, {0, core.frame_count()});
     }
-    home_known_ = true;
-    return home_;
+    return *home_;
   }
 
   void align_to_home(std::size_t i, FrameRange own) {
@@ -219,8 +219,7 @@ class Filler {
   Synthesis& out_;
   Motion faded_;  ///< the frames of a stretch that are cross-faded with the one before
   GapFiller gap_;
-  Standing home_;
-  bool home_known_ = false;
+  std::optional<Standing> home_;
 };
 
 }  // namespace

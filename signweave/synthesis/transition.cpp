@@ -135,8 +135,8 @@ void GapFiller::between(const Border& from, const Border& to, std::int64_t count
   }
   from_.assign(from.pose.rotations, from_turns_);
   to_.assign(signed_to_, to_turns_);
-  from_rest_.assign(from.pose.rotations, from_turns_);
-  to_rest_.assign(signed_to_, to_turns_);
+  from_rest_ = from_;
+  to_rest_ = to_;
   const float whole = coasted(ease_, ease_);
   from_rest_.coast(whole);
   to_rest_.coast(-whole);

@@ -12,6 +12,9 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/signweave-config.cmake
                               ${PROJECT_BINARY_DIR}/signweave-config.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/signweave)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/signweave-config-version.cmake COMPATIBILITY SameMinorVersion)
+if(SIGNWEAVE_BERKELEY)
+  install(FILES ${PROJECT_SOURCE_DIR}/cmake/FindBerkeleyDB.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/signweave)
+endif()
 install(FILES ${PROJECT_BINARY_DIR}/signweave-config.cmake ${PROJECT_BINARY_DIR}/signweave-config-version.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/signweave)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -3,6 +3,8 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "signweave/core/bytes.h"
 #include "signweave/core/error.h"
@@ -23,6 +25,7 @@ class Records : public kv::ReadTransaction {
     if (at == values.end()) return std::nullopt;
     return at->second;
   }
+  std::optional<ByteSpan> get(ByteSpan key, Bytes&) const override { return get(key); }
 };
 
 /// Makes a damaged record's checksum right, so that what lies behind it is tried too.
@@ -53,7 +56,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       const ByteSpan value = in.take(bytes);
       Bytes copy(value.begin(), value.end());
       seal(copy);
-      records->values[motion_db::key_of(stored.generation, record)] = std::move(copy);
+      const motion_db::Key key = motion_db::key_of(stored.generation, record);
+      records->values[Bytes(key.begin(), key.end())] = std::move(copy);
     }
     motion_db::check(*records, stored);
     const auto known = std::make_shared<const motion_db::KnownMotion>(*records, stored);
@@ -61,6 +65,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     motion_db::read(*records, stored, known->skeleton(), frames);
     motion_db::read(*records, stored, known->skeleton(), frames, {0});
     const motion_db::StoredSource source(records, known);
+    std::vector<std::vector<float>> tracks;
+    if (static_cast<std::uint64_t>(frames.size()) * stored.tracks.size() <= 100'000) {
+      tracks.assign(stored.tracks.size(), std::vector<float>(static_cast<std::size_t>(frames.size())));
+      const std::vector<std::span<float>> spans(tracks.begin(), tracks.end());
+      source.read_tracks(frames, spans);
+    }
     Motion motion;
     if (static_cast<std::uint64_t>(frames.size()) * stored.joints > 100'000) return 0;
     motion.reset(source.skeleton(), source.rate(), frames.size());

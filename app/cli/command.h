@@ -61,6 +61,7 @@ Run import(CLI::App& verb);
 Run remove(CLI::App& verb);
 Run info(CLI::App& verb);
 Run check(CLI::App& verb);
+Run relayout(CLI::App& verb);
 Run query(CLI::App& verb);
 Run sign(CLI::App& verb);
 Run edit(CLI::App& verb);

@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "app/cli/command.h"
-#include "signweave/core/text.h"
+#include "app/cli/storage_options.h"
 #include "signweave/database/database.h"
 
 namespace signweave::cli {
@@ -14,27 +14,25 @@ Run create(CLI::App& verb) {
     std::string folder;
     std::string engine = "lmdb";
     std::string mode = "by_frame";
+    std::optional<double> compact;  ///< millimetres
   };
   auto options = std::make_shared<Options>();
   verb.add_option("DB", options->folder, "folder to make; must not exist or be empty")->required();
   verb.add_option("--engine", options->engine, "key-value engine")
       ->check(CLI::IsMember(kv::engines()))
       ->capture_default_str();
-  verb.add_option("--access-mode", options->mode,
-                  "how motions are cut: full, by_frame[:P], by_joint, by_joint_and_frame[:P]")
-      ->check([](const std::string& text) {
-        return parse_access_mode(text)
-                   ? std::string()
-                   : "'" + printable(text) + "' is no access mode: full, by_frame:P, by_joint or by_joint_and_frame:P";
-      })
-      ->capture_default_str();
+  add_access_mode(verb, options->mode)->capture_default_str();
+  add_compact(verb, options->compact);
   return [options](Io& io) {
     const AccessMode mode = *parse_access_mode(options->mode);
-    Database::create(options->folder, {.engine = options->engine, .access_mode = mode});
+    Database::create(options->folder, {.engine = options->engine,
+                                       .access_mode = mode,
+                                       .tolerance = static_cast<float>(options->compact.value_or(0) / 1e3)});
     if (io.json) {
       io.out << nlohmann::json{{"database", options->folder},
                                {"engine", options->engine},
-                               {"access_mode", to_string(mode)}}
+                               {"access_mode", to_string(mode)},
+                               {"compact_mm", options->compact.value_or(0)}}
                     .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
              << '\n';
     }

@@ -96,8 +96,8 @@ Run export_recording(CLI::App& verb) {
     if (options->from && options->to && span.begin >= span.end) {
       throw Error(ErrorCode::bad_input, "--from must be before --to");
     }
-    const bool needs_motion = std::any_of(options->outputs.begin(), options->outputs.end(),
-                                          [](const std::string& path) { return !fold_case(path).ends_with(".eaf"); });
+    const auto is_document = [](const std::string& path) { return fold_case(path).ends_with(".eaf"); };
+    const bool needs_motion = !std::ranges::all_of(options->outputs, is_document);
     if (info.motion && needs_motion) {
       if (part) frames = span.begin < span.end ? clamp(frames_of(span, info.clock), info.motion->frames) : FrameRange{};
       if (frames.empty()) {
@@ -109,8 +109,7 @@ Run export_recording(CLI::App& verb) {
       motion = database.read(info.name, frames, joints);
     }
     std::optional<AnnotationDocument> document;
-    const bool needs_document = std::any_of(options->outputs.begin(), options->outputs.end(),
-                                            [](const std::string& path) { return fold_case(path).ends_with(".eaf"); });
+    const bool needs_document = std::ranges::any_of(options->outputs, is_document);
     if (info.document != 0 && needs_document) document = database.document(info.name);
     // The annotation is cut where the frames are, so that both begin together.
     if (document && part)

@@ -137,7 +137,9 @@ void run_import(const Options& given, Io& io) {
       ++done;
     } catch (const Error& error) {  // a bad recording changes nothing of its own; the others are imported
       progress->hide();
-      io.err << "signweave: " << one_line(error.what()) << '\n';
+      // What a file is to blame for begins with the file; what the disk is, does not tell whose turn it was.
+      io.err << "signweave: " << (error.code() == ErrorCode::io ? job.name + ": " : "") << one_line(error.what())
+             << '\n';
       if (io.json) recordings.push_back({{"name", job.name}, {"outcome", "failed"}, {"error", error.what()}});
       io.status = 1;
       ++done;
@@ -171,7 +173,7 @@ Run import(CLI::App& verb) {
         return parse_sync(text) ? std::string() : "expected FRAME@MS, such as 120@4010";
       });
   verb.add_flag("--replace-motion", options->replace_motion,
-                "take motion and face files that changed since they were imported");
+                "take motion and face files again, changed or not: instead of what was imported, or over damage");
   return [options](Io& io) {
     if (options->inputs.empty() && options->pairs.empty()) throw CLI::RequiredError("FILE or --pairs");
     run_import(*options, io);

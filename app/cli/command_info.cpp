@@ -9,8 +9,10 @@
 #include "app/cli/command.h"
 #include "app/cli/motion_options.h"
 #include "app/cli/progress.h"
+#include "app/cli/storage_options.h"
 #include "app/cli/table.h"
 #include "signweave/core/text.h"
+#include "signweave/database/check.h"
 #include "signweave/database/database.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/formats/face_csv.h"
@@ -89,12 +91,9 @@ void info_of_face(const std::string& path, Io& io) {
   for (const ScalarTrack& track : face.tracks) names.push_back(track.name);
   const double seconds = face.times.back().count();
   const double rows_per_second = seconds > 0 ? static_cast<double>(face.times.size() - 1) / seconds : 0;
-  nlohmann::ordered_json fields = {{"file", path},
-                                   {"format", "Live Link Face CSV"},
-                                   {"rows", face.times.size()},
-                                   {"seconds", face.times.back().count()},
-                                   {"rows_per_second", rows_per_second},
-                                   {"timecode_frames_per_second", face.rate.hertz()}};
+  nlohmann::ordered_json fields = {
+      {"file", path},       {"format", "Live Link Face CSV"},     {"rows", face.times.size()},
+      {"seconds", seconds}, {"rows_per_second", rows_per_second}, {"timecode_frames_per_second", face.rate.hertz()}};
   if (io.json) {
     fields["tracks"] = names;
     fields["notices"] = json_of(face.notices);
@@ -103,7 +102,7 @@ void info_of_face(const std::string& path, Io& io) {
   }
   fields["rows_per_second"] = fmt::format("{:.2f}", rows_per_second);
   fields["timecode_frames_per_second"] = to_string(face.rate);
-  fields["seconds"] = fmt::format("{:.3f}", face.times.back().count());
+  fields["seconds"] = fmt::format("{:.3f}", seconds);
   fields["tracks"] = fmt::format("{}: {}", names.size(), short_list(names));
   print_pairs(io, fields);
   print_notices(io, face.notices);
@@ -154,6 +153,26 @@ void info_of_eaf(const std::string& path, Io& io) {
   print_notices(io, notices);
 }
 
+/// Of a tolerance in metres, without the noise of its last bits.
+double millimetres(float tolerance) {
+  return std::stod(fmt::format("{:.6g}", 1e3 * tolerance));
+}
+
+double mebibytes(std::uint64_t bytes) {
+  return static_cast<double>(bytes) / 1048576.0;
+}
+
+/// Nothing where looking at every entry meets damage; that is told.
+std::vector<Usage> usage_of(const std::string& folder, Io& io) {
+  try {
+    return usage_in_child(folder);
+  } catch (const Error& error) {
+    io.err << "signweave: " << one_line(error.what()) << '\n';
+    io.status = 1;
+    return {};
+  }
+}
+
 void info_of_database(const std::string& folder, Io& io) {
   const Database database(folder, kv::Access::read_only);
   const std::shared_ptr<const Contents> contents = database.contents();
@@ -173,25 +192,34 @@ void info_of_database(const std::string& folder, Io& io) {
         one["tracks"] = info.motion->tracks;
         one["face_file"] = info.face_file;
         one["access_mode"] = to_string(info.motion->mode);
+        one["compact_mm"] = millimetres(info.motion->tolerance);
         one["packets"] = motion_db::packet_count(*info.motion);
       }
       recordings.push_back(std::move(one));
+    }
+    json usage = json::array();
+    for (const Usage& one : usage_of(folder, io)) {
+      usage.push_back({{"kind", one.kind}, {"entries", one.entries}, {"bytes", one.bytes}});
     }
     io.out << json{{"engine", engine.name},
                    {"engine_version", engine.version},
                    {"entries", engine.entries},
                    {"bytes_on_disk", engine.bytes_on_disk},
+                   {"layout", database.layout()},
+                   {"usage", std::move(usage)},
                    {"access_mode", to_string(database.access_mode())},
+                   {"compact_mm", millimetres(database.tolerance())},
                    {"recordings", std::move(recordings)}}
                   .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
            << '\n';
     return;
   }
-  io.out << fmt::format("{}: {} {}, {}, {:.1f} MiB on disk, new motions {}\n", folder, engine.name, engine.version,
-                        counted(engine.entries, "record"), static_cast<double>(engine.bytes_on_disk) / 1048576.0,
-                        to_string(database.access_mode()));
+  io.out << fmt::format("{}: {} {}, layout {}, {}, {:.1f} MiB on disk, new motions {}, kept {}\n", folder, engine.name,
+                        engine.version, database.layout(), counted(engine.entries, "record"),
+                        mebibytes(engine.bytes_on_disk), to_string(database.access_mode()),
+                        precision_name(database.tolerance()));
   std::vector<std::vector<std::string>> rows = {{"recording", "signer", "frames", "per second", "seconds", "joints",
-                                                 "tracks", "access mode", "packets", "signs"}};
+                                                 "tracks", "access mode", "packets", "kept", "signs"}};
   for (std::size_t i = 0; i < contents->recordings.size(); ++i) {
     const RecordingInfo& info = contents->recordings[i];
     std::size_t signs = 0;
@@ -201,17 +229,23 @@ void info_of_database(const std::string& folder, Io& io) {
     std::vector<std::string> row = {info.name, info.signer};
     if (info.motion) {
       const motion_db::StoredMotion& motion = *info.motion;
-      row.insert(row.end(), {std::to_string(motion.frames), to_string(motion.rate),
-                             fmt::format("{:.2f}", static_cast<double>(motion.frames) / motion.rate.hertz()),
-                             std::to_string(motion.joints), std::to_string(motion.tracks.size()),
-                             to_string(motion.mode), std::to_string(motion_db::packet_count(motion))});
+      row.insert(row.end(),
+                 {std::to_string(motion.frames), to_string(motion.rate),
+                  fmt::format("{:.2f}", static_cast<double>(motion.frames) / motion.rate.hertz()),
+                  std::to_string(motion.joints), std::to_string(motion.tracks.size()), to_string(motion.mode),
+                  std::to_string(motion_db::packet_count(motion)), precision_name(motion.tolerance)});
     } else {
-      row.insert(row.end(), 7, "-");
+      row.insert(row.end(), 8, "-");
     }
     row.push_back(info.document != 0 ? std::to_string(signs) : "-");
     rows.push_back(std::move(row));
   }
   if (rows.size() > 1) io.out << format_table(rows);
+  std::vector<std::vector<std::string>> kinds = {{"kind", "records", "MiB"}};
+  for (const Usage& one : usage_of(folder, io)) {
+    kinds.push_back({one.kind, std::to_string(one.entries), fmt::format("{:.3f}", mebibytes(one.bytes))});
+  }
+  if (kinds.size() > 1) io.out << format_table(kinds);
   for (const std::string& fault : contents->faults) io.err << "signweave: " << fault << '\n';
   if (!contents->faults.empty()) io.status = 1;
 }

@@ -21,6 +21,8 @@ constexpr Command kCommands[] = {
     {"remove", "remove a recording", "signweave remove corpus.db meteo", remove},
     {"info", "what a database or a file holds", "signweave info meteo.bvh", info},
     {"check", "verify every stored byte", "signweave check corpus.db", check},
+    {"relayout", "store motions in another access mode",
+     "signweave relayout corpus.db --access-mode by_joint_and_frame", relayout},
     {"query", "find signs, phases and annotations", "signweave query corpus.db 'gloss = \"VANNES\" & phase = stroke'",
      query},
     {"sign", "make new signing from glosses", "signweave sign corpus.db 'VANNES MATIN PLUIE' -o out.bvh -o out.eaf",

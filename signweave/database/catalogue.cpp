@@ -7,7 +7,8 @@
 namespace signweave::catalogue {
 namespace {
 
-constexpr std::uint8_t kVersion = 2;
+// 2: the first; 3: the head has a tolerance.
+constexpr std::uint8_t kFirstVersion = 2;
 
 Bytes key_of(char what) {
   ByteWriter key;
@@ -22,19 +23,24 @@ Bytes slot_key(std::uint32_t slot) {
   return key.take();
 }
 
-ByteReader open_record(const kv::ReadTransaction& snapshot, ByteSpan key, const std::string& where) {
+struct OpenRecord {
+  std::uint8_t version = 0;
+  ByteReader in;
+};
+
+OpenRecord open_record(const kv::ReadTransaction& snapshot, ByteSpan key, const std::string& where) {
   const auto record = snapshot.get(key);
   if (!record) ByteReader({}, where).fail("it is missing");
   ByteReader reader(kv::unsealed(*record, where), where);
   const auto version = reader.number<std::uint8_t>();
-  if (version != kVersion) {
+  if (version < kFirstVersion || version > kVersion) {
     throw Error(
         ErrorCode::unsupported,
-        fmt::format("{}: written by another version of signweave (record version {}, this one reads {}); use that "
-                    "version, or import the recordings again",
-                    where, version, kVersion));
+        fmt::format("{}: written by another version of signweave (record version {}, this one reads {} to {}); use "
+                    "that version, or import the recordings again",
+                    where, version, kFirstVersion, kVersion));
   }
-  return reader;
+  return {version, reader};
 }
 
 ByteWriter new_record() {
@@ -90,14 +96,21 @@ TierNames decode_tier_names(ByteReader& in) {
 
 }  // namespace
 
+bool is_key(ByteSpan key) noexcept {
+  const char what = key.empty() ? '\0' : static_cast<char>(key[0]);
+  return what == 'C' || what == 'R' || what == 'P';
+}
+
 Head read_head(const kv::ReadTransaction& snapshot) {
-  ByteReader in = open_record(snapshot, key_of('C'), "catalogue");
+  auto [version, in] = open_record(snapshot, key_of('C'), "catalogue");
   Head head;
+  head.layout = version;
   head.changes = in.number<std::uint64_t>();
   head.next_generation = in.number<std::uint64_t>();
   head.recordings = in.number<std::uint32_t>();
   head.access_mode.kind = in.number<AccessMode::Kind>();
   head.access_mode.frames_per_packet = in.number<std::uint32_t>();
+  if (version >= 3) head.tolerance = in.number<float>();
   in.finish();
   return head;
 }
@@ -109,11 +122,12 @@ void write_head(kv::WriteTransaction& transaction, const Head& head) {
   out.number(head.recordings);
   out.number(head.access_mode.kind);
   out.number(head.access_mode.frames_per_packet);
+  out.number(head.tolerance);
   transaction.put(key_of('C'), kv::sealed(out.bytes()));
 }
 
 RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t slot) {
-  ByteReader in = open_record(snapshot, slot_key(slot), fmt::format("catalogue entry {}", slot));
+  ByteReader in = open_record(snapshot, slot_key(slot), fmt::format("catalogue entry {}", slot)).in;
   RecordingInfo info;
   info.name = in.text();
   info.signer = in.text();
@@ -192,7 +206,7 @@ void erase_recording(kv::WriteTransaction& transaction, std::uint32_t slot) {
 
 SweepList read_sweep_list(const kv::ReadTransaction& snapshot) {
   if (!snapshot.get(key_of('P'))) return {};
-  ByteReader in = open_record(snapshot, key_of('P'), "sweep list");
+  ByteReader in = open_record(snapshot, key_of('P'), "sweep list").in;
   SweepList list;
   for (std::size_t n = in.count(8); n > 0; --n) list.push_back(motion_db::decode(in));
   in.finish();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "signweave/database/database.h"
 #include "signweave/database/recording.h"
 #include "signweave/kv/kv_store.h"
 
@@ -15,11 +16,19 @@
 /// scan and adding costs the same in a small and a large database.
 namespace signweave::catalogue {
 
+/// Of the records that are written; versions from 2 on are read.
+inline constexpr std::uint8_t kVersion = kDatabaseLayout;
+
+/// True for the keys of this catalogue's records.
+bool is_key(ByteSpan key) noexcept;
+
 struct Head {
+  int layout = kVersion;              ///< that it was read in; it is written in the newest
   std::uint64_t changes = 0;          ///< counts commits: a reader whose number is another must look again
   std::uint64_t next_generation = 1;  ///< generations are never used twice
   std::uint32_t recordings = 0;
   AccessMode access_mode;  ///< for motions to come
+  float tolerance = 0;     ///< for motions to come: metres, 0 keeps every bit
 };
 
 /// What a crash may have left behind, or what is to be erased once nothing names it.

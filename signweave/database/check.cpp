@@ -1,15 +1,17 @@
+#include "signweave/database/check.h"
+
 #include <fmt/format.h>
 
 #include "signweave/database/catalogue.h"
-#include "signweave/database/database.h"
+#include "signweave/database/check_listener.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/semantic_db/semantic_db.h"
 
 namespace signweave {
 namespace {
 
-/// Faults of one recording's document: that it is there, reads, and gives the segments that are stored beside it.
-void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& info, std::vector<std::string>& faults) {
+/// Looks at one recording's document: that it is there and reads (else it throws), and gives the segments beside it.
+void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& info, CheckListener& listener) {
   const std::string source = semantic_db::read_document(snapshot, info.document, info.name);
   const SegmentChunk stored = semantic_db::read_segments(snapshot, info.document, info.name);
   const AnnotationDocument document = eaf::read_text(info.annotation_file, source).document;
@@ -19,32 +21,60 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
   encode(stored, stored_bytes);
   encode(made, made_bytes);
   if (stored_bytes.bytes() != made_bytes.bytes()) {
-    faults.push_back(
+    listener.fault(
         fmt::format("{}: the stored segments are not those of the stored annotation; import it again", info.name));
   }
 }
 
+class Collect : public CheckListener {
+ public:
+  explicit Collect(const Database::Progress& progress) : progress_(progress) {}
+
+  void begin(std::uint32_t recordings) override { result_.recordings = recordings; }
+  void slot(std::uint32_t number, const std::string&) override {
+    if (progress_) progress_(static_cast<double>(number) / result_.recordings);
+  }
+  void alive() override {}
+  void fault(const std::string& text) override { result_.faults.push_back(text); }
+  CheckResult take() { return std::move(result_); }
+
+ private:
+  const Database::Progress& progress_;
+  CheckResult result_;
+};
+
 }  // namespace
 
-std::vector<std::string> Database::check(const Progress& progress) const {
-  std::vector<std::string> faults;
-  const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
-  const catalogue::Head head = catalogue::read_head(*snapshot);
-  for (std::uint32_t slot = 0; slot < head.recordings; ++slot) {
-    if (progress) progress(static_cast<double>(slot) / head.recordings);
+void check_slots(const Database& database, std::uint32_t first, CheckListener& listener) {
+  const std::unique_ptr<kv::ReadTransaction> snapshot = database.store_->read();
+  const std::uint32_t recordings = catalogue::read_head(*snapshot).recordings;
+  listener.begin(recordings);
+  for (std::uint32_t slot = first; slot < recordings; ++slot) {
+    listener.slot(slot, fmt::format("catalogue entry {}", slot));
     try {
       const RecordingInfo info = catalogue::read_recording(*snapshot, slot);
+      listener.slot(slot, info.name);
       if (info.motion) {
-        for (const std::string& fault : motion_db::check(*snapshot, *info.motion)) {
-          faults.push_back(info.name + ": " + fault);
+        for (const std::string& fault : motion_db::check(*snapshot, *info.motion, [&] { listener.alive(); })) {
+          listener.fault(info.name + ": " + fault);
         }
       }
-      if (info.document != 0) check_document(*snapshot, info, faults);
+      if (info.document != 0) check_document(*snapshot, info, listener);
     } catch (const Error& error) {  // one damaged recording does not hide the others
-      faults.emplace_back(error.what());
+      listener.fault(error.what());
     }
   }
-  return faults;
+  try {
+    catalogue::read_sweep_list(*snapshot);
+  } catch (const Error&) {
+    listener.fault("sweep list: it is damaged; no recording needs it, and opening the database for a change mends it");
+  }
+}
+
+CheckResult check(const Database& database, const Database::Progress& progress) {
+  Collect collect(progress);
+  check_slots(database, 0, collect);
+  return collect.take();
 }
 
 }  // namespace signweave

@@ -57,14 +57,6 @@ const RecordingInfo& Contents::at(std::string_view name) const {
               fmt::format("no recording '{}' in this database{}", printable(name), did_you_mean(name, names)));
 }
 
-void Database::create(const std::filesystem::path& folder, const CreateOptions& options) {
-  kv::create(folder, options.engine);
-  const std::unique_ptr<kv::KvStore> store = kv::open(folder, kv::Access::read_write);
-  const std::unique_ptr<kv::WriteTransaction> transaction = store->write();
-  catalogue::write_head(*transaction, {.access_mode = options.access_mode});
-  transaction->commit();
-}
-
 Database::Database(const std::filesystem::path& folder, kv::Access access) : folder_(folder), access_(access) {
   // The store first: it tells whether there is a database at all, before a lock file is made.
   store_ = kv::open(folder, access);
@@ -148,12 +140,6 @@ std::shared_ptr<const motion_db::KnownMotion> Database::known(const kv::ReadTran
   return known_.try_emplace(stored.generation, std::move(made)).first->second;
 }
 
-void Database::require_writable() const {
-  if (access_ != kv::Access::read_write) {
-    throw Error(ErrorCode::conflict, folder_.string() + ": was opened for reading only");
-  }
-}
-
 std::optional<std::uint32_t> Database::slot_of(const kv::ReadTransaction& snapshot, std::string_view name) const {
   const catalogue::Head head = catalogue::read_head(snapshot);
   const std::lock_guard guard(mutex_);
@@ -178,176 +164,6 @@ std::optional<RecordingInfo> Database::info(std::string_view name) const {
   const std::optional<std::uint32_t> slot = slot_of(*snapshot, name);
   if (!slot) return std::nullopt;
   return catalogue::read_recording(*snapshot, *slot);
-}
-
-std::uint64_t Database::new_generation(const std::optional<motion_db::StoredMotion>& to_sweep, std::uint64_t count) {
-  const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
-  catalogue::Head head = catalogue::read_head(*transaction);
-  const std::uint64_t first = head.next_generation;
-  head.next_generation += count;
-  catalogue::write_head(*transaction, head);
-  if (to_sweep) {
-    catalogue::SweepList list = catalogue::read_sweep_list(*transaction);
-    list.push_back(*to_sweep);
-    list.back().generation = first;
-    catalogue::write_sweep_list(*transaction, list);
-  }
-  transaction->commit();
-  return first;
-}
-
-void Database::put(const Recording& recording, const Progress& progress) {
-  require_writable();
-  if (trimmed(recording.name).empty() || recording.name.size() > 1000 || !is_utf8(recording.name)) {
-    throw Error(ErrorCode::bad_input,
-                fmt::format("'{}': a recording needs a name of 1 to 1000 bytes of UTF-8", printable(recording.name)));
-  }
-  if (!recording.motion && !recording.annotation && !this->info(recording.name)) {
-    throw Error(ErrorCode::bad_input, recording.name + ": neither motion nor annotation to store");
-  }
-
-  // What can fail for the input's sake fails before anything is written.
-  std::string source;
-  SegmentChunk segments;
-  if (recording.annotation) {
-    const AnnotationPart& part = *recording.annotation;
-    source = part.document.source.empty() ? eaf::write_text(part.document) : part.document.source;
-    segments = segments_of(part.document, signs_in(part.document, part.tiers).signs);
-  }
-  // What is stored keeps one hemisphere from frame to frame, so that whoever joins it need not look at every frame.
-  Motion turned;
-  const Motion* motion = recording.motion ? &recording.motion->motion : nullptr;
-  if (motion != nullptr && !keeps_hemisphere(*motion)) {
-    turned = *motion;
-    keep_hemisphere(turned);
-    motion = &turned;
-  }
-  std::optional<motion_db::StoredMotion> stored;
-  if (motion != nullptr) stored = motion_db::describe(*motion, access_mode(), 0);
-
-  // Generation n for the motion, n + 1 for the document. The motion goes onto the sweep list before its first packet is
-  // written and off it in the same transaction that makes the recording visible: a crash between leaves only what the
-  // next open sweeps away.
-  const std::uint64_t generation = new_generation(stored, 2);
-  if (stored) {
-    stored->generation = generation;
-    try {
-      motion_db::put(*store_, *stored, *motion, progress);
-    } catch (...) {
-      try {
-        sweep();
-      } catch (const Error&) {  // the disk may be full: what is left is swept at the next open
-      }
-      throw;
-    }
-  }
-
-  const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
-  catalogue::Head head = catalogue::read_head(*transaction);
-  catalogue::SweepList list = catalogue::read_sweep_list(*transaction);
-  const std::optional<std::uint32_t> known = slot_of(*transaction, recording.name);
-  const std::uint32_t slot = known.value_or(head.recordings);
-  RecordingInfo info;
-  if (known) info = catalogue::read_recording(*transaction, slot);
-  info.name = recording.name;
-  info.signer = recording.signer;
-  info.clock = recording.clock;
-  info.clock_given = recording.clock_given;
-  info.tiers_given = recording.tiers_given;
-  info.signer_given = recording.signer_given;
-  info.notices = recording.notices;
-  if (recording.motion) {
-    std::erase_if(list, [&](const motion_db::StoredMotion& one) { return one.generation == generation; });
-    if (info.motion) list.push_back(*info.motion);
-    info.motion = stored;
-    info.layout = recording.motion->layout;
-    info.motion_file = recording.motion->file;
-    info.motion_fingerprint = recording.motion->fingerprint;
-    info.face_file = recording.motion->face_file;
-    info.face_fingerprint = recording.motion->face_fingerprint;
-  }
-  if (recording.annotation) {
-    if (info.document != 0) semantic_db::erase(*transaction, info.document);
-    info.document = generation + 1;
-    info.tiers = recording.annotation->tiers;
-    info.annotation_file = recording.annotation->file;
-    info.annotation_fingerprint = recording.annotation->fingerprint;
-    info.declarations.clear();
-    for (const auto& property : recording.annotation->document.properties) {
-      if (property.first.starts_with("signweave:")) info.declarations.push_back(property);
-    }
-    semantic_db::put(*transaction, info.document, source, segments);
-  }
-  catalogue::write_recording(*transaction, slot, info);
-  catalogue::write_sweep_list(*transaction, list);
-  if (slot == head.recordings) ++head.recordings;
-  ++head.changes;
-  catalogue::write_head(*transaction, head);
-  transaction->commit();
-
-  {
-    const std::lock_guard guard(mutex_);
-    if (slots_at_ == head.changes - 1) {  // else a reader has looked again already
-      if (slot == slots_.size()) slots_.emplace_back();
-      slots_[slot] = info.name;
-      slots_at_ = head.changes;
-    }
-  }
-  if (!list.empty()) sweep();
-}
-
-std::optional<std::uint32_t> Database::damaged_slot(const kv::ReadTransaction& snapshot, std::string_view name) const {
-  const std::uint32_t recordings = catalogue::read_head(snapshot).recordings;
-  for (std::uint32_t slot = 0; slot < recordings; ++slot) {
-    if (name != fmt::format("catalogue entry {}", slot)) continue;
-    try {
-      catalogue::read_recording(snapshot, slot);
-    } catch (const Error&) {
-      return slot;
-    }
-  }
-  return std::nullopt;
-}
-
-void Database::remove(std::string_view name) {
-  require_writable();
-  const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
-  std::optional<std::uint32_t> slot = slot_of(*transaction, name);
-  const bool damaged = !slot && (slot = damaged_slot(*transaction, name)).has_value();
-  if (!slot) contents()->at(name);  // the error with near matches
-  if (!slot) throw Error(ErrorCode::not_found, fmt::format("no recording '{}' in this database", printable(name)));
-  catalogue::Head head = catalogue::read_head(*transaction);
-  const RecordingInfo info = damaged ? RecordingInfo{} : catalogue::read_recording(*transaction, *slot);
-  if (info.document != 0) semantic_db::erase(*transaction, info.document);
-  if (info.motion) {
-    catalogue::SweepList list = catalogue::read_sweep_list(*transaction);
-    list.push_back(*info.motion);
-    catalogue::write_sweep_list(*transaction, list);
-  }
-  const std::uint32_t last = head.recordings - 1;
-  if (*slot != last) {
-    catalogue::move_recording(*transaction, last, *slot);
-  } else {
-    catalogue::erase_recording(*transaction, last);
-  }
-  --head.recordings;
-  ++head.changes;
-  catalogue::write_head(*transaction, head);
-  transaction->commit();
-  sweep();
-}
-
-void Database::sweep() {
-  for (;;) {
-    const catalogue::SweepList list = catalogue::read_sweep_list(*store_->read());
-    if (list.empty()) return;
-    motion_db::erase(*store_, list.back());
-    const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
-    catalogue::SweepList rest = catalogue::read_sweep_list(*transaction);
-    std::erase(rest, list.back());
-    catalogue::write_sweep_list(*transaction, rest);
-    transaction->commit();
-  }
 }
 
 std::vector<Segment> Database::find(const PhaseQuery& query, const FindLimits& limits) const {
@@ -416,6 +232,29 @@ AnnotationDocument Database::document(std::string_view name) const {
 
 kv::EngineInfo Database::engine() const {
   return store_->info();
+}
+
+std::vector<Usage> Database::usage() const {
+  std::vector<Usage> list;
+  store_->visit([&](ByteSpan key, std::size_t value_size) {
+    std::string_view kind = motion_db::kind_of(key);
+    if (kind.empty()) kind = semantic_db::kind_of(key);
+    if (kind.empty()) kind = catalogue::is_key(key) ? "catalogue" : "other";
+    auto at = std::ranges::find(list, kind, &Usage::kind);
+    if (at == list.end()) at = list.insert(list.end(), Usage{.kind = std::string(kind)});
+    ++at->entries;
+    at->bytes += key.size() + value_size;
+  });
+  std::ranges::sort(list, std::greater{}, &Usage::bytes);
+  return list;
+}
+
+int Database::layout() const {
+  return catalogue::read_head(*store_->read()).layout;
+}
+
+float Database::tolerance() const {
+  return catalogue::read_head(*store_->read()).tolerance;
 }
 
 AccessMode Database::access_mode() const {

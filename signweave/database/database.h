@@ -25,6 +25,7 @@
 
 namespace signweave {
 
+class CheckListener;
 class Database;
 
 /// What a database held at one moment. Immutable, so threads may share it.
@@ -58,9 +59,29 @@ class Snapshot {
   std::shared_ptr<const Contents> contents_;
 };
 
+/// Entries of one kind.
+struct Usage {
+  std::string
+      kind;  ///< "packets", "skeletons", "scalar tracks", "documents", "segments", "catalogue"; "other": not ours
+  std::uint64_t entries = 0;
+  std::uint64_t bytes = 0;  ///< of keys and values, without what the engine spends beside them
+};
+
+/// The layout of the databases that this version writes; it reads those of layouts 2 and later too.
+inline constexpr int kDatabaseLayout = 3;
+
 struct CreateOptions {
   std::string engine = "lmdb";
   AccessMode access_mode;  ///< for motions put later
+  float tolerance = 0;     ///< for motions put later, see Storage
+};
+
+/// How motions are stored, in part: what is none stays as it is.
+struct Storage {
+  std::optional<AccessMode> mode;
+  /// Metres. 0 keeps every bit; more makes compact packets, whose joints and tips lie within so much of where they were
+  /// captured, in every frame (motion_db/quantise.h).
+  std::optional<float> tolerance;
 };
 
 /// A database of recordings: motion and meaning, found together. START HERE.
@@ -110,6 +131,16 @@ class Database {
   /// tells of it, "catalogue entry N". Throws Error{not_found}.
   void remove(std::string_view name);
 
+  /// Stores a recording's motion anew; false where it is stored so already, or there is no motion. Another access mode
+  /// keeps every bit; a tolerance, for a motion that has none yet, rounds once. Readers see the old packets or the new,
+  /// never both; when `progress` throws or the process is killed, the old stay. Throws Error{not_found}, Error{corrupt}
+  /// where the motion is damaged (it stays as it is), Error{conflict} for another tolerance than the one that it was
+  /// rounded with.
+  bool relayout(std::string_view name, const Storage& to, const Progress& progress = {});
+
+  /// How motions are stored that are put from now on.
+  void set_storage(const Storage& storage);
+
   /// The segments that answer a query, by recording name and time.
   std::vector<Segment> find(const PhaseQuery& query, const FindLimits& limits = {}) const;
 
@@ -128,22 +159,33 @@ class Database {
   /// The annotation document as it was stored, `source` included. Throws Error{not_found} where there is none.
   AnnotationDocument document(std::string_view name) const;
 
-  /// One line for every fault found in the stored bytes, naming recording, joints and frames; empty where all is well.
-  std::vector<std::string> check(const Progress& progress = {}) const;
-
   kv::EngineInfo engine() const;
+  /// What takes how much space: packets, documents, …, the largest first. Looks at every entry.
+  std::vector<Usage> usage() const;
+  /// How motions are stored that are put from now on: access mode, and tolerance in metres.
   AccessMode access_mode() const;
+  float tolerance() const;
+  /// The layout of its catalogue, kDatabaseLayout or an older one; the next change makes it the newest.
+  int layout() const;
 
  private:
   friend class Snapshot;
+  friend void check_slots(const Database& database, std::uint32_t first, CheckListener& listener);
   class WriterLock;
 
   std::shared_ptr<const Contents> contents_of(const kv::ReadTransaction& snapshot) const;
   std::shared_ptr<const motion_db::KnownMotion> known(const kv::ReadTransaction& snapshot,
                                                       const motion_db::StoredMotion& stored) const;
 
-  std::uint64_t new_generation(const std::optional<motion_db::StoredMotion>& to_sweep, std::uint64_t count);
+  /// Writes a motion under a new generation, on the sweep list until a change makes it visible, and reads it back.
+  motion_db::StoredMotion write_motion(const Motion& motion, AccessMode mode, float tolerance,
+                                       const Progress& progress);
+  /// After a change that gave a slot this name, number `changes`: the names need not be read again.
+  void remember_slot(std::uint32_t slot, const std::string& name, std::uint64_t changes);
+  /// Erases what is on the sweep list.
   void sweep();
+  /// Erases the records that no readable recording names, where all recordings are readable.
+  void sweep_unnamed();
   void require_writable() const;
   std::optional<std::uint32_t> slot_of(const kv::ReadTransaction& snapshot, std::string_view name) const;
   std::optional<std::uint32_t> damaged_slot(const kv::ReadTransaction& snapshot, std::string_view name) const;

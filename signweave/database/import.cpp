@@ -257,7 +257,8 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                                   .file = known->motion_file,
                                   .fingerprint = motion_print,
                                   .face_file = {},
-                                  .face_fingerprint = 0};
+                                  .face_fingerprint = 0,
+                                  .rounded_within = known->motion->tolerance};
     keep_notices(*known, known->motion_file, recording.notices);
   } else if (new_motion) {
     bvh::ReadOptions read_options = options.motion;

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "signweave/core/atomic_file.h"
+#include "signweave/database/check.h"
 #include "signweave/database/test_recording.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/query/parse.h"
@@ -242,9 +243,9 @@ TEST_F(ImportTest, ADamagedDocumentIsMendedByImportingItAgain) {
     transaction->put(key.bytes(), damaged);
     transaction->commit();
   }
-  EXPECT_FALSE(Database(folder_ / "db", kv::Access::read_only).check().empty());
+  EXPECT_FALSE(check(Database(folder_ / "db", kv::Access::read_only)).faults.empty());
   EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::annotation_replaced));
-  EXPECT_TRUE(Database(folder_ / "db", kv::Access::read_only).check().empty());
+  EXPECT_TRUE(check(Database(folder_ / "db", kv::Access::read_only)).faults.empty());
 }
 
 TEST_F(ImportTest, AClockThatNoRecordingCanHaveIsRefused) {

@@ -25,6 +25,9 @@ struct MotionPart {
   std::uint64_t fingerprint = 0;      ///< checksum of the file's bytes; 0: not known
   std::string face_file;              ///< the same of the face capture whose tracks the motion has; empty: none
   std::uint64_t face_fingerprint = 0;
+  /// Metres: its numbers were rounded within so much when it was stored before. It is then stored as it is, and compact
+  /// again. 0: as captured.
+  float rounded_within = 0;
 };
 
 /// The annotation half.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -34,7 +36,7 @@ inline AnnotationDocument small_document(const std::vector<std::string>& glosses
   Tier signs{.id = "Gloss", .type = "gloss"};
   Tier phases{.id = "Phase", .type = "phase", .parent = "Gloss"};
   int id = 1;
-  const auto next_id = [&] { return "a" + std::to_string(id++); };
+  const auto next_id = [&] { return fmt::format("a{}", id++); };
   for (std::size_t i = 0; i < glosses.size(); ++i) {
     const Milliseconds at(400 * static_cast<int>(i));
     const std::string sign = next_id();
@@ -51,7 +53,7 @@ inline AnnotationDocument small_document(const std::vector<std::string>& glosses
 
 inline Recording small_recording(const std::string& name, int seed, const std::vector<std::string>& glosses,
                                  std::int64_t frames = 300) {
-  Recording recording{.name = name, .signer = "s" + std::to_string(seed)};
+  Recording recording{.name = name, .signer = fmt::format("s{}", seed)};
   recording.motion = MotionPart{.motion = small_motion(frames, seed)};
   AnnotationDocument document = small_document(glosses);
   TierNames tiers = guess_tier_names(document);

@@ -83,7 +83,7 @@ TEST_P(CrashTest, AfterKill9EveryAcknowledgedChangeIsThereAndNoneByHalf) {
   create(folder.path() / "db", GetParam());
   std::mt19937 random(7);
   std::uint32_t last = 0;
-  for (int round = 0; round < 15; ++round) {
+  for (int round = 0; round < 20; ++round) {
     const std::uint32_t acknowledged =
         write_and_kill(folder.path() / "db", last + 1, std::chrono::microseconds(random() % 60'000));
     ASSERT_GT(acknowledged, last);

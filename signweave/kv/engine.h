@@ -12,16 +12,20 @@ namespace signweave::kv {
 /// One row of the engine table.
 struct Engine {
   std::string_view name;
-  /// True where the folder holds files of this engine.
-  bool (*recognises)(const std::filesystem::path& folder);
-  /// Makes an empty store in a folder that exists and is empty.
+  std::string_view file;  ///< its main file, by which a folder is recognised
+  /// Makes an empty store in a folder that exists and is empty. Null where this build lacks the engine.
   void (*create)(const std::filesystem::path& folder);
-  /// Opens a store that `recognises` said yes to.
+  /// Opens a store whose file is there.
   std::unique_ptr<KvStore> (*open)(const std::filesystem::path& folder, Access access);
 };
 
-bool lmdb_recognises(const std::filesystem::path& folder);
 void lmdb_create(const std::filesystem::path& folder);
 std::unique_ptr<KvStore> lmdb_open(const std::filesystem::path& folder, Access access);
+
+void berkeley_create(const std::filesystem::path& folder);
+std::unique_ptr<KvStore> berkeley_open(const std::filesystem::path& folder, Access access);
+
+void tokyo_create(const std::filesystem::path& folder);
+std::unique_ptr<KvStore> tokyo_open(const std::filesystem::path& folder, Access access);
 
 }  // namespace signweave::kv

@@ -1,5 +1,8 @@
 #include "signweave/kv/kv_store.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <system_error>
@@ -13,10 +16,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A new engine is one row here, the default first; the tests run over every row by themselves.
+/// A new engine is one row here, the default first; the tests run over every row by themselves. An engine that this
+/// build lacks keeps its name and its file, so that we can say so.
 constexpr std::array kEngines = {
-    Engine{.name = "lmdb", .recognises = lmdb_recognises, .create = lmdb_create, .open = lmdb_open},
+    Engine{.name = "lmdb", .file = "data.mdb", .create = lmdb_create, .open = lmdb_open},
+#if SIGNWEAVE_BERKELEY
+    Engine{.name = "berkeley", .file = "data.bdb", .create = berkeley_create, .open = berkeley_open},
+#else
+    Engine{.name = "berkeley", .file = "data.bdb", .create = nullptr, .open = nullptr},
+#endif
+#if SIGNWEAVE_TOKYO
+    Engine{.name = "tokyo", .file = "data.tch", .create = tokyo_create, .open = tokyo_open},
+#else
+    Engine{.name = "tokyo", .file = "data.tch", .create = nullptr, .open = nullptr},
+#endif
 };
+
+std::string known_engines() {
+  std::string text;
+  for (const std::string& name : engines()) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+[[noreturn]] void fail_lacking(const fs::path& folder, std::string_view engine) {
+  throw Error(ErrorCode::unsupported, folder.string() + ": its storage engine '" + std::string(engine) +
+                                          "' was left out of this build, which has " + known_engines() +
+                                          "; use a build that has it");
+}
+
+/// Makes the names in a folder survive a power cut.
+void sync_folder(const fs::path& folder) {
+  const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (handle < 0) return;
+  ::fsync(handle);
+  ::close(handle);
+}
 
 [[noreturn]] void fail_io(const fs::path& folder, const std::error_code& error) {
   throw Error(ErrorCode::io, folder.string() + ": " + error.message() + "; check the path and its permissions");
@@ -26,18 +60,19 @@ constexpr std::array kEngines = {
 
 std::vector<std::string> engines() {
   std::vector<std::string> names;
-  for (const Engine& engine : kEngines) names.emplace_back(engine.name);
+  for (const Engine& engine : kEngines) {
+    if (engine.create) names.emplace_back(engine.name);
+  }
   return names;
 }
 
 void create(const fs::path& folder, std::string_view engine) {
   const auto row = std::find_if(kEngines.begin(), kEngines.end(), [&](const Engine& e) { return e.name == engine; });
   if (row == kEngines.end()) {
-    std::string known;
-    for (const std::string& name : engines()) known += (known.empty() ? "" : ", ") + name;
     throw Error(ErrorCode::unsupported,
-                folder.string() + ": no storage engine '" + printable(engine) + "'; this build has " + known);
+                folder.string() + ": no storage engine '" + printable(engine) + "'; this build has " + known_engines());
   }
+  if (!row->create) fail_lacking(folder, row->name);
   std::error_code error;
   const bool made = fs::create_directories(folder, error);
   if (error && !fs::is_directory(folder)) fail_io(folder, error);
@@ -48,6 +83,8 @@ void create(const fs::path& folder, std::string_view engine) {
   }
   try {
     row->create(folder);
+    sync_folder(folder);
+    sync_folder(fs::absolute(folder).parent_path());
   } catch (...) {
     // The folder was empty, so whatever is in it now is half a store of ours.
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) fs::remove(entry.path(), error);
@@ -58,7 +95,16 @@ void create(const fs::path& folder, std::string_view engine) {
 
 std::unique_ptr<KvStore> open(const fs::path& folder, Access access) {
   for (const Engine& engine : kEngines) {
-    if (engine.recognises(folder)) return engine.open(folder, access);
+    std::error_code error;
+    if (!fs::is_regular_file(folder / engine.file, error)) continue;
+    if (!engine.open) fail_lacking(folder, engine.name);
+    return engine.open(folder, access);
+  }
+  for (const char* const left : {"writer.lock", "engine.lock", "lock.mdb"}) {
+    if (!fs::exists(folder / left)) continue;
+    throw Error(ErrorCode::corrupt, folder.string() +
+                                        ": a signweave database whose data file is missing (data.mdb, "
+                                        "data.bdb or data.tch); restore it from a copy");
   }
   throw Error(ErrorCode::not_found, folder.string() + ": no signweave database (make one with 'signweave create')");
 }

@@ -4,10 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <list>
-#include <mutex>
+
+#include "signweave/kv/open_stores.h"
 
 namespace signweave::kv {
 
@@ -21,31 +20,6 @@ constexpr std::size_t kSmallestMap = std::size_t{1} << 28;
 constexpr unsigned kMostReaders = 1024;
 constexpr mode_t kFileMode = 0664;
 
-/// The environments that this process has open. Counted by hand under one mutex, because a weak_ptr expires before the
-/// environment is closed, and in between another thread would open it a second time.
-struct Registry {
-  struct Entry {
-    dev_t device = 0;
-    ino_t inode = 0;
-    pid_t process = 0;
-    std::size_t holders = 0;
-    std::unique_ptr<LmdbEnvironment> environment;
-  };
-  std::mutex mutex;
-  std::list<Entry> entries;
-};
-
-Registry& registry() {
-  static Registry* const instance = new Registry;  // never destroyed: stores may be closed by static destructors
-  return *instance;
-}
-
-void release(const LmdbEnvironment* environment) {
-  const std::lock_guard lock(registry().mutex);
-  registry().entries.remove_if(
-      [&](Registry::Entry& entry) { return entry.environment.get() == environment && --entry.holders == 0; });
-}
-
 bool refused(int code) {
   return code == EACCES || code == EPERM || code == EROFS;
 }
@@ -57,23 +31,12 @@ void LmdbEnvironment::fail(std::string_view doing, int code) const {
 }
 
 std::shared_ptr<LmdbEnvironment> LmdbEnvironment::acquire(const fs::path& folder, Access access) {
-  const std::lock_guard lock(registry().mutex);
-  struct stat file {};
-  if (::stat((folder / "data.mdb").c_str(), &file) != 0) fail_lmdb(folder, "opening the store", errno);
-  auto& entries = registry().entries;
-  auto entry = std::find_if(entries.begin(), entries.end(), [&](const Registry::Entry& e) {
-    return e.device == file.st_dev && e.inode == file.st_ino && e.process == ::getpid();
-  });
-  if (entry == entries.end()) {
-    std::unique_ptr<LmdbEnvironment> opened(new LmdbEnvironment(folder, access));
-    entry = entries.insert(
-        entries.end(),
-        {.device = file.st_dev, .inode = file.st_ino, .process = ::getpid(), .environment = std::move(opened)});
-  } else if (access == Access::read_write && !entry->environment->writable()) {
+  auto environment = OpenStores<LmdbEnvironment>::acquire(
+      folder / "data.mdb", [&] { return std::unique_ptr<LmdbEnvironment>(new LmdbEnvironment(folder, access)); });
+  if (access == Access::read_write && !environment->writable()) {
     fail_lmdb(folder, "opening for writing a store that this process has open for reading only", EACCES);
   }
-  ++entry->holders;
-  return {entry->environment.get(), release};
+  return environment;
 }
 
 LmdbEnvironment::LmdbEnvironment(fs::path folder, Access access) : folder_(std::move(folder)), process_(::getpid()) {

@@ -1,11 +1,10 @@
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cassert>
 #include <cerrno>
 #include <deque>
 #include <limits>
+#include <utility>
 
 #include "signweave/kv/engine.h"
 #include "signweave/kv/lmdb_environment.h"
@@ -44,13 +43,55 @@ class LmdbRead final : public ReadTransaction {
  public:
   explicit LmdbRead(Environment environment)
       : environment_(std::move(environment)), transaction_(environment_->begin_read()) {}
-  ~LmdbRead() override { ::mdb_txn_abort(transaction_); }
+  ~LmdbRead() override {
+    if (cursor_) ::mdb_cursor_close(cursor_);
+    ::mdb_txn_abort(transaction_);
+  }
 
-  std::optional<ByteSpan> get(ByteSpan key) const override { return get_value(*environment_, transaction_, key); }
+  // By one cursor: where the key lies on the page of the last one, as a motion's next packet often does, LMDB need not
+  // go down the tree again.
+  std::optional<ByteSpan> get(ByteSpan key) const override {
+    if (over_) environment_->fail("reading", MDB_PAGE_NOTFOUND);
+    int code = cursor_ ? MDB_SUCCESS : ::mdb_cursor_open(transaction_, environment_->database(), &cursor_);
+    if (code != MDB_SUCCESS) environment_->fail("reading", code);
+    MDB_val name = key_of(*environment_, key);
+    MDB_val value{};
+    code = ::mdb_cursor_get(cursor_, &name, &value, MDB_SET_KEY);
+    if (code == MDB_NOTFOUND) return std::nullopt;
+    if (code != MDB_SUCCESS) {
+      begin_again();
+      environment_->fail("reading", code);
+    }
+    return ByteSpan(static_cast<const std::byte*>(value.mv_data), value.mv_size);
+  }
+  std::optional<ByteSpan> get(ByteSpan key, Bytes&) const override { return get(key); }
+
+  void visit(const std::function<void(ByteSpan key, std::size_t value_size)>& see) const {
+    MDB_cursor* opened = nullptr;
+    int code = ::mdb_cursor_open(transaction_, environment_->database(), &opened);
+    if (code != MDB_SUCCESS) environment_->fail("reading", code);
+    const std::unique_ptr<MDB_cursor, decltype(&::mdb_cursor_close)> cursor(opened, ::mdb_cursor_close);
+    MDB_val key{}, value{};
+    while ((code = ::mdb_cursor_get(cursor.get(), &key, &value, MDB_NEXT)) == MDB_SUCCESS) {
+      see(ByteSpan(static_cast<const std::byte*>(key.mv_data), key.mv_size), value.mv_size);
+    }
+    if (code != MDB_NOTFOUND) environment_->fail("reading", code);
+  }
 
  private:
+  /// After a damaged page LMDB refuses everything else in the same transaction, sound or not. One begun anew reads on,
+  /// and it is the same snapshot unless somebody has written since.
+  void begin_again() const noexcept {
+    const std::size_t snapshot = ::mdb_txn_id(transaction_);
+    ::mdb_cursor_close(std::exchange(cursor_, nullptr));
+    ::mdb_txn_reset(transaction_);
+    over_ = ::mdb_txn_renew(transaction_) != MDB_SUCCESS || ::mdb_txn_id(transaction_) != snapshot;
+  }
+
   Environment environment_;
   MDB_txn* transaction_;
+  mutable MDB_cursor* cursor_ = nullptr;
+  mutable bool over_ = false;  ///< after a fault the snapshot could not be kept
 };
 
 class LmdbWrite final : public WriteTransaction {
@@ -68,6 +109,13 @@ class LmdbWrite final : public WriteTransaction {
     if (!value) return std::nullopt;
     // LMDB's own view lasts until the next put; what we lend lasts until the end of the transaction.
     return ByteSpan(lent_.emplace_back(value->begin(), value->end()));
+  }
+
+  std::optional<ByteSpan> get(ByteSpan key, Bytes& buffer) const override {
+    const std::optional<ByteSpan> value = get_value(*environment_, transaction_, key);
+    if (!value) return std::nullopt;
+    buffer.assign(value->begin(), value->end());
+    return ByteSpan(buffer);
   }
 
   void put(ByteSpan key, ByteSpan value) override {
@@ -136,6 +184,11 @@ class LmdbStore final : public KvStore {
             .bytes_on_disk = static_cast<std::uint64_t>(status.st_size)};
   }
 
+  void visit(const std::function<void(ByteSpan key, std::size_t value_size)>& see) const override {
+    const LmdbRead snapshot(environment_);
+    snapshot.visit(see);
+  }
+
   std::size_t longest_key() const noexcept override {
     return static_cast<std::size_t>(::mdb_env_get_maxkeysize(environment_->get()));
   }
@@ -145,20 +198,7 @@ class LmdbStore final : public KvStore {
   Access access_;
 };
 
-/// Makes the names in a folder survive a power cut.
-void sync_folder(const fs::path& folder) {
-  const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (handle < 0) return;
-  ::fsync(handle);
-  ::close(handle);
-}
-
 }  // namespace
-
-bool lmdb_recognises(const fs::path& folder) {
-  std::error_code error;
-  return fs::is_regular_file(folder / "data.mdb", error);
-}
 
 void lmdb_create(const fs::path& folder) {
   MDB_env* env = nullptr;
@@ -168,8 +208,6 @@ void lmdb_create(const fs::path& folder) {
   if (code == MDB_SUCCESS) code = ::mdb_env_sync(env, 1);
   ::mdb_env_close(env);
   if (code != MDB_SUCCESS) fail_lmdb(folder, "making the store", code);
-  sync_folder(folder);
-  sync_folder(fs::absolute(folder).parent_path());
 }
 
 std::unique_ptr<KvStore> lmdb_open(const fs::path& folder, Access access) {

@@ -1,6 +1,8 @@
 #include "signweave/motion/motion.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <functional>
 
 namespace signweave {
@@ -99,6 +101,18 @@ void keep_hemisphere(Motion& motion) noexcept {
       if (now.rotations[joint].dot(before.rotations[joint]) < 0) now.rotations[joint].coeffs() *= -1.0f;
     }
   }
+}
+
+bool same_bits(const Motion& a, const Motion& b) noexcept {
+  const auto same = [](auto left, auto right) {
+    return left.size() == right.size() &&
+           (left.empty() || std::memcmp(left.data(), right.data(), left.size_bytes()) == 0);
+  };
+  return a.skeleton() == b.skeleton() && a.rate() == b.rate() && a.frame_count() == b.frame_count() &&
+         same(a.rotations(), b.rotations()) && same(a.translations(), b.translations()) &&
+         std::ranges::equal(a.tracks(), b.tracks(), [&](const ScalarTrack& left, const ScalarTrack& right) {
+           return left.name == right.name && same(std::span(left.values), std::span(right.values));
+         });
 }
 
 bool keeps_hemisphere(const Motion& motion) noexcept {

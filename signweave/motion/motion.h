@@ -112,6 +112,9 @@ class Motion {
   std::vector<ScalarTrack> tracks_;
 };
 
+/// True where two motions are the same to the bit: skeleton, rate, poses and tracks; -0.0 and 0.0 are told apart.
+bool same_bits(const Motion& a, const Motion& b) noexcept;
+
 /// Flips signs so that every quaternion lies in the hemisphere of the same joint's in the frame before: q and -q are
 /// one rotation, and a blend between neighbours must not turn the long way round.
 void keep_hemisphere(Motion& motion) noexcept;

@@ -8,8 +8,7 @@ namespace signweave::motion_db {
 
 namespace {
 
-// One transaction is kept this small, because an engine holds it in memory whole, a commit blocks other writers, and
-// Berkeley DB's lock table has 1,000 locks.
+// One transaction is kept this small, because it lies in memory whole, and a commit blocks other writers.
 constexpr std::size_t kMostPuts = 512;
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 
@@ -66,13 +65,13 @@ std::uint64_t record_count(const StoredMotion& stored) {
 
 void put(kv::KvStore& store, const StoredMotion& stored, const Motion& motion,
          const std::function<void(double fraction)>& progress) {
-  assert(stored == describe(motion, stored.mode, stored.generation));
+  assert(stored == describe(motion, stored.mode, stored.generation, stored.tolerance));
   const std::uint64_t generation = stored.generation;
   const FrameRange all{0, stored.frames};
   BoundedChange change(store, record_count(stored), progress);
   change.put(key_of(generation, Record{}), encode_skeleton(generation, motion.skeleton()));
   for_each_packet(stored, all, {}, [&](const Record& packet) {
-    change.put(key_of(generation, packet), encode_packet(generation, motion, packet));
+    change.put(key_of(generation, packet), encode_packet(generation, motion, packet, packing_of(stored)));
   });
   for_each_track_record(stored, all, [&](const Record& record) {
     change.put(key_of(generation, record), encode_tracks(generation, motion.tracks(), record));
@@ -88,6 +87,26 @@ void erase(kv::KvStore& store, const StoredMotion& stored) {
   for_each_packet(stored, all, {}, erase_record);
   for_each_track_record(stored, all, erase_record);
   change.flush();
+}
+
+std::string_view kind_of(ByteSpan key) noexcept {
+  if (key.size() != 16 || key[0] != std::byte{'m'}) return {};
+  switch (static_cast<RecordKind>(key[9])) {
+    case RecordKind::skeleton:
+      return "skeletons";
+    case RecordKind::packet:
+      return "packets";
+    case RecordKind::tracks:
+      return "scalar tracks";
+  }
+  return {};
+}
+
+std::optional<std::uint64_t> generation_of(ByteSpan key) noexcept {
+  if (kind_of(key).empty()) return std::nullopt;
+  std::uint64_t generation = 0;
+  for (const std::byte byte : key.subspan(1, 8)) generation = generation << 8 | static_cast<std::uint64_t>(byte);
+  return generation;
 }
 
 }  // namespace signweave::motion_db

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "signweave/core/bytes.h"
@@ -21,7 +23,6 @@
 namespace signweave::motion_db {
 
 struct Record;
-struct Width;
 
 /// What must be known to read, or to erase, a stored motion: the caller keeps it.
 struct StoredMotion {
@@ -32,16 +33,24 @@ struct StoredMotion {
   std::uint32_t joints = 0;
   std::uint32_t translations = 0;
   std::vector<std::string> tracks;  ///< names of the scalar tracks
+  /// Metres: joints and tips were kept within it of where they were when the motion was stored, in compact packets.
+  /// 0: lossless, every number in full.
+  float tolerance = 0;
   friend bool operator==(const StoredMotion&, const StoredMotion&) = default;
 };
 
 void encode(const StoredMotion& stored, ByteWriter& out);
 StoredMotion decode(ByteReader& in);
 
+/// The access mode with p filled in: the given one, or the default that fits a skeleton to the engines' pages.
+AccessMode fitted(AccessMode mode, const Skeleton& skeleton, float tolerance = 0);
+
 /// The descriptor that `put` will write under, with a default p filled in: known before anything is written, so that a
 /// caller can note what to sweep after a crash. Throws Error{bad_input} for a motion without frames or joints,
-/// Error{unsupported} where a packet would be larger than an engine takes (4 GiB).
-StoredMotion describe(const Motion& motion, AccessMode mode, std::uint64_t generation);
+/// Error{unsupported} where a packet would be larger than an engine takes (4 GiB). With a tolerance (metres, above 0)
+/// its packets will be compact; the tolerance is noted, and the motion must have been through `quantise` (quantise.h)
+/// to pack small: any other is stored as exactly, but takes as much room as without.
+StoredMotion describe(const Motion& motion, AccessMode mode, std::uint64_t generation, float tolerance = 0);
 
 /// How many packets the motion has: the paper's 1, ceil(n/p), m, m * ceil(n/p). Skeleton and scalar tracks are records
 /// of their own and not counted.
@@ -60,6 +69,11 @@ struct ReadCost {
   std::uint64_t packets = 0;
   std::uint64_t bytes = 0;
 };
+
+/// What the record under a key is: "packets", "skeletons" or "scalar tracks"; empty where it is none of a motion's.
+std::string_view kind_of(ByteSpan key) noexcept;
+/// The generation of the motion whose record the key names; none where it is none of a motion's.
+std::optional<std::uint64_t> generation_of(ByteSpan key) noexcept;
 
 /// The skeleton of a stored motion.
 std::shared_ptr<const Skeleton> read_skeleton(const kv::ReadTransaction& snapshot, const StoredMotion& stored);
@@ -92,8 +106,9 @@ class KnownMotion {
   mutable std::vector<std::atomic<std::uint64_t>> sound_;  ///< a bit per record
 };
 
-/// Frames of a stored motion, read straight to where they are wanted. A record's checksum is verified when it is read
-/// for the first time through the same KnownMotion; after that reading is a copy. Belongs to its snapshot's thread.
+/// Frames of a stored motion, read straight to where they are wanted, a few packets at a time. A record's checksum is
+/// verified when it is read for the first time through the same KnownMotion; after that reading is a copy. Belongs to
+/// its snapshot's thread.
 class StoredSource : public MotionSource {
  public:
   StoredSource(std::shared_ptr<const kv::ReadTransaction> snapshot, std::shared_ptr<const KnownMotion> motion)
@@ -108,14 +123,18 @@ class StoredSource : public MotionSource {
   void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const override;
 
  private:
-  void verify(const Record& record, ByteSpan value, Width width, std::uint64_t number) const;
+  void remember(const Record& packet, ByteSpan value, const Bytes& buffer) const;
 
   std::shared_ptr<const kv::ReadTransaction> snapshot_;
   std::shared_ptr<const KnownMotion> motion_;
+  mutable std::vector<Bytes> buffers_;  ///< what an engine without a map reads values into, kept from read to read
+  /// Sound packets of all joints by block, where the engine lends them until the snapshot ends.
+  mutable std::vector<ByteSpan> places_;
 };
 
 /// Verifies every record of a motion: one line per fault found, naming joints and frames, and one more where there are
-/// over 1,000; empty where all is well.
-std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored);
+/// over 1,000; empty where all is well. `progress` is called every now and then.
+std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
+                               const std::function<void()>& progress = {});
 
 }  // namespace signweave::motion_db

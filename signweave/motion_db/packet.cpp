@@ -5,12 +5,13 @@
 #include <cstring>
 
 #include "signweave/core/text.h"
+#include "signweave/motion_db/compact.h"
 
 // The value of every record (numbers are little-endian):
 //    0  u64  checksum: XXH3-64 of all the bytes that follow
 //    8  u64  generation
 //   16  u8   kind of record
-//   17  u8   version of this layout, 1
+//   17  u8   version of this layout: 1, of compact packets 2
 //   18  u16  joint of a packet (0xFFFF: all joints); else 0
 //   20  u32  first frame
 //   24  u32  frames
@@ -18,31 +19,29 @@
 //   30  u16  translations a frame
 //   32       payload
 //
-// A packet's payload is all its rotations, then all its translations, each by frame and within a frame by joint:
+// A plain packet's payload is all its rotations, then all its translations, each by frame and within a frame by joint:
 // rotations [frame][joint] of f32 x, y, z, w, and translations [frame][translated joint] of f32 x, y, z in metres. So
 // any stretch of its frames is two runs of bytes, and with all joints they lie just as in a Motion: two copies.
 // The payload of scalar tracks is one f32 by track and within a track by frame. A skeleton's: u32 joints, each a text,
-// i32 parent, f32 x, y, z, u8 translated; u32 tips, each an i32 joint, f32 x, y, z.
+// i32 parent, f32 x, y, z, u8 translated; u32 tips, each an i32 joint, f32 x, y, z. Compact packets: compact_layout.h.
 
 namespace signweave::motion_db {
 
 namespace {
 
-constexpr std::uint8_t kVersion = 1;
-
 static_assert(sizeof(Eigen::Quaternionf) == 16 && sizeof(Eigen::Vector3f) == 12, "packets hold their bytes");
 
-Bytes begin_record(std::uint64_t generation, const Record& record, Width width, std::size_t payload) {
+Bytes begin_record(std::uint64_t generation, const Record& record, Layout layout, std::size_t payload) {
   ByteWriter header;
   header.number(std::uint64_t{0});  // the checksum, see `seal`
   header.number(generation);
   header.number(record.kind);
-  header.number(kVersion);
+  header.number(layout.packing);
   header.number(record.part);
   header.number(static_cast<std::uint32_t>(record.frames.begin));
   header.number(static_cast<std::uint32_t>(record.frames.size()));
-  header.number(width.rotations);
-  header.number(width.translations);
+  header.number(layout.width.rotations);
+  header.number(layout.width.translations);
   assert(header.size() == kHeaderSize);
   Bytes bytes = header.take();
   bytes.reserve(kHeaderSize + payload);
@@ -66,24 +65,26 @@ T number_at(ByteSpan bytes, std::size_t at) {
 }
 
 /// Most significant byte first, so that engines with ordered keys lay a motion's records side by side, in the order in
-/// which they are written.
+/// which they are written. Gives the place after the number.
 template <typename T>
-void append_ordered(Bytes& key, T value) {
+std::byte* put_ordered(std::byte* at, T value) {
   for (int shift = 8 * (static_cast<int>(sizeof(T)) - 1); shift >= 0; shift -= 8) {
-    key.push_back(static_cast<std::byte>(value >> shift));
+    *at++ = static_cast<std::byte>(value >> shift);
   }
+  return at;
 }
 
 }  // namespace
 
-Bytes key_of(std::uint64_t generation, const Record& record) {
-  Bytes key;
-  key.reserve(16);
-  key.push_back(std::byte{'m'});
-  append_ordered(key, generation);
-  append_ordered(key, static_cast<std::uint8_t>(record.kind));
-  append_ordered(key, record.block);
-  append_ordered(key, record.part);
+Key key_of(std::uint64_t generation, const Record& record) noexcept {
+  Key key;
+  std::byte* at = key.data();
+  *at++ = std::byte{'m'};
+  at = put_ordered(at, generation);
+  at = put_ordered(at, static_cast<std::uint8_t>(record.kind));
+  at = put_ordered(at, record.block);
+  at = put_ordered(at, record.part);
+  assert(at == key.data() + key.size());
   return key;
 }
 
@@ -108,6 +109,15 @@ Width width_of(const Skeleton& skeleton, const Record& packet) noexcept {
 std::size_t value_size(const Record& record, Width width) noexcept {
   const std::size_t frame = record.kind == RecordKind::tracks ? width.rotations * sizeof(float) : width.frame_bytes();
   return kHeaderSize + static_cast<std::size_t>(record.frames.size()) * frame;
+}
+
+Packing packing_of(const StoredMotion& stored) noexcept {
+  return stored.tolerance > 0 ? Packing::compact : Packing::plain;
+}
+
+bool can_have_size(const Record& record, Layout layout, std::size_t bytes) noexcept {
+  if (layout.packing == Packing::plain) return bytes == value_size(record, layout.width);
+  return bytes >= kHeaderSize + smallest_payload(record, layout.width);
 }
 
 void for_each_packet(const StoredMotion& stored, FrameRange frames, const JointSet& joints,
@@ -179,9 +189,16 @@ Bytes encode_skeleton(std::uint64_t generation, const Skeleton& skeleton) {
   return bytes;
 }
 
-Bytes encode_packet(std::uint64_t generation, const Motion& motion, const Record& packet) {
+Bytes encode_packet(std::uint64_t generation, const Motion& motion, const Record& packet, Packing packing) {
   const Width width = width_of(motion.skeleton(), packet);
-  Bytes bytes = begin_record(generation, packet, width, value_size(packet, width) - kHeaderSize);
+  if (packing == Packing::compact) {
+    const Bytes payload = pack(motion, packet);
+    Bytes bytes = begin_record(generation, packet, {width, packing}, payload.size());
+    append(bytes, payload);
+    seal(bytes);
+    return bytes;
+  }
+  Bytes bytes = begin_record(generation, packet, {width, packing}, value_size(packet, width) - kHeaderSize);
   const auto first = static_cast<std::size_t>(packet.frames.begin);
   const auto count = static_cast<std::size_t>(packet.frames.size());
   if (packet.part == kAllJoints) {
@@ -205,7 +222,7 @@ Bytes encode_packet(std::uint64_t generation, const Motion& motion, const Record
 
 Bytes encode_tracks(std::uint64_t generation, const std::vector<ScalarTrack>& tracks, const Record& record) {
   const Width width{static_cast<std::uint16_t>(tracks.size()), 0};
-  Bytes bytes = begin_record(generation, record, width, value_size(record, width) - kHeaderSize);
+  Bytes bytes = begin_record(generation, record, {width, Packing::plain}, value_size(record, width) - kHeaderSize);
   for (const ScalarTrack& track : tracks) {
     append(bytes, std::as_bytes(std::span(track.values)
                                     .subspan(static_cast<std::size_t>(record.frames.begin),
@@ -215,18 +232,21 @@ Bytes encode_tracks(std::uint64_t generation, const std::vector<ScalarTrack>& tr
   return bytes;
 }
 
-const char* fault_of(ByteSpan value, std::uint64_t generation, const Record& record, std::optional<Width> width) {
+const char* fault_of(ByteSpan value, std::uint64_t generation, const Record& record, std::optional<Width> width,
+                     Packing packing) {
   if (value.size() < kHeaderSize) return "it is cut short";
   const Width stored_width{number_at<std::uint16_t>(value, 28), number_at<std::uint16_t>(value, 30)};
   if (!width) {
     if (stored_width.rotations != 1 || stored_width.translations > 1) return "its header is damaged";
     width = stored_width;
   }
-  if (record.kind != RecordKind::skeleton && value.size() != value_size(record, *width)) return "its size is wrong";
+  if (record.kind != RecordKind::skeleton && !can_have_size(record, {*width, packing}, value.size())) {
+    return "its size is wrong";
+  }
   if (number_at<std::uint64_t>(value, 0) != checksum(value.subspan(sizeof(std::uint64_t)))) {
     return "its checksum is wrong";
   }
-  if (number_at<std::uint8_t>(value, 17) != kVersion) return "it has a layout that this version does not know";
+  if (number_at<Packing>(value, 17) != packing) return "it has a layout that this version does not know";
   if (number_at<std::uint64_t>(value, 8) != generation || number_at<RecordKind>(value, 16) != record.kind ||
       number_at<std::uint16_t>(value, 18) != record.part ||
       number_at<std::uint32_t>(value, 20) != static_cast<std::uint32_t>(record.frames.begin) ||
@@ -234,6 +254,7 @@ const char* fault_of(ByteSpan value, std::uint64_t generation, const Record& rec
       stored_width != *width) {
     return "another record lies in its place";
   }
+  if (packing == Packing::compact) return compact_fault(value.subspan(kHeaderSize), record, *width);
   return nullptr;
 }
 

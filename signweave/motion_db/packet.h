@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -42,6 +43,12 @@ struct Record {
   FrameRange frames;        ///< empty for the skeleton
 };
 
+/// How the numbers of a packet are kept. Stored on disk as the version of the record's layout: never renumber.
+enum class Packing : std::uint8_t {
+  plain = 1,    ///< every number in full
+  compact = 2,  ///< packed without loss, small where the numbers lie on grids (compact.h)
+};
+
 /// How many numbers each frame of a record holds.
 struct Width {
   std::uint16_t rotations = 0;  ///< of a packet; of scalar tracks their number
@@ -51,8 +58,15 @@ struct Width {
   friend bool operator==(Width, Width) = default;
 };
 
-/// The key of a record: 16 bytes.
-Bytes key_of(std::uint64_t generation, const Record& record);
+/// What a reader knows of a record's payload beforehand. (Skeletons and scalar tracks are always plain.)
+struct Layout {
+  Width width;
+  Packing packing = Packing::plain;
+};
+
+/// The key of a record. Not on the heap: a read makes one for each packet.
+using Key = std::array<std::byte, 16>;
+Key key_of(std::uint64_t generation, const Record& record) noexcept;
 
 bool cut_by_joint(AccessMode mode) noexcept;
 /// The frames of each packet but the last: p, or all of them.
@@ -60,8 +74,12 @@ std::int64_t packet_frames(const StoredMotion& stored) noexcept;
 Width width_of(const Skeleton& skeleton, const Record& packet) noexcept;
 /// The width of a record of the scalar tracks.
 Width track_width(const StoredMotion& stored) noexcept;
-/// Bytes of the value of a packet or of tracks.
+/// How a motion's packets are packed.
+Packing packing_of(const StoredMotion& stored) noexcept;
+/// Bytes of the value of a plain packet or of tracks.
 std::size_t value_size(const Record& record, Width width) noexcept;
+/// True where a packet or a record of tracks may have so many bytes: it has room for all its frames.
+bool can_have_size(const Record& record, Layout layout, std::size_t bytes) noexcept;
 
 /// Throws Error{unsupported} where a packet would be larger than an engine's largest value (4 GiB).
 void check_packet_size(const StoredMotion& stored);
@@ -79,12 +97,18 @@ std::uint64_t track_record_count(const StoredMotion& stored) noexcept;
 
 /// The value of a record. (A skeleton's record is Record{}.)
 Bytes encode_skeleton(std::uint64_t generation, const Skeleton& skeleton);
-Bytes encode_packet(std::uint64_t generation, const Motion& motion, const Record& packet);
+Bytes encode_packet(std::uint64_t generation, const Motion& motion, const Record& packet,
+                    Packing packing = Packing::plain);
 Bytes encode_tracks(std::uint64_t generation, const std::vector<ScalarTrack>& tracks, const Record& record);
 
 /// What is wrong with a stored value, or null. A value without fault has the right size, is the record that was asked
-/// for, and has the right checksum. Without `width`, a packet of one joint may have a translation or not.
-const char* fault_of(ByteSpan value, std::uint64_t generation, const Record& record, std::optional<Width> width);
+/// for, and has the right checksum; a compact packet can be unpacked. Without `width`, a packet of one joint may have a
+/// translation or not.
+const char* fault_of(ByteSpan value, std::uint64_t generation, const Record& record, std::optional<Width> width,
+                     Packing packing = Packing::plain);
+inline const char* fault_of(ByteSpan value, std::uint64_t generation, const Record& record, Layout layout) {
+  return fault_of(value, generation, record, layout.width, layout.packing);
+}
 
 /// The skeleton in a value without fault. Throws Error{corrupt}.
 Skeleton decode_skeleton(ByteSpan value, const std::string& where);

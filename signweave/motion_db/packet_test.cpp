@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "signweave/core/atomic_file.h"
+#include "signweave/motion_db/quantise.h"
 
 namespace signweave::motion_db {
 namespace {
@@ -65,20 +66,31 @@ TEST(StoreDocument, ItsBytesAreTheEncoders) {
   EXPECT_EQ(documented("descriptor"), hex(out.bytes()));
 }
 
+TEST(StoreDocument, ItsCompactBytesAreTheEncoders) {
+  const Motion motion = quantise(example(), 0.001f);
+  const StoredMotion stored = describe(motion, {AccessMode::Kind::by_frame, 16}, 7, 0.001f);
+  const Record packet{.kind = RecordKind::packet, .part = kAllJoints, .block = 0, .frames = {0, 3}};
+  EXPECT_EQ(documented("compact"), hex(encode_packet(7, motion, packet, packing_of(stored))));
+  const Record joint{.kind = RecordKind::packet, .part = 1, .block = 0, .frames = {0, 3}};
+  EXPECT_EQ(documented("compact of one joint"), hex(encode_packet(7, motion, joint, packing_of(stored))));
+  ByteWriter out;
+  encode(stored, out);
+  EXPECT_EQ(documented("compact descriptor"), hex(out.bytes()));
+}
+
 TEST(Packet, KeysLieInTheOrderInWhichRecordsAreWritten) {
   StoredMotion stored;
   stored.frames = 100'000;
   stored.joints = 300;
   stored.mode = {AccessMode::Kind::by_joint_and_frame, 300};
-  Bytes before = key_of(0, {});
+  Key before = key_of(0, {});
   for (const std::uint64_t generation : {1, 255, 256}) {
     stored.generation = generation;
-    const Bytes skeleton = key_of(generation, {});
+    const Key skeleton = key_of(generation, {});
     EXPECT_LT(before, skeleton);
     before = skeleton;
     for_each_packet(stored, {0, stored.frames}, {}, [&](const Record& record) {
-      const Bytes key = key_of(generation, record);
-      ASSERT_EQ(key.size(), 16u);
+      const Key key = key_of(generation, record);
       ASSERT_LT(before, key);
       before = key;
     });

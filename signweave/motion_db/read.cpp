@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <functional>
 
+#include "signweave/motion_db/copy.h"
 #include "signweave/motion_db/motion_db.h"
 #include "signweave/motion_db/packet.h"
 
@@ -8,15 +11,32 @@ namespace signweave::motion_db {
 
 namespace {
 
-/// A record that a read needs, borrowed from the snapshot.
-struct Found {
-  Record record;
-  ByteSpan value;
+/// Where a read looks: one stored motion in one snapshot.
+struct Place {
+  const kv::ReadTransaction& snapshot;
+  const StoredMotion& stored;
+  const Skeleton& skeleton;
 };
 
+/// What is asked for is allocated at once up to here; what is larger must be seen to be there first.
+constexpr std::uint64_t kMostUnseen = std::uint64_t{64} << 20;
+/// Of a large motion every so many-th record is looked for before memory is given.
+constexpr std::uint64_t kSampled = 16;
+
 [[noreturn]] void fail(const StoredMotion& stored, const Record& record, const Skeleton* skeleton, const char* fault) {
-  throw Error(ErrorCode::corrupt, name_of(stored, record, skeleton) + ": " + fault +
-                                      "; import the recording again or restore the database from a copy");
+  throw Error(ErrorCode::corrupt,
+              name_of(stored, record, skeleton) + ": " + fault +
+                  "; import the recording again (--replace-motion) or restore the database from a copy");
+}
+
+/// The value of a record; a fault of the engine says which record it met it in.
+std::optional<ByteSpan> get(const kv::ReadTransaction& snapshot, const StoredMotion& stored, const Record& record,
+                            const Skeleton* skeleton, Bytes& buffer) {
+  try {
+    return snapshot.get(key_of(stored.generation, record), buffer);
+  } catch (const Error& error) {
+    throw Error(error.code(), name_of(stored, record, skeleton) + ": " + error.what());
+  }
 }
 
 /// Refuses what the motion does not have: frames and joints come from a user.
@@ -38,87 +58,121 @@ void check_asked(const StoredMotion& stored, const Skeleton& skeleton, FrameRang
   }
 }
 
-/// Copies the frames that a sound packet and `asked` share.
-void copy_frames(const Found& packet, const Skeleton& skeleton, FrameRange asked, const JointSet& joints,
-                 MutablePoses out) {
-  const Width width = width_of(skeleton, packet.record);
-  const FrameRange has = packet.record.frames;
-  const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
-  const auto from = static_cast<std::size_t>(shared.begin - has.begin);
-  const auto to = static_cast<std::size_t>(shared.begin - asked.begin);
-  const auto count = static_cast<std::size_t>(shared.size());
-  const std::byte* const rotations = packet.value.data() + kHeaderSize;
-  const std::byte* const translations = rotations + static_cast<std::size_t>(has.size()) * width.rotations * 16;
-  auto* const out_rotations = reinterpret_cast<std::byte*>(out.rotations.data());
-  auto* const out_translations = reinterpret_cast<std::byte*>(out.translations.data());
-  const std::size_t joint_count = skeleton.joint_count();
-  const std::size_t translation_count = skeleton.translation_count();
+/// How the packets of a motion lie in their records.
+Layout layout_of(const Place& place, const Record& packet) {
+  return {width_of(place.skeleton, packet), packing_of(place.stored)};
+}
 
-  if (packet.record.part == kAllJoints && joints.empty()) {
-    std::memcpy(out_rotations + to * joint_count * 16, rotations + from * joint_count * 16, count * joint_count * 16);
-    if (translation_count > 0) {
-      std::memcpy(out_translations + to * translation_count * 12, translations + from * translation_count * 12,
-                  count * translation_count * 12);
-    }
-    return;
+/// A read takes three steps with a record: find it, verify it, copy what is asked for (copy.h).
+///
+/// The first: the value of a record, which has the right size.
+Found find(const Place& place, const Record& record, Layout layout, Bytes& buffer) {
+  const std::optional<ByteSpan> value = get(place.snapshot, place.stored, record, &place.skeleton, buffer);
+  if (!value) fail(place.stored, record, &place.skeleton, "it is missing");
+  if (!can_have_size(record, layout, value->size())) fail(place.stored, record, &place.skeleton, "its size is wrong");
+  return {record, layout, *value};
+}
+
+/// The second: throws unless the record is sound.
+void verify(const Place& place, const Found& found) {
+  if (const char* fault = fault_of(found.value, place.stored.generation, found.record, found.layout)) {
+    fail(place.stored, found.record, &place.skeleton, fault);
   }
-  const auto copy_joint = [&](JointIndex joint, std::size_t at) {
-    const auto index = static_cast<std::size_t>(joint);
-    for (std::size_t i = 0; i < count; ++i) {
-      std::memcpy(out_rotations + ((to + i) * joint_count + index) * 16,
-                  rotations + ((from + i) * width.rotations + at) * 16, 16);
+}
+
+/// The same, once for all who share `known`.
+void verify_once(const KnownMotion& known, const Place& place, const Found& found) {
+  const StoredMotion& stored = place.stored;
+  const std::uint64_t block = found.record.block;
+  const std::uint64_t number = found.record.kind == RecordKind::tracks ? packet_count(stored) + block
+                               : cut_by_joint(stored.mode)             ? block * stored.joints + found.record.part
+                                                                       : block;
+  if (known.is_sound(number)) return;
+  verify(place, found);
+  known.found_sound(number);
+}
+
+/// Finds the packets that hold some frames of some joints by `find_packet`, up to kTogether joints of a block at a
+/// time, and gives each such group to `use`, whose spans end with the call.
+template <typename FindPacket, typename Use>
+void for_each_group(const StoredMotion& stored, FrameRange frames, const JointSet& joints, std::vector<Bytes>& buffers,
+                    const FindPacket& find_packet, const Use& use) {
+  buffers.resize(kTogether);
+  std::array<Found, kTogether> group;
+  std::size_t count = 0;
+  const auto visit = [&](const Record& record) {
+    if (count == kTogether || (count > 0 && group[0].record.block != record.block)) {
+      use(std::span<const Found>(group.data(), count));
+      count = 0;
     }
-    const std::optional<std::size_t> moved = skeleton.translation_of(joint);
-    if (!moved) return;
-    const std::size_t moved_at = packet.record.part == kAllJoints ? *moved : 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      std::memcpy(out_translations + ((to + i) * translation_count + *moved) * 12,
-                  translations + ((from + i) * width.translations + moved_at) * 12, 12);
-    }
+    group[count] = find_packet(record, buffers[count]);
+    ++count;
   };
-  if (packet.record.part != kAllJoints) {
-    copy_joint(packet.record.part, 0);
-  } else {
-    for (const JointIndex joint : joints) copy_joint(joint, static_cast<std::size_t>(joint));
-  }
+  for_each_packet(stored, frames, joints, std::ref(visit));
+  if (count > 0) use(std::span<const Found>(group.data(), count));
 }
 
-/// Copies the values that a sound record of the tracks and `asked` share; tracks whose span is empty are left out.
-void copy_values(const Found& found, FrameRange asked, std::span<const std::span<float>> out) {
-  const FrameRange has = found.record.frames;
-  const FrameRange shared{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
-  const auto length = static_cast<std::size_t>(has.size());
-  const auto from = static_cast<std::size_t>(shared.begin - has.begin);
-  for (std::size_t track = 0; track < out.size(); ++track) {
-    if (out[track].empty()) continue;
-    std::memcpy(out[track].data() + (shared.begin - asked.begin),
-                found.value.data() + kHeaderSize + (track * length + from) * sizeof(float),
-                static_cast<std::size_t>(shared.size()) * sizeof(float));
-  }
+/// A damaged descriptor may tell of more than was ever stored: before much memory is given, some of the records that
+/// `for_each` visits are looked for, the last among them.
+template <typename ForEach, typename LayoutOf>
+void check_backed(const Place& place, std::uint64_t bytes, const ForEach& for_each, const LayoutOf& layout) {
+  if (bytes <= kMostUnseen) return;
+  Bytes buffer;
+  std::uint64_t visited = 0;
+  Record last;
+  const auto visit = [&](const Record& record) {
+    last = record;
+    if (visited++ % kSampled == 0) find(place, record, layout(record), buffer);
+  };
+  for_each(std::ref(visit));
+  if (visited > 0) find(place, last, layout(last), buffer);
 }
 
-/// The values of some frames of all tracks; sizes were checked when the records were found.
-std::vector<ScalarTrack> tracks_of(const StoredMotion& stored, FrameRange asked, std::span<const Found> records) {
+/// Poses yet to be written, or at rest where only some joints will be.
+Motion allocate(const Place& place, const std::shared_ptr<const Skeleton>& skeleton, FrameRange frames,
+                const JointSet& joints) {
+  const StoredMotion& stored = place.stored;
+  const auto count = static_cast<std::uint64_t>(frames.size());
+  check_backed(
+      place, count * (std::uint64_t{stored.joints} * 16 + std::uint64_t{stored.translations} * 12),
+      [&](const auto& visit) { for_each_packet(stored, frames, joints, visit); },
+      [&](const Record& record) { return layout_of(place, record); });
+  if (!joints.empty()) return Motion(skeleton, stored.rate, frames.size());
+  Motion result;
+  result.reset(skeleton, stored.rate, frames.size());
+  return result;
+}
+
+/// The values of some frames of all tracks.
+std::vector<ScalarTrack> read_all_tracks(const Place& place, FrameRange asked, Bytes& buffer, ReadCost& spent) {
+  const StoredMotion& stored = place.stored;
+  const Layout layout{track_width(stored)};
+  check_backed(
+      place, static_cast<std::uint64_t>(asked.size()) * stored.tracks.size() * sizeof(float),
+      [&](const auto& visit) { for_each_track_record(stored, asked, visit); }, [&](const Record&) { return layout; });
   std::vector<ScalarTrack> tracks;
   std::vector<std::span<float>> values;
   tracks.reserve(stored.tracks.size());
+  values.reserve(stored.tracks.size());
   for (const std::string& name : stored.tracks) {
     tracks.push_back({name, std::vector<float>(static_cast<std::size_t>(asked.size()))});
     values.emplace_back(tracks.back().values);
   }
-  for (const Found& found : records) {
-    if (const char* fault = fault_of(found.value, stored.generation, found.record, track_width(stored))) {
-      fail(stored, found.record, nullptr, fault);
-    }
+  const auto visit = [&](const Record& record) {
+    const Found found = find(place, record, layout, buffer);
+    verify(place, found);
     copy_values(found, asked, values);
-  }
+    spent.bytes += found.value.size();
+  };
+  for_each_track_record(stored, asked, std::ref(visit));
   return tracks;
 }
 
 }  // namespace
 
 std::shared_ptr<const Skeleton> read_skeleton(const kv::ReadTransaction& snapshot, const StoredMotion& stored) {
-  const std::optional<ByteSpan> value = snapshot.get(key_of(stored.generation, Record{}));
+  Bytes buffer;
+  const std::optional<ByteSpan> value = get(snapshot, stored, Record{}, nullptr, buffer);
   if (!value) fail(stored, Record{}, nullptr, "it is missing");
   if (const char* fault = fault_of(*value, stored.generation, Record{}, Width{})) {
     fail(stored, Record{}, nullptr, fault);
@@ -134,35 +188,22 @@ Motion read(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
             const std::shared_ptr<const Skeleton>& skeleton, FrameRange frames, const JointSet& joints,
             ReadCost* cost) {
   check_asked(stored, *skeleton, frames, joints);
-  // First find everything, with its size, so that a damaged descriptor cannot ask for memory that no record backs.
+  const Place place{snapshot, stored, *skeleton};
   ReadCost spent;
-  const auto find = [&](const Record& record, Width width) {
-    const std::optional<ByteSpan> value = snapshot.get(key_of(stored.generation, record));
-    if (!value) fail(stored, record, skeleton.get(), "it is missing");
-    if (value->size() != value_size(record, width)) fail(stored, record, skeleton.get(), "its size is wrong");
-    spent.bytes += value->size();
-    return Found{record, *value};
+  Motion result = allocate(place, skeleton, frames, joints);
+  const MutablePoses poses = result.poses({0, frames.size()});
+  std::vector<Bytes> buffers(kTogether);
+  const auto find_packet = [&](const Record& record, Bytes& buffer) {
+    const Found packet = find(place, record, layout_of(place, record), buffer);
+    verify(place, packet);
+    ++spent.packets;
+    spent.bytes += packet.value.size();
+    return packet;
   };
-  std::vector<Found> packets;
-  for_each_packet(stored, frames, joints,
-                  [&](const Record& record) { packets.push_back(find(record, width_of(*skeleton, record))); });
-  spent.packets = packets.size();
-  std::vector<Found> track_records;
+  for_each_group(stored, frames, joints, buffers, find_packet,
+                 [&](std::span<const Found> group) { copy_group(group, *skeleton, joints, frames, poses); });
   if (joints.empty()) {
-    for_each_track_record(stored, frames,
-                          [&](const Record& record) { track_records.push_back(find(record, track_width(stored))); });
-  }
-
-  Motion result(skeleton, stored.rate, frames.size());
-  for (const Found& packet : packets) {
-    if (const char* fault =
-            fault_of(packet.value, stored.generation, packet.record, width_of(*skeleton, packet.record))) {
-      fail(stored, packet.record, skeleton.get(), fault);
-    }
-    copy_frames(packet, *skeleton, frames, joints, result.poses({0, frames.size()}));
-  }
-  if (joints.empty()) {
-    for (ScalarTrack& track : tracks_of(stored, frames, track_records)) result.add_track(std::move(track));
+    for (ScalarTrack& track : read_all_tracks(place, frames, buffers[0], spent)) result.add_track(std::move(track));
   }
   if (cost) *cost = spent;
   return result;
@@ -172,6 +213,9 @@ namespace {
 
 /// So many records are remembered at most, 16 MiB of bits: the descriptor's counts are believed no further.
 constexpr std::uint64_t kMostKnown = std::uint64_t{1} << 27;
+
+/// And the places of so many packets, 1 MiB: hours by frame, where p is the default.
+constexpr std::uint64_t kMostPlaces = std::uint64_t{1} << 16;
 
 }  // namespace
 
@@ -191,41 +235,42 @@ void KnownMotion::found_sound(std::uint64_t record) const noexcept {
 }
 
 void StoredSource::read(FrameRange frames, MutablePoses out) const {
-  const StoredMotion& stored = motion_->stored();
-  const Skeleton& skeleton = *motion_->skeleton();
-  check_asked(stored, skeleton, frames, {});
-  const std::uint64_t parts = cut_by_joint(stored.mode) ? stored.joints : 1;
-  for_each_packet(stored, frames, {}, [&](const Record& record) {
-    const Width width = width_of(skeleton, record);
-    const std::optional<ByteSpan> value = snapshot_->get(key_of(stored.generation, record));
-    if (!value) fail(stored, record, &skeleton, "it is missing");
-    if (value->size() != value_size(record, width)) fail(stored, record, &skeleton, "its size is wrong");
-    const std::uint64_t number = record.block * parts + (parts > 1 ? record.part : 0);
-    verify(record, *value, width, number);
-    copy_frames({record, *value}, skeleton, frames, {}, out);
-  });
+  const Place place{*snapshot_, motion_->stored(), *motion_->skeleton()};
+  check_asked(place.stored, place.skeleton, frames, {});
+  const auto find_packet = [&](const Record& record, Bytes& buffer) {
+    const Layout layout = layout_of(place, record);
+    if (record.block < places_.size() && !places_[record.block].empty())
+      return Found{record, layout, places_[record.block]};
+    const Found packet = find(place, record, layout, buffer);
+    verify_once(*motion_, place, packet);
+    remember(record, packet.value, buffer);
+    return packet;
+  };
+  for_each_group(place.stored, frames, {}, buffers_, find_packet,
+                 [&](std::span<const Found> group) { copy_group(group, place.skeleton, {}, frames, out); });
+}
+
+// Looking up the packet of a frame costs more than copying the frame. Of packets of one joint there are too many.
+void StoredSource::remember(const Record& packet, ByteSpan value, const Bytes& buffer) const {
+  if (packet.part != kAllJoints || value.data() == buffer.data()) return;
+  if (places_.empty()) {
+    const std::uint64_t packets = packet_count(motion_->stored());
+    if (packets > kMostPlaces) return;
+    places_.resize(packets);
+  }
+  places_[packet.block] = value;
 }
 
 void StoredSource::read_tracks(FrameRange frames, std::span<const std::span<float>> out) const {
-  const StoredMotion& stored = motion_->stored();
-  check_asked(stored, *motion_->skeleton(), frames, {});
-  const Width width = track_width(stored);
-  const std::uint64_t packets = packet_count(stored);
-  for_each_track_record(stored, frames, [&](const Record& record) {
-    const std::optional<ByteSpan> value = snapshot_->get(key_of(stored.generation, record));
-    if (!value) fail(stored, record, nullptr, "it is missing");
-    if (value->size() != value_size(record, width)) fail(stored, record, nullptr, "its size is wrong");
-    verify(record, *value, width, packets + record.block);
-    copy_values({record, *value}, frames, out);
-  });
-}
-
-void StoredSource::verify(const Record& record, ByteSpan value, Width width, std::uint64_t number) const {
-  if (motion_->is_sound(number)) return;
-  if (const char* fault = fault_of(value, motion_->stored().generation, record, width)) {
-    fail(motion_->stored(), record, motion_->skeleton().get(), fault);
-  }
-  motion_->found_sound(number);
+  const Place place{*snapshot_, motion_->stored(), *motion_->skeleton()};
+  check_asked(place.stored, place.skeleton, frames, {});
+  buffers_.resize(kTogether);
+  const auto visit = [&](const Record& record) {
+    const Found found = find(place, record, {track_width(place.stored)}, buffers_[0]);
+    verify_once(*motion_, place, found);
+    copy_values(found, frames, out);
+  };
+  for_each_track_record(place.stored, frames, std::ref(visit));
 }
 
 namespace {
@@ -236,7 +281,10 @@ struct TooMany {};
 
 }  // namespace
 
-std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored) {
+std::vector<std::string> check(const kv::ReadTransaction& snapshot, const StoredMotion& stored,
+                               const std::function<void()>& progress) {
+  constexpr std::uint64_t kRecordsATime = 64;
+  std::uint64_t checked = 0;
   std::vector<std::string> faults;
   std::shared_ptr<const Skeleton> skeleton;
   try {
@@ -244,11 +292,17 @@ std::vector<std::string> check(const kv::ReadTransaction& snapshot, const Stored
   } catch (const Error& error) {
     faults.emplace_back(error.what());
   }
-  const auto check_record = [&](const Record& record, std::optional<Width> width) {
+  Bytes buffer;
+  const auto check_record = [&](const Record& record, std::optional<Width> width, Packing packing) {
     if (faults.size() >= kMostFaults) throw TooMany{};
-    const std::optional<ByteSpan> value = snapshot.get(key_of(stored.generation, record));
-    const char* const fault = value ? fault_of(*value, stored.generation, record, width) : "it is missing";
-    if (fault) faults.push_back(name_of(stored, record, skeleton.get()) + ": " + fault);
+    if (progress && ++checked % kRecordsATime == 0) progress();
+    try {
+      const std::optional<ByteSpan> value = get(snapshot, stored, record, skeleton.get(), buffer);
+      const char* const fault = value ? fault_of(*value, stored.generation, record, width, packing) : "it is missing";
+      if (fault) faults.push_back(name_of(stored, record, skeleton.get()) + ": " + fault);
+    } catch (const Error& error) {  // the engine's own pages: what lies elsewhere may be sound
+      faults.emplace_back(error.what());
+    }
   };
   try {
     for_each_packet(stored, {0, stored.frames}, {}, [&](const Record& record) {
@@ -258,10 +312,10 @@ std::vector<std::string> check(const kv::ReadTransaction& snapshot, const Stored
       } else if (skeleton) {
         width = width_of(*skeleton, record);
       }
-      check_record(record, width);
+      check_record(record, width, packing_of(stored));
     });
     for_each_track_record(stored, {0, stored.frames},
-                          [&](const Record& record) { check_record(record, track_width(stored)); });
+                          [&](const Record& record) { check_record(record, track_width(stored), Packing::plain); });
   } catch (const TooMany&) {
     faults.push_back("stored motion " + std::to_string(stored.generation) + ": more faults than these");
   }

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "signweave/motion_db/grid.h"
 #include "signweave/motion_db/motion_db.h"
 #include "signweave/motion_db/packet.h"
 
@@ -9,30 +11,48 @@ namespace signweave::motion_db {
 namespace {
 
 constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kCompactVersion = 2;  ///< has a tolerance
 
 constexpr std::int64_t kMostFrames = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kMostTracks = std::numeric_limits<std::uint16_t>::max();
 constexpr std::uint64_t kLargestValue = std::numeric_limits<std::uint32_t>::max();  // of LMDB
 
-/// The most frames of `frame_bytes` that a value of `pages` pages takes.
-std::uint32_t frames_in(std::size_t pages, std::size_t frame_bytes) {
-  return static_cast<std::uint32_t>(
-      std::max<std::size_t>(1, (pages * kPageSize - kPageLoss - kHeaderSize) / frame_bytes));
+/// Four values of so many bytes lie on a page, each with its key of 16 bytes and 10 of LMDB's own.
+constexpr std::size_t kQuarterPage = (kPageSize - kPageLoss) / 4 - 16 - 10;
+
+/// The most frames of `frame_bytes` that a value of so many bytes takes.
+std::uint32_t frames_in(std::size_t value_bytes, std::size_t frame_bytes) {
+  return static_cast<std::uint32_t>(std::max<std::size_t>(1, (value_bytes - kHeaderSize) / frame_bytes));
 }
 
 /// The default p.
 ///
 /// By frame: as many as eight pages hold, 38 of 53 joints. A sign, half a second to two, then lies in a few packets.
-/// Measured (bench/store_read): packets of two to eight pages read alike; larger ones are slower, for more is fetched
+/// Measured (bench/store): packets of two to eight pages read alike; larger ones are slower, for more is fetched
 /// in vain at both ends, and smaller ones take more lookups, and more commits to write.
 ///
-/// By joint and frame: as many as one page holds, 253 (4 s at 60 Hz), two pages and 290 where most joints are
-/// translated: the smallest value that wastes no page, because this mode is for few joints over a short time.
+/// By joint and frame: as many as a quarter of a page holds, 60 (0.6 s at 100 Hz). Of one hand in one sign no more than
+/// twice the bytes asked for are then read, from signs of 0.6 s on; a whole page would hold 253 frames and be read in
+/// vain for the most part. More packets on a page would take more lookups.
 std::uint32_t default_frames_per_packet(AccessMode::Kind kind, const Skeleton& skeleton) {
   const std::size_t joints = skeleton.joint_count();
   const std::size_t translations = skeleton.translation_count();
-  if (kind == AccessMode::Kind::by_frame) return frames_in(8, joints * 16 + translations * 12);
-  return 2 * translations > joints ? frames_in(2, 16 + 12) : frames_in(1, 16);
+  if (kind == AccessMode::Kind::by_frame) {
+    return frames_in(8 * kPageSize - kPageLoss, joints * 16 + translations * 12);
+  }
+  return frames_in(kQuarterPage, 2 * translations > joints ? 16 + 12 : 16);
+}
+
+/// The default p of compact packets: as many whole runs as fill about as much as plain packets do, at the sizes that
+/// signing takes at 0.1 mm, and something to spare: 2.25 bytes a joint in packets of all joints, 4 in packets of one.
+std::uint32_t default_compact_frames(AccessMode::Kind kind, const Skeleton& skeleton) {
+  const std::size_t joints = skeleton.joint_count();
+  const std::size_t translations = skeleton.translation_count();
+  const std::uint32_t frames = kind == AccessMode::Kind::by_frame
+                                   ? frames_in(8 * kPageSize - kPageLoss, joints * 9 / 4 + 1 + translations * 6)
+                                   : frames_in(kQuarterPage, 2 * translations > joints ? 8 : 4);
+  constexpr auto kRun = static_cast<std::uint32_t>(kRunFrames);
+  return std::max(kRun, frames / kRun * kRun);
 }
 
 }  // namespace
@@ -42,33 +62,41 @@ void check_packet_size(const StoredMotion& stored) {
   const std::uint64_t frame_bytes = cut_by_joint(stored.mode)
                                         ? (stored.translations > 0 ? 28 : 16)
                                         : std::uint64_t{stored.joints} * 16 + std::uint64_t{stored.translations} * 12;
-  const std::uint64_t bytes = kHeaderSize + frames * frame_bytes;
+  // What a compact packet has beside its numbers is less than as much again.
+  const std::uint64_t bytes = kHeaderSize + frames * frame_bytes * (stored.tolerance > 0 ? 2 : 1);
   if (bytes <= kLargestValue) return;
   throw Error(ErrorCode::unsupported, "motion: a packet of " + to_string(stored.mode) + " would have " +
                                           std::to_string(bytes >> 20) +
                                           " MiB and 4095 is the most; store it by_frame or by_joint_and_frame");
 }
 
-StoredMotion describe(const Motion& motion, AccessMode mode, std::uint64_t generation) {
+AccessMode fitted(AccessMode mode, const Skeleton& skeleton, float tolerance) {
+  const bool by_frame = mode.kind == AccessMode::Kind::by_frame || mode.kind == AccessMode::Kind::by_joint_and_frame;
+  if (!by_frame) {
+    mode.frames_per_packet = 0;
+  } else if (mode.frames_per_packet == 0) {
+    mode.frames_per_packet =
+        tolerance > 0 ? default_compact_frames(mode.kind, skeleton) : default_frames_per_packet(mode.kind, skeleton);
+  }
+  return mode;
+}
+
+StoredMotion describe(const Motion& motion, AccessMode mode, std::uint64_t generation, float tolerance) {
   const auto refuse = [](ErrorCode code, const std::string& what) { throw Error(code, "motion: " + what); };
   const Skeleton& skeleton = motion.skeleton();
   if (motion.frame_count() < 1) refuse(ErrorCode::bad_input, "it has no frames; store one that has");
   if (skeleton.joint_count() < 1) refuse(ErrorCode::bad_input, "its skeleton has no joints; store one that has");
   if (motion.frame_count() > kMostFrames) refuse(ErrorCode::unsupported, "more than 2^32 - 1 frames; cut it");
   if (motion.tracks().size() > kMostTracks) refuse(ErrorCode::unsupported, "more than 65535 scalar tracks; drop some");
-  const bool by_frame = mode.kind == AccessMode::Kind::by_frame || mode.kind == AccessMode::Kind::by_joint_and_frame;
-  if (!by_frame) {
-    mode.frames_per_packet = 0;
-  } else if (mode.frames_per_packet == 0) {
-    mode.frames_per_packet = default_frames_per_packet(mode.kind, skeleton);
-  }
+  if (!(tolerance >= 0) || !std::isfinite(tolerance)) refuse(ErrorCode::bad_input, "a tolerance must be 0 or a length");
   StoredMotion stored{.generation = generation,
-                      .mode = mode,
+                      .mode = fitted(mode, skeleton, tolerance),
                       .rate = motion.rate(),
                       .frames = motion.frame_count(),
                       .joints = static_cast<std::uint32_t>(skeleton.joint_count()),
                       .translations = static_cast<std::uint32_t>(skeleton.translation_count()),
-                      .tracks = {}};
+                      .tracks = {},
+                      .tolerance = tolerance};
   for (const ScalarTrack& track : motion.tracks()) stored.tracks.push_back(track.name);
   check_packet_size(stored);
   return stored;
@@ -81,9 +109,9 @@ std::uint64_t packet_count(const StoredMotion& stored) noexcept {
 }
 
 // u8 version, u64 generation, u8 kind of access mode, u32 p, i64 numerator and i64 denominator of the rate, i64 frames,
-// u32 joints, u32 translations, u32 tracks, each a text.
+// u32 joints, u32 translations, u32 tracks, each a text; in version 2 f32 tolerance, above 0.
 void encode(const StoredMotion& stored, ByteWriter& out) {
-  out.number(kVersion);
+  out.number(stored.tolerance > 0 ? kCompactVersion : kVersion);
   out.number(stored.generation);
   out.number(stored.mode.kind);
   out.number(stored.mode.frames_per_packet);
@@ -94,13 +122,14 @@ void encode(const StoredMotion& stored, ByteWriter& out) {
   out.number(stored.translations);
   out.number(static_cast<std::uint32_t>(stored.tracks.size()));
   for (const std::string& track : stored.tracks) out.text(track);
+  if (stored.tolerance > 0) out.number(stored.tolerance);
 }
 
 StoredMotion decode(ByteReader& in) {
   const auto version = in.number<std::uint8_t>();
-  if (version != kVersion) {
+  if (version != kVersion && version != kCompactVersion) {
     throw Error(ErrorCode::unsupported, "stored motion: layout version " + std::to_string(version) +
-                                            ", this program knows version 1; use a newer signweave");
+                                            ", this program knows versions 1 and 2; use a newer signweave");
   }
   StoredMotion stored;
   stored.generation = in.number<std::uint64_t>();
@@ -113,6 +142,10 @@ StoredMotion decode(ByteReader& in) {
   stored.translations = in.number<std::uint32_t>();
   stored.tracks.resize(in.count(4));
   for (std::string& track : stored.tracks) track = in.text();
+  if (version == kCompactVersion) {
+    stored.tolerance = in.number<float>();
+    if (!(stored.tolerance > 0) || !std::isfinite(stored.tolerance)) in.fail("a tolerance that is no length");
+  }
 
   const bool by_frame =
       stored.mode.kind == AccessMode::Kind::by_frame || stored.mode.kind == AccessMode::Kind::by_joint_and_frame;

@@ -29,7 +29,8 @@ struct Stored {
   TestStore store;
   StoredMotion stored;
 
-  Stored(const Motion& motion, AccessMode mode) : stored(put_motion(*store, motion, mode)) {}
+  Stored(const std::string& engine, const Motion& motion, AccessMode mode)
+      : store(engine), stored(put_motion(*store, motion, mode)) {}
   std::shared_ptr<const KnownMotion> known() const { return std::make_shared<KnownMotion>(*store->read(), stored); }
   StoredSource source(std::shared_ptr<const KnownMotion> known) const { return {store->read(), std::move(known)}; }
   /// Turns one bit of a record's payload.
@@ -43,11 +44,16 @@ struct Stored {
   }
 };
 
-TEST(StoredSource, GivesTheFramesOfEveryModeToTheBit) {
+class StoredSourceTest : public testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Engines, StoredSourceTest, testing::ValuesIn(kv::engines()),
+                         [](const auto& row) { return row.param; });
+
+TEST_P(StoredSourceTest, GivesTheFramesOfEveryModeToTheBit) {
   const Motion motion = test_motion(700, 5, 1, 3);
   for (const AccessMode::Kind kind : kAllKinds) {
     for (const std::uint32_t p : {1u, 7u, 64u}) {
-      const Stored stored(motion, {kind, p});
+      const Stored stored(GetParam(), motion, {kind, p});
       const StoredSource source = stored.source(stored.known());
       ASSERT_EQ(source.frame_count(), 700);
       for (const FrameRange frames : {FrameRange{0, 700}, FrameRange{0, 1}, FrameRange{63, 65}, FrameRange{130, 611}}) {
@@ -58,14 +64,14 @@ TEST(StoredSource, GivesTheFramesOfEveryModeToTheBit) {
   }
 }
 
-TEST(StoredSource, RefusesFramesThatTheMotionDoesNotHave) {
-  const Stored stored(test_motion(20), {AccessMode::Kind::by_frame, 8});
+TEST_P(StoredSourceTest, RefusesFramesThatTheMotionDoesNotHave) {
+  const Stored stored(GetParam(), test_motion(20), {AccessMode::Kind::by_frame, 8});
   EXPECT_THROW(read_all(stored.source(stored.known()), {10, 21}), Error);
 }
 
-TEST(StoredSource, FindsDamageWhenARecordIsFirstRead) {
+TEST_P(StoredSourceTest, FindsDamageWhenARecordIsFirstRead) {
   for (const AccessMode::Kind kind : kAllKinds) {
-    Stored stored(test_motion(100, 5, 1, 2), {kind, 50});
+    Stored stored(GetParam(), test_motion(100, 5, 1, 2), {kind, 50});
     const auto known = stored.known();
     read_all(stored.source(known), {0, 10});  // the first block is looked at, the second is not
     std::vector<Record> second;
@@ -82,8 +88,8 @@ TEST(StoredSource, FindsDamageWhenARecordIsFirstRead) {
   }
 }
 
-TEST(StoredSource, FindsDamageInTracks) {
-  Stored stored(test_motion(100, 5, 1, 2), {AccessMode::Kind::by_frame, 50});
+TEST_P(StoredSourceTest, FindsDamageInTracks) {
+  Stored stored(GetParam(), test_motion(100, 5, 1, 2), {AccessMode::Kind::by_frame, 50});
   stored.damage({.kind = RecordKind::tracks, .part = 0, .block = 0, .frames = {0, 100}});
   try {
     read_all(stored.source(stored.known()), {0, 10});

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstring>
 #include <random>
 
 #include "signweave/kv/kv_store.h"
@@ -40,22 +39,6 @@ inline Motion test_motion(std::int64_t frames, int joints = 5, unsigned seed = 1
     motion.add_track(std::move(track));
   }
   return motion;
-}
-
-/// True where two motions are the same to the bit, -0.0 and 0.0 told apart.
-inline bool same_bits(const Motion& a, const Motion& b) {
-  const auto same = [](auto left, auto right) {
-    return left.size() == right.size() &&
-           (left.empty() || std::memcmp(left.data(), right.data(), left.size_bytes()) == 0);
-  };
-  bool equal = a.skeleton() == b.skeleton() && a.rate() == b.rate() && a.frame_count() == b.frame_count() &&
-               same(a.rotations(), b.rotations()) && same(a.translations(), b.translations()) &&
-               a.tracks().size() == b.tracks().size();
-  for (std::size_t i = 0; equal && i < a.tracks().size(); ++i) {
-    equal = a.tracks()[i].name == b.tracks()[i].name &&
-            same(std::span(a.tracks()[i].values), std::span(b.tracks()[i].values));
-  }
-  return equal;
 }
 
 /// What `read` must give, taken from the motion in memory.

@@ -37,6 +37,18 @@ void erase(kv::WriteTransaction& transaction, std::uint64_t generation) {
   transaction.erase(key_of('S', generation));
 }
 
+std::string_view kind_of(ByteSpan key) noexcept {
+  if (key.size() != 1 + sizeof(std::uint64_t)) return {};
+  if (key[0] == std::byte{'D'}) return "documents";
+  return key[0] == std::byte{'S'} ? "segments" : std::string_view{};
+}
+
+std::optional<std::uint64_t> generation_of(ByteSpan key) noexcept {
+  if (kind_of(key).empty()) return std::nullopt;
+  ByteReader in(key.subspan(1), "key");
+  return in.number<std::uint64_t>();
+}
+
 std::string read_document(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where) {
   const Bytes content = read_record(snapshot, 'D', generation, where + ": annotation document");
   return std::string(text_of(content));

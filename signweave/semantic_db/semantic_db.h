@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,11 @@ void put(kv::WriteTransaction& transaction, std::uint64_t generation, std::strin
 
 /// Erases both. Doing it twice is harmless.
 void erase(kv::WriteTransaction& transaction, std::uint64_t generation);
+
+/// What the record under a key is: "documents" or "segments"; empty where it is none of this database's.
+std::string_view kind_of(ByteSpan key) noexcept;
+/// The generation of the document whose record the key names; none where it is none of this database's.
+std::optional<std::uint64_t> generation_of(ByteSpan key) noexcept;
 
 /// The bytes as they were put. Throws Error{corrupt} where the record is missing or its checksum is wrong; `where`
 /// names the recording in that error.

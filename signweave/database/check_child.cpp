@@ -1,0 +1,232 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <functional>
+#include <optional>
+
+#include "signweave/core/bytes.h"
+#include "signweave/database/check.h"
+#include "signweave/database/check_listener.h"
+
+namespace signweave {
+namespace {
+
+// The child tells what it sees in messages: u8 kind, u32 number, text (u32 length, bytes).
+enum class Message : std::uint8_t {
+  begin,    ///< number: recordings
+  slot,     ///< number, name: whose turn it is
+  alive,    ///< still at it
+  usage,    ///< text: kind (a text), u64 entries, u64 bytes
+  fault,    ///< text
+  refused,  ///< number: code of the Error that opening threw; its text
+  done,
+};
+
+constexpr int kPatience = 120'000;  // milliseconds without a word: damaged pages may lead in a circle
+
+void write_all(int pipe, ByteSpan bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(pipe, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) ::_exit(1);  // nobody listens
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+class Tell : public CheckListener {
+ public:
+  explicit Tell(int pipe) : pipe_(pipe) {}
+
+  void begin(std::uint32_t recordings) override { send(Message::begin, recordings, {}); }
+  void slot(std::uint32_t number, const std::string& name) override { send(Message::slot, number, name); }
+  void alive() override { send(Message::alive, 0, {}); }
+  void fault(const std::string& text) override { send(Message::fault, 0, text); }
+  void send(Message kind, std::uint32_t number, std::string_view text) const {
+    ByteWriter out;
+    out.number(kind);
+    out.number(number);
+    out.text(text);
+    write_all(pipe_, out.bytes());
+  }
+
+ private:
+  int pipe_;
+};
+
+/// What a child does with the database, and tells.
+using Task = std::function<void(const Database& database, Tell& tell)>;
+
+[[noreturn]] void run_child(const std::filesystem::path& folder, const Task& task, int pipe) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL}) ::signal(signal, SIG_DFL);
+  Tell tell(pipe);
+  try {
+    const Database database(folder, kv::Access::read_only);
+    task(database, tell);
+    tell.send(Message::done, 0, {});
+  } catch (const Error& error) {
+    tell.send(Message::refused, static_cast<std::uint32_t>(error.code()), error.what());
+  } catch (const std::exception& error) {
+    tell.fault(fmt::format("{}: {}", folder.string(), error.what()));
+    tell.send(Message::done, 0, {});
+  }
+  ::_exit(0);  // without destructors: what damaged pages left in memory must not be touched again
+}
+
+/// What one child told before it ended.
+struct Told {
+  bool ended_well = false;
+  std::uint32_t recordings = 0;
+  std::optional<std::uint32_t> slot;  ///< whose turn it was at last
+  std::string name;
+  std::vector<std::string> faults;
+  std::vector<Usage> usage;
+  std::string death;  ///< how it died
+};
+
+/// Reads messages until the pipe ends; false where the child fell silent.
+bool listen(int pipe, Told& told, const Database::Progress& progress) {
+  Bytes bytes;
+  for (;;) {
+    pollfd ready{.fd = pipe, .events = POLLIN, .revents = 0};
+    const int count = ::poll(&ready, 1, kPatience);
+    if (count < 0 && errno == EINTR) continue;
+    if (count == 0) return false;
+    std::byte part[4096];
+    const ssize_t got = ::read(pipe, part, sizeof part);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return true;
+    bytes.insert(bytes.end(), part, part + got);
+    for (;;) {
+      constexpr std::size_t kHead = 9;
+      if (bytes.size() < kHead) break;
+      std::uint32_t length = 0;
+      std::memcpy(&length, bytes.data() + 5, sizeof length);
+      if (bytes.size() < kHead + length) break;
+      ByteReader in(ByteSpan(bytes).first(kHead + length), "check");
+      const auto kind = in.number<Message>();
+      const auto number = in.number<std::uint32_t>();
+      const std::string text = in.text();
+      bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(kHead + length));
+      switch (kind) {
+        case Message::begin:
+          told.recordings = number;
+          break;
+        case Message::slot:
+          told.slot = number;
+          told.name = text;
+          if (progress) progress(static_cast<double>(number) / told.recordings);
+          break;
+        case Message::alive:
+          break;
+        case Message::usage: {
+          ByteReader one(bytes_of(text), "usage");
+          std::string what = one.text();
+          const auto entries = one.number<std::uint64_t>();
+          told.usage.push_back({std::move(what), entries, one.number<std::uint64_t>()});
+          break;
+        }
+        case Message::fault:
+          told.faults.push_back(text);
+          break;
+        case Message::refused:
+          throw Error(static_cast<ErrorCode>(number), text);
+        case Message::done:
+          told.ended_well = true;
+          break;
+      }
+    }
+  }
+}
+
+Told ask_child(const std::filesystem::path& folder, const Task& task, const Database::Progress& progress) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) {
+    throw Error(ErrorCode::io, fmt::format("{}: no pipe to a checking process: {}; close some files and try again",
+                                           folder.string(), std::strerror(errno)));
+  }
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(ends[0]);
+    run_child(folder, task, ends[1]);
+  }
+  ::close(ends[1]);
+  if (child < 0) {
+    ::close(ends[0]);
+    throw Error(ErrorCode::io, fmt::format("{}: no checking process can be made: {}; end some and try again",
+                                           folder.string(), std::strerror(errno)));
+  }
+  struct Reaped {
+    pid_t child;
+    int pipe;
+    int status = 0;
+    bool over = false;
+    void wait() {
+      while (!over && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+      }
+      over = true;
+    }
+    ~Reaped() {
+      ::close(pipe);
+      if (!over) ::kill(child, SIGKILL);
+      wait();
+    }
+  } reaped{.child = child, .pipe = ends[0]};
+  Told told;
+  const bool spoke = listen(ends[0], told, progress);
+  if (!spoke) ::kill(child, SIGKILL);
+  reaped.wait();
+  if (told.ended_well) return told;
+  if (!spoke) {
+    told.death = "does not come to an end";
+  } else if (WIFSIGNALED(reaped.status)) {
+    told.death = fmt::format("ends the program ({})", ::strsignal(WTERMSIG(reaped.status)));
+  } else {
+    told.death = fmt::format("ends the program (status {})", WEXITSTATUS(reaped.status));
+  }
+  return told;
+}
+
+}  // namespace
+
+CheckResult check_in_child(const std::filesystem::path& folder, const Database::Progress& progress) {
+  CheckResult result;
+  for (std::uint32_t first = 0;;) {
+    const Task check_the_rest = [first](const Database& database, Tell& tell) { check_slots(database, first, tell); };
+    Told told = ask_child(folder, check_the_rest, progress);
+    result.recordings = std::max(result.recordings, told.recordings);
+    result.faults.insert(result.faults.end(), told.faults.begin(), told.faults.end());
+    if (told.ended_well) return result;
+    const std::string where = told.slot ? told.name : folder.string();
+    result.faults.push_back(fmt::format(
+        "{}: reading it {}: the engine's own pages are damaged; restore the database from a copy", where, told.death));
+    if (!told.slot) return result;
+    first = *told.slot + 1;
+  }
+}
+
+std::vector<Usage> usage_in_child(const std::filesystem::path& folder) {
+  const Task measure = [](const Database& database, Tell& tell) {
+    for (const Usage& one : database.usage()) {
+      ByteWriter out;
+      out.text(one.kind);
+      out.number(one.entries);
+      out.number(one.bytes);
+      tell.send(Message::usage, 0, text_of(out.bytes()));
+    }
+  };
+  Told told = ask_child(folder, measure, {});
+  if (told.ended_well) return told.usage;
+  throw Error(
+      ErrorCode::corrupt,
+      fmt::format("{}: looking at all of it {}: the engine's own pages are damaged; 'signweave check' tells which "
+                  "recordings are, restore it from a copy",
+                  folder.string(), told.death));
+}
+
+}  // namespace signweave

@@ -1,0 +1,101 @@
+// Databases that earlier versions made are still read: testdata/databases holds one of each released layout, engine and
+// access mode.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "signweave/database/check.h"
+#include "signweave/database/test_recording.h"
+#include "signweave/formats/bvh.h"
+#include "signweave/motion_db/quantise.h"
+#include "signweave/query/parse.h"
+
+namespace signweave {
+namespace {
+
+using namespace testing_database;
+using testing::ElementsAre;
+
+namespace fs = std::filesystem;
+
+const fs::path kTestdata = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata";
+
+std::string file_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What every one of them holds: one recording, made from three files of testdata.
+struct Source {
+  Motion motion = bvh::read(kTestdata / "bvh" / "signer.bvh").motion;
+  std::string document = file_text(kTestdata / "eaf" / "french.eaf");
+};
+
+std::vector<fs::path> stored_databases() {
+  std::vector<fs::path> list;
+  for (const fs::directory_entry& layout : fs::directory_iterator(kTestdata / "databases")) {
+    for (const fs::directory_entry& one : fs::directory_iterator(layout)) list.push_back(one.path());
+  }
+  std::ranges::sort(list);
+  return list;
+}
+
+TEST(Layout, DatabasesOfEveryReleasedLayoutAreReadAndChanged) {
+  const Source source;
+  const std::vector<std::string> engines = kv::engines();
+  std::size_t tried = 0;
+  for (const fs::path& stored : stored_databases()) {
+    SCOPED_TRACE(stored.string());
+    const std::string name = stored.filename().string();
+    const std::string engine = name.substr(0, name.find('_'));
+    if (std::ranges::count(engines, engine) == 0) continue;  // built without it
+    ++tried;
+    TestFolder folder;
+    fs::copy(stored, folder / "db");
+    for (const fs::directory_entry& file : fs::directory_iterator(stored)) {  // an engine's empty megabyte
+      if (file.path().extension() != ".gz") continue;
+      const fs::path packed = folder / "db" / file.path().filename();
+      ASSERT_EQ(std::system(("gzip -d '" + packed.string() + "'").c_str()), 0);
+    }
+    const auto look = [&](const Database& database) {
+      EXPECT_THAT(check(database).faults, ElementsAre());
+      const Motion motion = database.read("signer");
+      ASSERT_EQ(motion.frame_count(), 4);
+      if (name.ends_with("_compact")) {  // rounded within 1 mm, and what that gave stays to the bit
+        EXPECT_LE(motion_db::largest_distance(motion, source.motion), 0.001);
+        EXPECT_EQ(checksum(std::as_bytes(motion.rotations())), 17061407122888222734u);
+      } else {
+        EXPECT_TRUE(same_poses(motion, source.motion));
+      }
+      EXPECT_EQ(motion.tracks().size(), 7u);
+      EXPECT_EQ(database.document("signer").source, source.document);
+      EXPECT_EQ(database.find(parse("gloss = \"MÉTÉO\"")).size(), 1u);
+    };
+    {
+      const Database database(folder / "db", kv::Access::read_only);
+      look(database);
+      EXPECT_EQ("layout_" + std::to_string(database.layout()), stored.parent_path().filename());
+      const std::string mode = to_string(database.info("signer")->motion->mode);
+      const std::string kind = name.substr(name.find('_') + 1);
+      EXPECT_EQ(mode.substr(0, mode.find(':')), kind.substr(0, kind.find("_compact")));
+    }
+    {
+      Database database(folder / "db", kv::Access::read_write);
+      database.relayout("signer", {AccessMode{AccessMode::Kind::by_frame, 2}, {}});
+      look(database);
+      database.put(small_recording("new", 1, {"A"}));
+      EXPECT_EQ(database.contents()->recordings.size(), 2u);
+      database.remove("new");
+      EXPECT_EQ(database.layout(), kDatabaseLayout);
+    }
+    look(Database(folder / "db", kv::Access::read_only));
+  }
+  EXPECT_GE(tried, 4u + 8u) << "those of LMDB at least";
+}
+
+}  // namespace
+}  // namespace signweave

@@ -24,9 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "data.bdb";
-// Values longer than a quarter of a page lie on pages of their own. With 8 KiB, packets of 4 KiB lie on one page each;
-// with 16 KiB they would lie in the buckets, whose splitting then makes storing four times as slow.
-constexpr std::uint32_t kPageSize = 8192;
+// A write may end at any page of the kernel's when its process is killed, and at any block of the file system's when
+// the power goes. Berkeley DB's log cannot mend a page of which only a part was written, so a page is no larger than
+// either. Values longer than a quarter of it lie on pages of their own.
+constexpr std::uint32_t kPageSize = 4096;
 // The cache takes memory as it fills. A page that is not in it costs ten times as much as one that is.
 constexpr std::uint64_t kSmallestCache = 256u << 20;
 constexpr std::uint64_t kLargestCache = 1u << 30;

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "signweave/motion/motion.h"
+#include "signweave/rig/rig_map.h"
+#include "signweave/rig/signer_space.h"
+
+namespace signweave {
+
+/// How bent and spread the fingers are: what stays of a handshape when hand size and rig do not matter.
+struct Handshape {
+  static constexpr std::size_t kSize = 15;
+  /// Thumb to little finger, three each: flexion at the knuckle, flexion beyond it (mean of the joints), both 0
+  /// straight to 1 fully bent, and spread from the next finger towards the thumb, 0 together to 1 (45°).
+  std::array<float, kSize> values{};
+};
+/// Root mean square difference, in [0, 1].
+float distance(const Handshape& a, const Handshape& b) noexcept;
+
+/// What the hands can touch, as capsules and spheres of the body. Bits of a set.
+enum class Contact : std::uint8_t {
+  none = 0,
+  hands = 1,  ///< the other hand
+  head = 2,
+  torso = 4,
+};
+constexpr Contact operator|(Contact a, Contact b) noexcept {
+  return static_cast<Contact>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+constexpr bool has(Contact set, Contact one) noexcept {
+  return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;
+}
+
+/// One hand at one frame.
+struct HandFrame {
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();      ///< middle of the palm; signer-centred, shoulder widths
+  Eigen::Vector3f velocity = Eigen::Vector3f::Zero();      ///< metres a second, signer's axes, smoothed
+  Eigen::Vector3f acceleration = Eigen::Vector3f::Zero();  ///< metres a second squared, signer's axes, smoothed
+  float curvature = 0;                                     ///< of the path, 1/metre; 0 where the hand hardly moves
+  Eigen::Vector3f palm = Eigen::Vector3f::Zero();          ///< unit, out of the palm, signer's axes; zero: no fingers
+  Eigen::Vector3f fingers = Eigen::Vector3f::Zero();  ///< unit, wrist to middle knuckle, signer's axes; zero likewise
+  float openness = 0;                                 ///< 0 a fist to 1 a flat hand; 0 without fingers
+  Handshape handshape;                                ///< zero without fingers
+  Contact contact = Contact::none;
+};
+
+/// Both hands of a signer over some frames.
+struct HandMotion {
+  struct OneHand {
+    std::string why_not;            ///< empty, or why there is nothing of this hand ("no left wrist")
+    std::string why_no_fingers;     ///< empty, or why palm, openness and handshape are absent
+    std::vector<HandFrame> frames;  ///< [frame - range.begin]; empty where why_not is not
+  };
+  FrameRange range;
+  std::array<OneHand, 2> hands;       ///< [Side]
+  std::vector<float> hands_distance;  ///< [frame] metres between the palms; empty without both hands
+};
+
+/// What is needed once per motion to measure any part of it.
+struct SignerModel {
+  RigMap rig;
+  std::optional<SignerBody> body;  ///< none: nothing below can be measured
+};
+
+/// Measures some frames of a motion (clamped to it). Frames beside the range are read for smoothing where the motion
+/// has them, so that a part gives the same numbers as the whole, to the bit. Velocity and acceleration are those of a
+/// quadratic fitted over a window of kSmoothing around the frame (Savitzky and Golay 1964), at least three frames wide.
+HandMotion measure_hands(const Motion& motion, const SignerModel& model, FrameRange range);
+
+inline constexpr Seconds kSmoothing{0.1};
+
+}  // namespace signweave

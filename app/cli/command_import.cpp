@@ -59,7 +59,9 @@ std::string_view name_of(ImportOutcome outcome) {
     case ImportOutcome::unchanged:
       return "unchanged";
     case ImportOutcome::clock_changed:
-      return "clock or signer changed";
+      return "clock, signer or rig changed";
+    case ImportOutcome::measured:
+      return "measured anew";
     case ImportOutcome::annotation_added:
       return "annotation added";
     case ImportOutcome::motion_added:
@@ -83,6 +85,7 @@ struct Options {
   std::string phase_labels;
   std::optional<double> offset_ms;
   std::vector<std::string> syncs;
+  std::string rig;
   bool replace_motion = false;
   MotionOptions motion;
 };
@@ -95,6 +98,7 @@ void run_import(const Options& given, Io& io) {
   if (!given.phase_labels.empty()) options.phase_labels = read_phase_labels(given.phase_labels);
   if (given.offset_ms) options.offset = Seconds(*given.offset_ms / 1000.0);
   for (const std::string& sync : given.syncs) options.sync.push_back(*parse_sync(sync));
+  if (!given.rig.empty()) options.rig = read_rig_names(given.rig);
   options.replace_motion = given.replace_motion;
 
   Database database(given.folder, kv::Access::read_write);
@@ -116,6 +120,9 @@ void run_import(const Options& given, Io& io) {
       const ImportReport report = import_recording(database, job, options, show);
       progress->hide();
       print_notices(io, report.notices);
+      if (!report.not_measured.empty()) {
+        print_notices(io, {{report.name, "its phases are not measured: " + report.not_measured}});
+      }
       if (io.json) {
         nlohmann::json notices = nlohmann::json::array();
         for (const Notice& notice : report.notices) notices.push_back({{"where", notice.where}, {"text", notice.text}});
@@ -124,6 +131,8 @@ void run_import(const Options& given, Io& io) {
                               {"frames", report.frames},
                               {"tracks", report.tracks},
                               {"signs", report.signs},
+                              {"defects", report.defects},
+                              {"not_measured", report.not_measured},
                               {"notices", std::move(notices)}});
       } else {
         std::string line = fmt::format("{}: {}", report.name, name_of(report.outcome));
@@ -131,6 +140,7 @@ void run_import(const Options& given, Io& io) {
           line += ", " + counted(static_cast<std::size_t>(report.frames), "frame");
           if (report.tracks > 0) line += ", " + counted(report.tracks, "scalar track");
           line += ", " + counted(report.signs, "sign");
+          if (report.defects > 0) line += ", " + counted(report.defects, "defect");
         }
         io.out << line << '\n';
       }
@@ -172,6 +182,7 @@ Run import(CLI::App& verb) {
       ->check([](const std::string& text) {
         return parse_sync(text) ? std::string() : "expected FRAME@MS, such as 120@4010";
       });
+  verb.add_option("--rig", options->rig, "lines PART = JOINT: what the joints are that their names do not tell");
   verb.add_flag("--replace-motion", options->replace_motion,
                 "take motion and face files again, changed or not: instead of what was imported, or over damage");
   return [options](Io& io) {

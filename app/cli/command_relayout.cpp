@@ -53,7 +53,8 @@ Run relayout(CLI::App& verb) {
           progress.show((static_cast<double>(i) + fraction) / static_cast<double>(names.size()));
         };
         try {
-          if (database.relayout(names[i], stored, show)) changed.push_back(names[i]);
+          const bool stored_anew = database.relayout(names[i], stored, show);
+          if (database.measure(names[i]) || stored_anew) changed.push_back(names[i]);
         } catch (const Error& error) {  // the others go on
           io.err << "signweave: " << one_line(names[i]) << ": " << one_line(error.what()) << '\n';
           io.status = 1;

@@ -7,7 +7,7 @@
 namespace signweave::catalogue {
 namespace {
 
-// 2: the first; 3: the head has a tolerance.
+// 2: the first; 3: the head has a tolerance, recordings a rig's names and defects.
 constexpr std::uint8_t kFirstVersion = 2;
 
 Bytes key_of(char what) {
@@ -94,6 +94,52 @@ TierNames decode_tier_names(ByteReader& in) {
   return names;
 }
 
+void encode(const RigNames& names, ByteWriter& out) {
+  out.number(static_cast<std::uint32_t>(names.size()));
+  for (const auto& [part, joint] : names) {
+    out.number(part);
+    out.text(joint);
+  }
+}
+
+RigNames decode_rig(ByteReader& in) {
+  RigNames names;
+  for (std::size_t n = in.count(5); n > 0; --n) {
+    const auto part = in.number<Part>();
+    if (static_cast<std::size_t>(part) >= kPartCount) in.fail("a part of the body that does not exist");
+    names.emplace(part, in.text());
+  }
+  return names;
+}
+
+void encode(const std::vector<Defect>& defects, ByteWriter& out) {
+  out.number(static_cast<std::uint32_t>(defects.size()));
+  for (const Defect& defect : defects) {
+    out.number(defect.kind);
+    out.number(static_cast<std::int32_t>(defect.joint));
+    out.number(defect.frames.begin);
+    out.number(defect.frames.end);
+    out.number(defect.value);
+    out.text(defect.text);
+  }
+}
+
+std::vector<Defect> decode_defects(ByteReader& in) {
+  std::vector<Defect> defects;
+  for (std::size_t n = in.count(29); n > 0; --n) {
+    Defect defect;
+    defect.kind = in.number<DefectKind>();
+    if (defect.kind > kLastDefectKind) in.fail("a kind of defect that does not exist");
+    defect.joint = in.number<std::int32_t>();
+    defect.frames.begin = in.number<std::int64_t>();
+    defect.frames.end = in.number<std::int64_t>();
+    defect.value = in.number<float>();
+    defect.text = in.text();
+    defects.push_back(std::move(defect));
+  }
+  return defects;
+}
+
 }  // namespace
 
 bool is_key(ByteSpan key) noexcept {
@@ -127,7 +173,7 @@ void write_head(kv::WriteTransaction& transaction, const Head& head) {
 }
 
 RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t slot) {
-  ByteReader in = open_record(snapshot, slot_key(slot), fmt::format("catalogue entry {}", slot)).in;
+  auto [version, in] = open_record(snapshot, slot_key(slot), fmt::format("catalogue entry {}", slot));
   RecordingInfo info;
   info.name = in.text();
   info.signer = in.text();
@@ -156,6 +202,10 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
   }
   info.face_file = in.text();
   info.face_fingerprint = in.number<std::uint64_t>();
+  if (version >= 3) {
+    info.rig = decode_rig(in);
+    info.defects = decode_defects(in);
+  }
   in.finish();
   return info;
 }
@@ -189,6 +239,8 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
   }
   out.text(info.face_file);
   out.number(info.face_fingerprint);
+  encode(info.rig, out);
+  encode(info.defects, out);
   transaction.put(slot_key(slot), kv::sealed(out.bytes()));
 }
 

@@ -7,6 +7,7 @@
 #include "signweave/core/text.h"
 #include "signweave/database/catalogue.h"
 #include "signweave/database/database.h"
+#include "signweave/database/measure.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/motion_db/quantise.h"
 #include "signweave/semantic_db/semantic_db.h"
@@ -56,6 +57,16 @@ void verify(const kv::ReadTransaction& snapshot, const motion_db::StoredMotion& 
     throw Error(ErrorCode::io, fmt::format("stored motion {}: frames [{}, {}) do not read back as they were written; "
                                            "check memory and disk, and try again",
                                            stored.generation, frames.begin, frames.end));
+  }
+}
+
+/// The stored segments of a document; none where they are damaged, so that whatever mends them can be stored.
+SegmentChunk segments_if_sound(const kv::ReadTransaction& snapshot, const RecordingInfo& info) {
+  try {
+    return semantic_db::read_segments(snapshot, info.document, info.name);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::corrupt) throw;
+    return {};
   }
 }
 
@@ -122,11 +133,17 @@ void Database::put(const Recording& recording, const Progress& progress) {
     source = part.document.source.empty() ? eaf::write_text(part.document) : part.document.source;
     segments = segments_of(part.document, signs_in(part.document, part.tiers).signs);
   }
+  const std::optional<RecordingInfo> before = this->info(recording.name);
+  const RigNames rig = recording.rig ? *recording.rig : before ? before->rig : RigNames{};
   std::optional<motion_db::StoredMotion> stored;
+  std::optional<RecordingFeatures> features;
+  std::vector<Defect> defects;
   if (recording.motion) {
     // What is stored keeps one hemisphere from frame to frame, so that whoever joins it need not look at every frame.
     Motion changed;
     const Motion* motion = &recording.motion->motion;
+    const SignerModel model = model_of(*motion, rig);
+    defects = find_defects(*motion, model.rig);  // as it came
     if (!keeps_hemisphere(*motion)) {
       changed = *motion;
       keep_hemisphere(changed);
@@ -140,6 +157,12 @@ void Database::put(const Recording& recording, const Progress& progress) {
       changed = motion_db::quantise(*motion, tolerance, part_of(progress, 0, 0.5));
       motion = &changed;
     }
+    if (!recording.annotation && before && before->document != 0) {
+      segments = segments_if_sound(*store_->read(), *before);
+    }
+    // Of the motion as it will be read: what is measured again then says the same.
+    features = measure_phases(*motion, motion == &changed ? model_of(*motion, rig) : model,
+                              semantic_db::phase_spans(segments), recording.clock);
     stored = write_motion(*motion, head.access_mode, tolerance, part_of(progress, rounds ? 0.5 : 0, 1));
   }
 
@@ -156,8 +179,10 @@ void Database::put(const Recording& recording, const Progress& progress) {
   info.tiers_given = recording.tiers_given;
   info.signer_given = recording.signer_given;
   info.notices = recording.notices;
+  info.rig = rig;
   if (recording.motion) {
     make_visible(*transaction, info, *stored);
+    info.defects = std::move(defects);
     info.layout = recording.motion->layout;
     info.motion_file = recording.motion->file;
     info.motion_fingerprint = recording.motion->fingerprint;
@@ -175,6 +200,12 @@ void Database::put(const Recording& recording, const Progress& progress) {
       if (property.first.starts_with("signweave:")) info.declarations.push_back(property);
     }
     semantic_db::put(*transaction, info.document, source, segments);
+  } else if (info.document != 0 && !features) {
+    segments = segments_if_sound(*transaction, info);
+  }
+  if (info.document != 0) {  // other words, another clock, another rig: what they give is measured anew
+    semantic_db::put_features(*transaction, info.document,
+                              features ? *features : measure_stored(*transaction, info, segments));
   }
   catalogue::write_recording(*transaction, slot, info);
   if (slot == head.recordings) ++head.recordings;
@@ -226,7 +257,12 @@ bool Database::relayout(std::string_view name, const Storage& to, const Progress
   catalogue::Head head = catalogue::read_head(*transaction);
   const std::uint32_t slot = slot_of(*transaction, name).value();
   RecordingInfo info = catalogue::read_recording(*transaction, slot);
+  const bool rounded = info.motion->tolerance != stored->tolerance;
   make_visible(*transaction, info, *stored);
+  if (rounded && info.document != 0) {
+    const SegmentChunk segments = segments_if_sound(*transaction, info);
+    semantic_db::put_features(*transaction, info.document, measure_stored(*transaction, info, segments));
+  }
   catalogue::write_recording(*transaction, slot, info);
   ++head.changes;
   catalogue::write_head(*transaction, head);

@@ -4,13 +4,15 @@
 
 #include "signweave/database/catalogue.h"
 #include "signweave/database/check_listener.h"
+#include "signweave/database/measure.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/semantic_db/semantic_db.h"
 
 namespace signweave {
 namespace {
 
-/// Looks at one recording's document: that it is there and reads (else it throws), and gives the segments beside it.
+/// Looks at one recording's document: that it is there and reads (else it throws), and gives the segments beside it,
+/// and motion and segments the features.
 void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& info, CheckListener& listener) {
   const std::string source = semantic_db::read_document(snapshot, info.document, info.name);
   const SegmentChunk stored = semantic_db::read_segments(snapshot, info.document, info.name);
@@ -23,7 +25,10 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
   if (stored_bytes.bytes() != made_bytes.bytes()) {
     listener.fault(
         fmt::format("{}: the stored segments are not those of the stored annotation; import it again", info.name));
+    return;
   }
+  const std::string fault = fault_of_features(snapshot, info, stored);
+  if (!fault.empty()) listener.fault(fault);
 }
 
 class Collect : public CheckListener {

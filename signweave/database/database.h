@@ -15,6 +15,7 @@
 #include "signweave/annotation/document.h"
 #include "signweave/core/error.h"
 #include "signweave/database/recording.h"
+#include "signweave/features/phase_features.h"
 #include "signweave/features/transition_stats.h"
 #include "signweave/kv/kv_store.h"
 #include "signweave/motion/motion.h"
@@ -61,8 +62,8 @@ class Snapshot {
 
 /// Entries of one kind.
 struct Usage {
-  std::string
-      kind;  ///< "packets", "skeletons", "scalar tracks", "documents", "segments", "catalogue"; "other": not ours
+  std::string kind;  ///< "packets", "skeletons", "scalar tracks", "documents", "segments", "features", "catalogue";
+                     ///< "other": not ours
   std::uint64_t entries = 0;
   std::uint64_t bytes = 0;  ///< of keys and values, without what the engine spends beside them
 };
@@ -138,6 +139,10 @@ class Database {
   /// rounded with.
   bool relayout(std::string_view name, const Storage& to, const Progress& progress = {});
 
+  /// Measures the phases of a recording anew where what is stored of them was measured by another version, or nothing
+  /// is; false where it is current. Whatever else changes a recording measures by itself.
+  bool measure(std::string_view name);
+
   /// How motions are stored that are put from now on.
   void set_storage(const Storage& storage);
 
@@ -158,6 +163,10 @@ class Database {
 
   /// The annotation document as it was stored, `source` included. Throws Error{not_found} where there is none.
   AnnotationDocument document(std::string_view name) const;
+
+  /// What was measured of a recording's phases: one entry for each phase row of it in the segment table, in their
+  /// order. Measured now where nothing of this version is stored.
+  RecordingFeatures features(std::string_view name) const;
 
   kv::EngineInfo engine() const;
   /// What takes how much space: packets, documents, …, the largest first. Looks at every entry.

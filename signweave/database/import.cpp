@@ -319,7 +319,12 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                 std::abs(recording.clock.frame_time / known->clock.frame_time - 1.0) > 1e-12 ||
                 recording.clock_given != known->clock_given;
   }
-  if (known && !new_motion && !new_annotation && !new_clock && recording.signer == known->signer) return report;
+  recording.rig = options.rig;
+  const bool new_rig = known && options.rig && *options.rig != known->rig;
+  if (known && !new_motion && !new_annotation && !new_clock && !new_rig && recording.signer == known->signer) {
+    if (database.measure(known->name)) report.outcome = ImportOutcome::measured;
+    return report;
+  }
 
   if (has_motion && document)
     report_uncovered(signs, recording.clock, report.frames, recording.name, recording.notices);
@@ -339,6 +344,8 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                   : motion_known   ? known->motion->tracks.size()
                                    : 0;
   report.notices = recording.notices;
+  report.defects = database.info(recording.name)->defects.size();
+  if (has_motion && (document_known || new_annotation)) report.not_measured = database.features(recording.name).why_not;
   report.outcome = !known                              ? ImportOutcome::added
                    : new_motion && !motion_known       ? ImportOutcome::motion_added
                    : new_annotation && !document_known ? ImportOutcome::annotation_added

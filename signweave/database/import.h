@@ -57,13 +57,15 @@ struct ImportOptions {
   std::map<std::string, PhaseKind> phase_labels;  ///< see TierNames
   std::optional<Seconds> offset;  ///< annotation time of frame 0; else from the EAF's TIME_ORIGIN; else 0
   std::vector<SyncPoint> sync;    ///< none, or two: sets origin and rate of the clock
+  std::optional<RigNames> rig;    ///< what a mapping file says of the skeletons; none: as they were told before
   bool replace_motion = false;    ///< take a motion or face file that changed since it was imported
 };
 
 enum class ImportOutcome {
   added,
   unchanged,
-  clock_changed,     ///< or the signer
+  clock_changed,     ///< or the signer, or the rig's names
+  measured,          ///< its phases, which were measured by an earlier version
   annotation_added,  ///< to a motion that was there
   annotation_replaced,
   motion_added,  ///< to an annotation that was there
@@ -74,9 +76,11 @@ enum class ImportOutcome {
 struct ImportReport {
   std::string name;  ///< of the recording; the job's, or the one under which the same files are stored already
   ImportOutcome outcome = ImportOutcome::unchanged;
-  std::int64_t frames = 0;  ///< of the motion as it now is; 0: none
-  std::size_t tracks = 0;   ///< scalar tracks of the motion; 0 where the outcome is `unchanged`
-  std::size_t signs = 0;    ///< in the annotation as it now is; 0 where the outcome is `unchanged`
+  std::int64_t frames = 0;   ///< of the motion as it now is; 0: none
+  std::size_t tracks = 0;    ///< scalar tracks of the motion; 0 where the outcome is `unchanged`
+  std::size_t signs = 0;     ///< in the annotation as it now is; 0 where the outcome is `unchanged`
+  std::size_t defects = 0;   ///< of the motion; 0 where the outcome is `unchanged`
+  std::string not_measured;  ///< why its phases were not measured; empty: they were, or there is only one half
   std::vector<Notice> notices;
 };
 

@@ -10,10 +10,12 @@
 #include "signweave/annotation/sign.h"
 #include "signweave/core/error.h"
 #include "signweave/core/time.h"
+#include "signweave/features/defects.h"
 #include "signweave/formats/bvh.h"
 #include "signweave/motion/motion.h"
 #include "signweave/motion_db/access_mode.h"
 #include "signweave/motion_db/motion_db.h"
+#include "signweave/rig/rig_map.h"
 
 namespace signweave {
 
@@ -49,6 +51,7 @@ struct Recording {
   bool tiers_given = false;     ///< the same of the tiers
   bool signer_given = false;    ///< and of the signer
   std::vector<Notice> notices;  ///< what reading it reported; kept with the recording
+  std::optional<RigNames> rig;  ///< what a mapping file says of the skeleton; none: as it was
 };
 
 /// What a database knows of a recording without reading its motion or document.
@@ -70,6 +73,8 @@ struct RecordingInfo {
   std::uint64_t annotation_fingerprint = 0;
   std::uint64_t face_fingerprint = 0;
   std::vector<Notice> notices;
+  RigNames rig;                 ///< what a mapping file said of the skeleton; usually nothing
+  std::vector<Defect> defects;  ///< found in the motion when it was put
   /// What its document says of itself and must not be lost in what is made of it: properties "signweave:…", such as
   /// that a demo's shapes are placeholders. Name and value.
   std::vector<std::pair<std::string, std::string>> declarations;

@@ -21,6 +21,7 @@ enum class DefectKind : std::uint8_t {
   scale = 5,            ///< the body is too small or too large for a person in metres
   not_finite = 6,       ///< numbers that are no numbers
 };
+inline constexpr DefectKind kLastDefectKind = DefectKind::not_finite;
 std::string_view name_of(DefectKind kind) noexcept;
 
 /// One defect, where it is.

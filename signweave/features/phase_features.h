@@ -3,12 +3,13 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "signweave/annotation/sign.h"
 #include "signweave/core/bytes.h"
+#include "signweave/core/time.h"
 #include "signweave/features/hand_motion.h"
 
 namespace signweave {
@@ -31,30 +32,56 @@ struct HandOver {
   bool known = false;                     ///< false: the rig lacks this hand, and everything below is zero
   HandAt begin;                           ///< at the first frame
   HandAt end;                             ///< at the last frame
-  float path_length = 0;                  ///< metres
-  float displacement = 0;                 ///< metres, straight from begin to end
+  float path_length = 0;                  ///< metres: speed summed over time
+  float displacement = 0;                 ///< metres, straight from begin to end, seen from the signer
   float mean_speed = 0;                   ///< metres a second
   float peak_speed = 0;                   ///< metres a second
   float peak_time = 0;                    ///< of the peak, in [0, 1] of the phase
   float mean_acceleration = 0;            ///< of its length; metres a second squared
   float mean_curvature = 0;               ///< 1/metre, weighted by speed
-  std::array<float, kProfile> profile{};  ///< speed at equal steps from begin to end; metres a second
+  std::array<float, kProfile> profile{};  ///< speed at equal steps from first to last frame; metres a second
 };
 
-/// What is measured of one phase of a sign at import.
+/// What is measured of one phase of a sign.
 struct PhaseFeatures {
-  float seconds = 0;
-  bool known = false;              ///< false: nothing was measured (no signer space, no frame); `seconds` alone counts
+  float seconds = 0;               ///< of the frames of the phase; 0: it is shorter than a frame
+  bool known = false;              ///< false: nothing could be measured, `seconds` alone counts
   std::array<HandOver, 2> hands;   ///< [Side]
-  float hands_distance_begin = 0;  ///< metres; 0 unless both hands are known
+  float hands_distance_begin = 0;  ///< metres between the palms; 0 unless both hands are known
   float hands_distance_end = 0;
 };
 
-/// The number of the way of measuring: stored features of another version are measured anew.
+/// What is measured of the phases of one recording.
+struct RecordingFeatures {
+  std::string why_not;                ///< empty, or why nothing was measured: one line with its mend
+  std::vector<PhaseFeatures> phases;  ///< one for each phase that was asked for
+};
+
+/// The number of the way of measuring: features that were stored under another are measured anew. Count it up with any
+/// change that gives other numbers.
 inline constexpr std::uint16_t kFeatureVersion = 1;
 
-/// The features over some frames of a motion, which may be empty (a phase shorter than a frame: then those of the frame
-/// at its begin). `measured` must hold the frames.
+/// The rig of a motion and the body that it moves.
+SignerModel model_of(const Motion& motion, const RigNames& names = {});
+
+/// The features over some frames, which `measured` must hold and of which there is at least one.
 PhaseFeatures features_over(const HandMotion& measured, FrameRange frames, FrameRate rate, const SignerBody& body);
+
+/// The features of phases, given as annotation time. A phase shorter than a frame has those of the frame at its begin;
+/// of one that reaches beyond the motion, the part within is measured. One that lies outside is not known, nor one
+/// whose frames are no numbers.
+RecordingFeatures measure_phases(const Motion& motion, const SignerModel& model, std::span<const TimeSpan> phases,
+                                 const FrameClock& clock);
+
+/// False where a number is none: of a motion whose numbers are none.
+bool finite(const PhaseFeatures& phase) noexcept;
+
+/// True where two measurements say the same, give or take what another compiler rounds otherwise.
+bool nearly_same(const PhaseFeatures& a, const PhaseFeatures& b) noexcept;
+
+/// As they are stored; the layout is drawn in feature_record.cpp. `decode_features` gives none where another version
+/// measured, and throws Error{corrupt} on bytes that `encode` cannot have written.
+void encode(const RecordingFeatures& features, ByteWriter& out);
+std::optional<RecordingFeatures> decode_features(ByteReader& in);
 
 }  // namespace signweave

@@ -7,7 +7,7 @@
 namespace signweave::semantic_db {
 namespace {
 
-// Key: one letter for what the record is ('D' document, 'S' segments), then the generation.
+// Key: one letter for what the record is ('D' document, 'S' segments, 'F' features), then the generation.
 Bytes key_of(char what, std::uint64_t generation) {
   ByteWriter key;
   key.number(what);
@@ -32,7 +32,14 @@ void put(kv::WriteTransaction& transaction, std::uint64_t generation, std::strin
   transaction.put(key_of('S', generation), kv::sealed(writer.bytes()));
 }
 
+void put_features(kv::WriteTransaction& transaction, std::uint64_t generation, const RecordingFeatures& features) {
+  ByteWriter writer;
+  encode(features, writer);
+  transaction.put(key_of('F', generation), kv::sealed(writer.bytes()));
+}
+
 void erase(kv::WriteTransaction& transaction, std::uint64_t generation) {
+  transaction.erase(key_of('F', generation));
   transaction.erase(key_of('D', generation));
   transaction.erase(key_of('S', generation));
 }
@@ -40,6 +47,7 @@ void erase(kv::WriteTransaction& transaction, std::uint64_t generation) {
 std::string_view kind_of(ByteSpan key) noexcept {
   if (key.size() != 1 + sizeof(std::uint64_t)) return {};
   if (key[0] == std::byte{'D'}) return "documents";
+  if (key[0] == std::byte{'F'}) return "features";
   return key[0] == std::byte{'S'} ? "segments" : std::string_view{};
 }
 
@@ -60,6 +68,22 @@ SegmentChunk read_segments(const kv::ReadTransaction& snapshot, std::uint64_t ge
   SegmentChunk chunk = decode_segments(reader);
   reader.finish();
   return chunk;
+}
+
+std::optional<RecordingFeatures> read_features(const kv::ReadTransaction& snapshot, std::uint64_t generation,
+                                               const std::string& where) {
+  if (!snapshot.get(key_of('F', generation))) return std::nullopt;
+  const Bytes content = read_record(snapshot, 'F', generation, where + ": features");
+  ByteReader reader(content, where + ": features");
+  return decode_features(reader);
+}
+
+std::vector<TimeSpan> phase_spans(const SegmentChunk& segments) {
+  std::vector<TimeSpan> spans;
+  for (const SegmentRow& row : segments.rows) {
+    if (row.kind == RowKind::phase) spans.push_back(row.span);
+  }
+  return spans;
 }
 
 }  // namespace signweave::semantic_db

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "signweave/features/phase_features.h"
 #include "signweave/kv/kv_store.h"
 #include "signweave/semantic_db/segment_table.h"
 
@@ -18,10 +19,13 @@ namespace signweave::semantic_db {
 void put(kv::WriteTransaction& transaction, std::uint64_t generation, std::string_view document,
          const SegmentChunk& segments);
 
-/// Erases both. Doing it twice is harmless.
+/// Stores what was measured of the phases of a document's segments, in the order of their rows; instead of what was.
+void put_features(kv::WriteTransaction& transaction, std::uint64_t generation, const RecordingFeatures& features);
+
+/// Erases all three. Doing it twice is harmless.
 void erase(kv::WriteTransaction& transaction, std::uint64_t generation);
 
-/// What the record under a key is: "documents" or "segments"; empty where it is none of this database's.
+/// What the record under a key is: "documents", "segments" or "features"; empty where it is none of this database's.
 std::string_view kind_of(ByteSpan key) noexcept;
 /// The generation of the document whose record the key names; none where it is none of this database's.
 std::optional<std::uint64_t> generation_of(ByteSpan key) noexcept;
@@ -32,6 +36,13 @@ std::string read_document(const kv::ReadTransaction& snapshot, std::uint64_t gen
 
 /// The segments as they were put; throws likewise.
 SegmentChunk read_segments(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where);
+
+/// The features as they were put; none where there are none, or another version measured. Throws Error{corrupt}.
+std::optional<RecordingFeatures> read_features(const kv::ReadTransaction& snapshot, std::uint64_t generation,
+                                               const std::string& where);
+
+/// The spans of the phase rows, in the order of the rows: those that features belong to.
+std::vector<TimeSpan> phase_spans(const SegmentChunk& segments);
 
 }  // namespace signweave::semantic_db
 

@@ -1,0 +1,230 @@
+// What is measured of a recording's phases when it is stored, and when something of it changes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "signweave/database/check.h"
+#include "signweave/database/import.h"
+#include "signweave/database/test_recording.h"
+#include "signweave/semantic_db/semantic_db.h"
+
+namespace signweave {
+namespace {
+
+using namespace testing_database;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A person with arms, of whom the right one goes up and down; faster with a larger seed.
+Motion signing(std::int64_t frames, int seed) {
+  std::vector<Joint> joints = {{"Hips", kNoJoint, {0, 0.95f, 0}, true},
+                               {"Spine", 0, {0, 0.2f, 0}, false},
+                               {"Chest", 1, {0, 0.2f, 0}, false},
+                               {"Neck", 2, {0, 0.15f, 0}, false},
+                               {"Head", 3, {0, 0.08f, 0.01f}, false}};
+  std::vector<Tip> tips = {{4, {0, 0.2f, 0}}};
+  for (const float side : {1.0f, -1.0f}) {
+    const std::string name = side > 0 ? "Left" : "Right";
+    const auto add = [&](const char* part, float length) {
+      const auto parent = static_cast<JointIndex>(joints.size()) - 1;
+      joints.push_back({name + part, parent, {side * length, 0, 0}, false});
+    };
+    joints.push_back({name + "Shoulder", 2, {side * 0.03f, 0.1f, 0}, false});
+    add("Arm", 0.15f);
+    add("ForeArm", 0.28f);
+    add("Hand", 0.25f);
+    tips.push_back({static_cast<JointIndex>(joints.size()) - 1, {side * 0.15f, 0, 0}});
+  }
+  for (const float side : {1.0f, -1.0f}) {
+    const std::string name = side > 0 ? "Left" : "Right";
+    joints.push_back({name + "UpLeg", 0, {side * 0.09f, -0.05f, 0}, false});
+    const auto hip = static_cast<JointIndex>(joints.size()) - 1;
+    joints.push_back({name + "Leg", hip, {0, -0.42f, 0}, false});
+    joints.push_back({name + "Foot", hip + 1, {0, -0.4f, 0}, false});
+    tips.push_back({hip + 2, {0, -0.06f, 0.16f}});
+  }
+  Motion motion(std::make_shared<const Skeleton>(std::move(joints), std::move(tips)), {100, 1}, frames);
+  const auto arm = static_cast<std::size_t>(*motion.skeleton().find("RightArm"));
+  for (std::int64_t frame = 0; frame < frames; ++frame) {
+    const float angle = 0.6f + 0.4f * std::sin(0.05f * static_cast<float>((seed + 1) * frame));
+    motion.pose(frame).rotations[arm] = Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitZ());
+  }
+  return motion;
+}
+
+Recording recording_of(const std::string& name, int seed, const std::vector<std::string>& glosses) {
+  Recording recording = small_recording(name, seed, glosses);
+  recording.motion->motion = signing(300, seed);
+  return recording;
+}
+
+struct Scene {
+  TestFolder folder;
+  Scene() {
+    Database::create(folder / "db", {});
+    database = std::make_unique<Database>(folder / "db", kv::Access::read_write);
+  }
+  std::unique_ptr<Database> database;
+};
+
+/// The same phases, measured from what the database holds.
+RecordingFeatures measured_again(const Database& database, const std::string& name) {
+  const RecordingInfo info = *database.info(name);
+  const Motion motion = database.read(name);
+  const AnnotationDocument document = database.document(name);
+  const SegmentChunk segments = segments_of(document, signs_in(document, info.tiers).signs);
+  return measure_phases(motion, model_of(motion, info.rig), semantic_db::phase_spans(segments), info.clock);
+}
+
+void expect_current(const Database& database, const std::string& name) {
+  const RecordingFeatures stored = database.features(name);
+  const RecordingFeatures again = measured_again(database, name);
+  EXPECT_EQ(stored.why_not, again.why_not);
+  ASSERT_EQ(stored.phases.size(), again.phases.size());
+  for (std::size_t i = 0; i < stored.phases.size(); ++i) {
+    EXPECT_TRUE(nearly_same(stored.phases[i], again.phases[i])) << i;
+  }
+  EXPECT_THAT(check(database).faults, IsEmpty());
+}
+
+TEST(Features, AreStoredForEveryPhaseInTheOrderOfItsRows) {
+  Scene scene;
+  scene.database->put(recording_of("a", 1, {"A", "B"}));
+  const RecordingFeatures features = scene.database->features("a");
+  EXPECT_EQ(features.why_not, "");
+  ASSERT_EQ(features.phases.size(), 6u);
+  for (const PhaseFeatures& phase : features.phases) {
+    EXPECT_TRUE(phase.known);
+    EXPECT_GT(phase.hands[1].peak_speed, 0.1f);
+    EXPECT_LT(phase.hands[0].peak_speed, 0.01f);
+  }
+  const SegmentTable& table = scene.database->contents()->segments;
+  std::size_t at = 0;
+  for (RowId row = 0; row < table.rows().size(); ++row) {
+    if (table.row(row).kind != RowKind::phase) continue;
+    const auto ms = static_cast<float>(table.row(row).span.duration().count());
+    EXPECT_NEAR(features.phases[at++].seconds, ms / 1000, 0.011f);
+  }
+  expect_current(*scene.database, "a");
+}
+
+TEST(Features, FollowEveryChange) {
+  Scene scene;
+  Database& database = *scene.database;
+  database.put(recording_of("a", 1, {"A", "B"}));
+  const RecordingFeatures first = database.features("a");
+
+  Recording words = recording_of("a", 1, {"A", "B", "C"});
+  words.motion.reset();
+  database.put(words);
+  EXPECT_EQ(database.features("a").phases.size(), 9u);
+  expect_current(database, "a");
+
+  Recording motion = recording_of("a", 3, {});
+  motion.annotation.reset();
+  database.put(motion);
+  EXPECT_EQ(database.features("a").phases.size(), 9u);
+  EXPECT_GT(database.features("a").phases[1].hands[1].peak_speed, first.phases[1].hands[1].peak_speed);
+  expect_current(database, "a");
+
+  Recording clock{.name = "a", .signer = "s", .motion = {}, .annotation = {}};
+  clock.clock = {.frame_time = Seconds(0.01), .origin = Seconds(0.35)};
+  database.put(clock);
+  EXPECT_FALSE(database.features("a").phases[0].known) << "before the first frame";
+  expect_current(database, "a");
+
+  Recording rig = clock;
+  rig.clock.origin = Seconds(0);
+  rig.rig = RigNames{{Part::right_hand, ""}};
+  database.put(rig);
+  EXPECT_FALSE(database.features("a").phases[1].hands[1].known) << "the mapping file says that there is none";
+  expect_current(database, "a");
+  EXPECT_EQ(database.info("a")->rig, *rig.rig);
+
+  EXPECT_TRUE(database.relayout("a", {.mode = {}, .tolerance = 0.001f}));
+  expect_current(database, "a");
+
+  database.remove("a");
+  EXPECT_THAT(database.usage(), testing::Not(testing::Contains(testing::Field(&Usage::kind, "features"))));
+}
+
+TEST(Features, AMappingFileThatNamesNoJointChangesNothing) {
+  Scene scene;
+  scene.database->put(recording_of("a", 1, {"A"}));
+  Recording wrong = recording_of("a", 2, {"A"});
+  wrong.rig = RigNames{{Part::right_hand, "RightHandd"}};
+  EXPECT_THROW(scene.database->put(wrong), Error);
+  EXPECT_TRUE(same_poses(scene.database->read("a"), signing(300, 1)));
+  expect_current(*scene.database, "a");
+}
+
+TEST(Features, OfABodyThatIsNoneSayWhy) {
+  Scene scene;
+  scene.database->put(small_recording("a", 1, {"A"}));
+  const RecordingFeatures features = scene.database->features("a");
+  EXPECT_THAT(features.why_not, HasSubstr("shoulder"));
+  ASSERT_EQ(features.phases.size(), 3u);
+  EXPECT_FALSE(features.phases[0].known);
+  expect_current(*scene.database, "a");
+}
+
+TEST(Features, OfOneHalfSayWhichIsMissing) {
+  Scene scene;
+  Recording words = recording_of("words", 1, {"A"});
+  words.motion.reset();
+  scene.database->put(words);
+  EXPECT_EQ(scene.database->features("words").why_not, "annotation without motion");
+  EXPECT_EQ(scene.database->features("words").phases.size(), 3u);
+  Recording motion = recording_of("motion", 1, {});
+  motion.annotation.reset();
+  scene.database->put(motion);
+  EXPECT_EQ(scene.database->features("motion").why_not, "motion without annotation");
+  EXPECT_THAT(check(*scene.database).faults, IsEmpty());
+}
+
+/// Writes straight into the store, as damage or an earlier version would have left it.
+template <typename Change>
+void change_behind(const TestFolder& folder, Change change) {
+  const std::unique_ptr<kv::KvStore> store = kv::open(folder / "db", kv::Access::read_write);
+  const std::unique_ptr<kv::WriteTransaction> transaction = store->write();
+  change(*transaction);
+  transaction->commit();
+}
+
+TEST(Features, CheckMeasuresASampleAgain) {
+  Scene scene;
+  scene.database->put(recording_of("a", 1, {"A"}));
+  const std::uint64_t document = scene.database->info("a")->document;
+  RecordingFeatures wrong = scene.database->features("a");
+  scene.database.reset();
+  wrong.phases[1].hands[1].end.position.y() += 0.1f;
+  change_behind(scene.folder, [&](kv::WriteTransaction& to) { semantic_db::put_features(to, document, wrong); });
+  const Database database(scene.folder / "db", kv::Access::read_only);
+  EXPECT_THAT(check(database).faults, ElementsAre(HasSubstr("a: the stored features are not those of its motion (the "
+                                                            "phase from 100 to 300 ms)")));
+}
+
+TEST(Features, OfAnEarlierVersionAreMeasuredWhenAskedForAndStoredOnDemand) {
+  Scene scene;
+  scene.database->put(recording_of("a", 1, {"A"}));
+  EXPECT_FALSE(scene.database->measure("a"));
+  const std::uint64_t document = scene.database->info("a")->document;
+  scene.database.reset();
+  change_behind(scene.folder, [&](kv::WriteTransaction& to) {
+    ByteWriter key;
+    key.number('F');
+    key.number(document);
+    to.erase(key.bytes());
+  });
+  {
+    Database database(scene.folder / "db", kv::Access::read_write);
+    expect_current(database, "a");
+    EXPECT_TRUE(database.measure("a"));
+    EXPECT_FALSE(database.measure("a"));
+    expect_current(database, "a");
+  }
+}
+
+}  // namespace
+}  // namespace signweave

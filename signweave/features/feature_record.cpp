@@ -1,0 +1,138 @@
+#include <cmath>
+
+#include "signweave/features/phase_features.h"
+
+// A record of features, before it is sealed:
+//
+//     u16  kFeatureVersion
+//     text why nothing was measured (empty: it was)
+//     u32  phases, then for each:
+//       f32 seconds
+//       u8  bits: 1 something is known, 2 the left hand, 4 the right hand
+//       f32 × 2 distance between the hands at begin and end      only where something is known
+//       for each hand that is known, left first:
+//         begin and end, each: f32 × 3 position, velocity, palm, fingers; f32 openness; f32 × 15 handshape;
+//                              u8 height, across, reach, contact
+//         f32 path, displacement, mean speed, peak speed, peak time, mean acceleration, mean curvature
+//         f32 × 16 profile
+
+namespace signweave {
+namespace {
+
+// One list of members serves writing, reading and comparing.
+template <typename Hand, typename Number, typename Small>
+void each_of_end(Hand& at, Number number, Small small) {
+  for (auto* vector : {&at.position, &at.velocity, &at.palm, &at.fingers}) {
+    for (int axis = 0; axis < 3; ++axis) number((*vector)[axis]);
+  }
+  number(at.openness);
+  for (auto& value : at.handshape.values) number(value);
+  small(at.zone.height, Height::above_head);
+  small(at.zone.across, Across::right);
+  small(at.zone.reach, Reach::far);
+  small(at.contact, Contact::hands | Contact::head | Contact::torso);
+}
+
+template <typename Hand, typename Number, typename Small>
+void each_of(Hand& hand, Number number, Small small) {
+  each_of_end(hand.begin, number, small);
+  each_of_end(hand.end, number, small);
+  for (auto* value : {&hand.path_length, &hand.displacement, &hand.mean_speed, &hand.peak_speed, &hand.peak_time,
+                      &hand.mean_acceleration, &hand.mean_curvature}) {
+    number(*value);
+  }
+  for (auto& value : hand.profile) number(value);
+}
+
+constexpr std::size_t kSmallestPhase = sizeof(float) + 1;
+
+std::uint8_t bits_of(const PhaseFeatures& phase) {
+  return static_cast<std::uint8_t>((phase.known ? 1 : 0) | (phase.hands[0].known ? 2 : 0) |
+                                   (phase.hands[1].known ? 4 : 0));
+}
+
+}  // namespace
+
+void encode(const RecordingFeatures& features, ByteWriter& out) {
+  out.number(kFeatureVersion);
+  out.text(features.why_not);
+  out.number(static_cast<std::uint32_t>(features.phases.size()));
+  for (const PhaseFeatures& phase : features.phases) {
+    out.number(phase.seconds);
+    out.number(bits_of(phase));
+    if (!phase.known) continue;
+    out.number(phase.hands_distance_begin);
+    out.number(phase.hands_distance_end);
+    for (const HandOver& hand : phase.hands) {
+      if (!hand.known) continue;
+      each_of(
+          hand, [&](float value) { out.number(value); }, [&](auto value, auto) { out.number(value); });
+    }
+  }
+}
+
+std::optional<RecordingFeatures> decode_features(ByteReader& in) {
+  if (in.number<std::uint16_t>() != kFeatureVersion) return std::nullopt;
+  RecordingFeatures features{.why_not = in.text(), .phases = {}};
+  const auto number = [&](float& value) {
+    value = in.number<float>();
+    if (!std::isfinite(value)) in.fail("a feature that is no number");
+  };
+  const auto small = [&](auto& value, auto largest) {
+    value = in.number<std::remove_reference_t<decltype(value)>>();
+    if (value > largest) in.fail("a feature that does not exist");
+  };
+  features.phases.resize(in.count(kSmallestPhase));
+  for (PhaseFeatures& phase : features.phases) {
+    number(phase.seconds);
+    const auto bits = in.number<std::uint8_t>();
+    if (bits != 0 && bits != 3 && bits != 5 && bits != 7) in.fail("bits that do not fit");
+    phase.known = (bits & 1) != 0;
+    if (!phase.known) continue;
+    number(phase.hands_distance_begin);
+    number(phase.hands_distance_end);
+    for (std::size_t side = 0; side < 2; ++side) {
+      HandOver& hand = phase.hands[side];
+      hand.known = (bits & (side == 0 ? 2 : 4)) != 0;
+      if (hand.known) each_of(hand, number, small);
+    }
+  }
+  in.finish();
+  return features;
+}
+
+bool finite(const PhaseFeatures& phase) noexcept {
+  bool all = std::isfinite(phase.hands_distance_begin) && std::isfinite(phase.hands_distance_end);
+  for (const HandOver& hand : phase.hands) {
+    each_of(
+        hand, [&](float value) { all = all && std::isfinite(value); }, [](auto, auto) {});
+  }
+  return all;
+}
+
+bool nearly_same(const PhaseFeatures& a, const PhaseFeatures& b) noexcept {
+  constexpr float kRounding = 1e-3f;
+  if (bits_of(a) != bits_of(b)) return false;
+  // The same numbers in the same order, so that the lists can be held against each other.
+  std::array<float, 160> numbers{};
+  const auto same = [&](const HandOver& first, const HandOver& second) {
+    std::size_t count = 0;
+    each_of(
+        first, [&](float value) { numbers[count++] = value; }, [](auto, auto) {});
+    bool all = true;
+    count = 0;
+    each_of(
+        second,
+        [&](float value) {
+          const float other = numbers[count++];
+          all = all && std::abs(value - other) <= kRounding * (1 + std::abs(other));
+        },
+        [](auto, auto) {});
+    return all;
+  };
+  return std::abs(a.seconds - b.seconds) <= kRounding && same(a.hands[0], b.hands[0]) && same(a.hands[1], b.hands[1]) &&
+         std::abs(a.hands_distance_begin - b.hands_distance_begin) <= kRounding &&
+         std::abs(a.hands_distance_end - b.hands_distance_end) <= kRounding;
+}
+
+}  // namespace signweave

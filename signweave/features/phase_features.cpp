@@ -1,0 +1,109 @@
+#include "signweave/features/phase_features.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace signweave {
+namespace {
+
+float seconds_of(FrameRange frames, FrameRate rate) {
+  return static_cast<float>(static_cast<double>(frames.size()) * rate.frame_time().count());
+}
+
+HandAt at(const HandFrame& frame, const SignerBody& body) {
+  return {.position = frame.position,
+          .velocity = frame.velocity,
+          .palm = frame.palm,
+          .fingers = frame.fingers,
+          .openness = frame.openness,
+          .handshape = frame.handshape,
+          .zone = zone_of(frame.position, body),
+          .contact = frame.contact};
+}
+
+HandOver over(std::span<const HandFrame> frames, FrameRate rate, const SignerBody& body) {
+  HandOver hand{.known = true, .begin = at(frames.front(), body), .end = at(frames.back(), body)};
+  const auto speed = [&](std::size_t i) { return frames[i].velocity.norm(); };
+  const std::size_t last = frames.size() - 1;
+  double path = 0;
+  double speeds = 0;
+  double accelerations = 0;
+  double curvatures = 0;
+  std::size_t peak = 0;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double v = speed(i);
+    speeds += v;
+    accelerations += frames[i].acceleration.norm();
+    curvatures += v * static_cast<double>(frames[i].curvature);
+    if (v > static_cast<double>(speed(peak))) peak = i;
+    if (i > 0) path += 0.5 * (v + static_cast<double>(speed(i - 1)));
+  }
+  const auto count = static_cast<double>(frames.size());
+  hand.path_length = static_cast<float>(path * rate.frame_time().count());
+  hand.displacement = (frames.back().position - frames.front().position).norm() * body.shoulder_width;
+  hand.mean_speed = static_cast<float>(speeds / count);
+  hand.peak_speed = speed(peak);
+  hand.peak_time = last > 0 ? static_cast<float>(peak) / static_cast<float>(last) : 0;
+  hand.mean_acceleration = static_cast<float>(accelerations / count);
+  hand.mean_curvature = speeds > 0 ? static_cast<float>(curvatures / speeds) : 0;
+  for (std::size_t k = 0; k < HandOver::kProfile; ++k) {
+    const float place = static_cast<float>(k) / (HandOver::kProfile - 1) * static_cast<float>(last);
+    const auto low = std::min(static_cast<std::size_t>(place), last);
+    const std::size_t high = std::min(low + 1, last);
+    hand.profile[k] = std::lerp(speed(low), speed(high), place - static_cast<float>(low));
+  }
+  return hand;
+}
+
+}  // namespace
+
+SignerModel model_of(const Motion& motion, const RigNames& names) {
+  SignerModel model{.rig = map_rig(motion, names), .body = {}};
+  model.body = signer_body(motion, model.rig);
+  return model;
+}
+
+PhaseFeatures features_over(const HandMotion& measured, FrameRange frames, FrameRate rate, const SignerBody& body) {
+  assert(!frames.empty() && measured.range.begin <= frames.begin && frames.end <= measured.range.end);
+  PhaseFeatures features;
+  features.seconds = seconds_of(frames, rate);
+  const auto begin = static_cast<std::size_t>(frames.begin - measured.range.begin);
+  const auto count = static_cast<std::size_t>(frames.size());
+  for (const Side side : kSides) {
+    const auto index = static_cast<std::size_t>(side);
+    const std::vector<HandFrame>& all = measured.hands[index].frames;
+    if (all.empty()) continue;
+    features.hands[index] = over(std::span(all).subspan(begin, count), rate, body);
+    features.known = true;
+  }
+  if (!measured.hands_distance.empty()) {
+    features.hands_distance_begin = measured.hands_distance[begin];
+    features.hands_distance_end = measured.hands_distance[begin + count - 1];
+  }
+  return features;
+}
+
+RecordingFeatures measure_phases(const Motion& motion, const SignerModel& model, std::span<const TimeSpan> phases,
+                                 const FrameClock& clock) {
+  RecordingFeatures result;
+  result.phases.resize(phases.size());
+  if (motion.frame_count() == 0) result.why_not = "the motion has no frame";
+  if (result.why_not.empty() && !model.body) result.why_not = why_no_signer_space(model.rig);
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const FrameRange asked = frames_of(phases[i], clock);
+    FrameRange frames = clamp(asked, motion.frame_count());
+    PhaseFeatures& features = result.phases[i];
+    const bool short_one = asked.empty() && 0 <= asked.begin && asked.begin < motion.frame_count();
+    if (short_one) frames = {asked.begin, asked.begin + 1};
+    if (frames.empty()) continue;
+    if (result.why_not.empty()) {
+      features = features_over(measure_hands(motion, model, frames), frames, motion.rate(), *model.body);
+      if (!finite(features)) features = {};
+    }
+    features.seconds = short_one ? 0 : seconds_of(frames, motion.rate());
+  }
+  return result;
+}
+
+}  // namespace signweave

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "app/cli/command.h"
+#include "app/cli/defect_report.h"
 #include "app/cli/info_database.h"
 #include "app/cli/motion_options.h"
 #include "app/cli/progress.h"
@@ -45,10 +46,12 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, I
                                    {"root", skeleton.joint(0).name},
                                    {"up", file.layout.up == bvh::UpAxis::z ? "z" : "y"},
                                    {"unit", unit_name(file.layout.unit)}};
+  const std::vector<Defect> defects = find_defects(file.motion, RigMap());
   if (io.json) {
     json names = json::array();
     for (const Joint& joint : skeleton.joints()) names.push_back(joint.name);
     fields["joint_names"] = std::move(names);
+    fields["defects"] = cli::json_of(defects, skeleton);
     fields["notices"] = json_of(file.notices);
     io.out << fields.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return;
@@ -56,6 +59,7 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, I
   fields["frames_per_second"] = to_string(file.motion.rate());
   fields["seconds"] = fmt::format("{:.3f}", file.motion.duration().count());
   print_pairs(io, fields);
+  io.out << table_of(defects, skeleton, file.notices);
   print_notices(io, file.notices);
 }
 

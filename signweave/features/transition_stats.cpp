@@ -2,9 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <numeric>
+#include <utility>
+
+#include "signweave/core/text.h"
 
 namespace signweave {
+namespace {
+
+double number_of(Milliseconds time) noexcept {
+  return static_cast<double>(time.count());
+}
+
+template <typename DurationOf>
+PartStats part_of(std::span<const RecordedTransition> transitions, const DurationOf& duration_of,
+                  std::array<HandTravel, 2> TransitionMotion::*part) {
+  PartStats stats;
+  std::vector<double> durations;
+  for (const RecordedTransition& one : transitions) durations.push_back(number_of(duration_of(one.transition)));
+  stats.duration = distribution_of(durations);
+  for (std::size_t side = 0; side < stats.hands.size(); ++side) {
+    std::vector<double> displacements;
+    std::vector<double> paths;
+    std::vector<double> speeds;
+    for (std::size_t i = 0; i < transitions.size(); ++i) {
+      if (!transitions[i].motion) continue;
+      const HandTravel& travel = ((*transitions[i].motion).*part)[side];
+      if (!travel.known) continue;
+      displacements.push_back(travel.displacement);
+      paths.push_back(travel.path);
+      if (durations[i] > 0) speeds.push_back(1000 * travel.path / durations[i]);
+    }
+    stats.hands[side] = {distribution_of(displacements), distribution_of(paths), distribution_of(speeds)};
+  }
+  return stats;
+}
+
+}  // namespace
 
 std::vector<Transition> transitions_in(std::span<const Sign> signs) {
   std::vector<std::size_t> order(signs.size());
@@ -40,32 +76,75 @@ TransitionStats summarize(std::span<const Transition> transitions) {
   double preparation = 0;
   for (const Transition& transition : transitions) {
     if (transition.inferred != stats.inferred) continue;
-    durations.push_back(static_cast<double>(transition.span.duration().count()));
-    retraction += static_cast<double>(transition.retraction.count());
-    preparation += static_cast<double>(transition.preparation.count());
+    durations.push_back(number_of(transition.span.duration()));
+    retraction += number_of(transition.retraction);
+    preparation += number_of(transition.preparation);
   }
-  stats.count = durations.size();
-  if (durations.empty()) return stats;
-  std::sort(durations.begin(), durations.end());
-  const auto count = static_cast<double>(durations.size());
-  const double mean = std::accumulate(durations.begin(), durations.end(), 0.0) / count;
-  double squares = 0;
-  for (const double duration : durations) squares += (duration - mean) * (duration - mean);
+  const Distribution of = distribution_of(durations);
+  stats.count = of.count;
+  if (of.count == 0) return stats;
   const auto rounded = [](double value) { return Milliseconds(std::llround(value)); };
-  const auto quantile = [&](double q) {  // linear between the two nearest ranks
-    const double at = q * (count - 1.0);
-    const auto low = static_cast<std::size_t>(at);
-    const std::size_t high = std::min(low + 1, durations.size() - 1);
-    return rounded(durations[low] + (at - static_cast<double>(low)) * (durations[high] - durations[low]));
-  };
-  stats.mean = rounded(mean);
-  stats.deviation = rounded(std::sqrt(squares / count));
-  stats.median = quantile(0.5);
-  stats.percentile_10 = quantile(0.1);
-  stats.percentile_90 = quantile(0.9);
-  stats.mean_retraction = rounded(retraction / count);
-  stats.mean_preparation = rounded(preparation / count);
+  stats.mean = rounded(of.mean);
+  stats.deviation = rounded(of.deviation);
+  stats.median = rounded(of.median());
+  stats.percentile_10 = rounded(of.quantiles[1]);
+  stats.percentile_90 = rounded(of.quantiles[5]);
+  stats.mean_retraction = rounded(retraction / static_cast<double>(of.count));
+  stats.mean_preparation = rounded(preparation / static_cast<double>(of.count));
   return stats;
+}
+
+std::vector<RecordedTransition> recorded_transitions(const std::string& recording, std::span<const Sign> signs,
+                                                     const MotionOf& motion_of) {
+  std::vector<RecordedTransition> result;
+  for (const Transition& transition : transitions_in(signs)) {
+    const Sign& from = signs[transition.from];
+    const Sign& to = signs[transition.to];
+    result.push_back(
+        {recording, from.gloss, to.gloss, transition, motion_of ? motion_of(from, to, transition) : std::nullopt});
+  }
+  std::stable_sort(result.begin(), result.end(), [](const RecordedTransition& a, const RecordedTransition& b) {
+    return a.transition.span.begin < b.transition.span.begin;
+  });
+  return result;
+}
+
+std::vector<RecordedTransition> counted_transitions(std::span<const RecordedTransition> transitions) {
+  const bool inferred = std::all_of(transitions.begin(), transitions.end(),
+                                    [](const RecordedTransition& one) { return one.transition.inferred; });
+  std::vector<RecordedTransition> result;
+  std::copy_if(transitions.begin(), transitions.end(), std::back_inserter(result),
+               [&](const RecordedTransition& one) { return one.transition.inferred == inferred; });
+  return result;
+}
+
+TransitionSummary describe(std::span<const RecordedTransition> transitions) {
+  const std::vector<RecordedTransition> of = counted_transitions(transitions);
+  TransitionSummary summary;
+  summary.inferred = !of.empty() && of.front().transition.inferred;
+  summary.whole = part_of(
+      of, [](const Transition& t) { return t.span.duration(); }, &TransitionMotion::whole);
+  if (summary.inferred) return summary;
+  summary.retraction = part_of(
+      of, [](const Transition& t) { return t.retraction; }, &TransitionMotion::retraction);
+  summary.preparation = part_of(
+      of, [](const Transition& t) { return t.preparation; }, &TransitionMotion::preparation);
+  return summary;
+}
+
+std::vector<PairStats> by_pair(std::span<const RecordedTransition> transitions) {
+  std::map<std::pair<std::string, std::string>, std::vector<RecordedTransition>> groups;
+  for (const RecordedTransition& one : transitions) {
+    groups[{match_form(one.from), match_form(one.to)}].push_back(one);
+  }
+  std::vector<PairStats> result;
+  for (const auto& [names, group] : groups) {
+    result.push_back({group.front().from, group.front().to, describe(group)});
+  }
+  std::stable_sort(result.begin(), result.end(), [](const PairStats& a, const PairStats& b) {
+    return a.summary.whole.duration.count > b.summary.whole.duration.count;
+  });
+  return result;
 }
 
 }  // namespace signweave

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "signweave/annotation/sign.h"
 #include "signweave/core/time.h"
+#include "signweave/features/distribution.h"
 
 namespace signweave {
 
@@ -48,5 +52,74 @@ struct TransitionStats {
 
 /// Over the annotated transitions where there is one; else over the inferred ones.
 TransitionStats summarize(std::span<const Transition> transitions);
+
+/// How far a hand goes over a part of a transition.
+struct HandTravel {
+  bool known = false;       ///< false: not measured, and the rest is 0
+  double displacement = 0;  ///< metres, straight from begin to end
+  double path = 0;          ///< metres, along the way
+};
+
+/// What is measured of one transition's motion; every array is [Side].
+struct TransitionMotion {
+  std::array<HandTravel, 2> retraction;
+  std::array<HandTravel, 2> preparation;
+  std::array<HandTravel, 2> whole;  ///< from the end of one stroke to the begin of the next
+};
+
+/// A transition with its names.
+struct RecordedTransition {
+  std::string recording;
+  std::string from;  ///< gloss, verbatim
+  std::string to;
+  Transition transition;
+  std::optional<TransitionMotion> motion;  ///< none: not measured
+};
+
+/// What to take for a transition's motion, whose signs are `from` and `to`; may be empty, and may answer none.
+using MotionOf =
+    std::function<std::optional<TransitionMotion>(const Sign& from, const Sign& to, const Transition& transition)>;
+
+/// The transitions of one recording, as `transitions_in` finds them, in the order of time.
+std::vector<RecordedTransition> recorded_transitions(const std::string& recording, std::span<const Sign> signs,
+                                                     const MotionOf& motion_of = {});
+
+/// One hand over one part of several transitions (the paper, section 5.1).
+struct TravelStats {
+  Distribution displacement;  ///< metres
+  Distribution path;          ///< metres
+  Distribution speed;         ///< average velocity, path over duration: metres a second
+};
+
+/// One part of several transitions.
+struct PartStats {
+  Distribution duration;             ///< milliseconds
+  std::array<TravelStats, 2> hands;  ///< [Side]; count 0 where nothing was measured
+};
+
+/// Several transitions, whole and in parts.
+struct TransitionSummary {
+  bool inferred = false;  ///< from gaps between signs without phases: retraction and preparation tell nothing then
+  PartStats retraction;
+  PartStats preparation;
+  PartStats whole;
+};
+
+/// Over the annotated transitions where there is one; else over the inferred ones, whose parts have count 0.
+TransitionSummary describe(std::span<const RecordedTransition> transitions);
+
+/// Those that `describe` counts.
+std::vector<RecordedTransition> counted_transitions(std::span<const RecordedTransition> transitions);
+
+/// The transitions from one gloss to another.
+struct PairStats {
+  std::string from;  ///< as first written
+  std::string to;
+  TransitionSummary summary;
+};
+
+/// By how often they occur, then by name. Glosses are compared in match form. A pair that occurs annotated and
+/// inferred is told from the annotated.
+std::vector<PairStats> by_pair(std::span<const RecordedTransition> transitions);
 
 }  // namespace signweave

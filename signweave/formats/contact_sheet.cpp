@@ -13,6 +13,7 @@
 #include "signweave/core/error.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/figure.h"
+#include "signweave/formats/svg_text.h"
 #include "signweave/motion/blend.h"
 #include "signweave/motion/kinematics.h"
 
@@ -30,51 +31,6 @@ constexpr double kTitleSize = 16;
 constexpr double kNoteSize = 12;
 constexpr std::string_view kArrow = " → ";
 
-std::string xml(std::string_view text) {
-  const bool readable = is_utf8(text);
-  std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        // XML allows no control characters but the white ones, not even escaped.
-        if (byte < 0x20) {
-          result += ' ';
-        } else if (byte >= 0x7f && !readable) {
-          result += '?';
-        } else {
-          result += c;
-        }
-    }
-  }
-  return result;
-}
-
-/// About how wide a text is, in its font's size: nothing here knows the font that a viewer takes.
-double ems(std::string_view text) {
-  double width = 0;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xc0U) == 0x80) continue;  // goes on with a character
-    const bool wide = byte >= 0xe3;        // the scripts of East Asia, pictures
-    const bool capital = c >= 'A' && c <= 'Z';
-    width += wide ? 1.0 : capital ? 0.7 : 0.6;
-  }
-  return width;
-}
-
 /// One line of text, no wider than `room` pixels: as large as `size`, smaller where that is too wide.
 struct Line {
   double x = 0, y = 0, size = 0, room = 0;
@@ -83,14 +39,14 @@ struct Line {
 
 void put_text(const Line& line, std::string_view what, std::string& out) {
   constexpr double kLeast = 5;  // pixels; what is smaller is no text
-  const double wide = ems(what);
+  const double wide = svg_ems(what);
   const double fits = wide > 0 ? std::floor(10 * line.room / wide) / 10 : line.size;
   const double size = std::clamp(fits, kLeast, line.size);
   const std::string squeezed =
       fits < kLeast ? fmt::format(" textLength=\"{:.1f}\" lengthAdjust=\"spacingAndGlyphs\"", line.room) : "";
   fmt::format_to(std::back_inserter(out),
                  "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\"{} text-anchor=\"{}\" fill=\"#202226\">{}</text>\n",
-                 line.x, line.y, size, squeezed, line.anchor, xml(what));
+                 line.x, line.y, size, squeezed, line.anchor, svg_text(what));
 }
 
 void put_caption(std::string_view caption, std::string& out) {
@@ -100,7 +56,7 @@ void put_caption(std::string_view caption, std::string& out) {
             .room = kCellWidth - 2 * kMargin,
             .anchor = "middle"};
   const std::size_t arrow = caption.find(kArrow);
-  if (arrow == std::string_view::npos || ems(caption) * kCaptionSize <= line.room) {
+  if (arrow == std::string_view::npos || svg_ems(caption) * kCaptionSize <= line.room) {
     put_text(line, caption, out);
     return;
   }

@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "signweave/core/text.h"
+#include "signweave/features/defect_watch.h"
+
+namespace signweave::defect {
+namespace {
+
+using Eigen::Vector3f;
+
+// All (ours).
+constexpr float kLevel = 0.30f;     // sine of 17.5°: how far an arm may rise or fall
+constexpr float kSideways = 0.94f;  // cosine of 20°: from the line of the shoulders
+constexpr float kStraight = 0.94f;  // cosine of 20°: at the elbow
+constexpr double kHeld = 0.5;       // seconds that a T-pose in the middle of a recording must be held
+constexpr double kStill = 0.15;     // m/s at most meanwhile: arms also pass through the pose
+// Adults: 1.2 m and 2.3 m are well beyond all but a few.
+constexpr double kShortest = 1.2;
+constexpr double kTallest = 2.3;
+// From the head's joint to the crown, of the bones below: where nothing says it, and at most. An eye or a camera may
+// hang far off the head.
+constexpr double kCrown = 0.10;
+constexpr double kMostCrown = 0.25;
+constexpr std::int64_t kFramesMeasured = 50;
+
+Part of_side(int side, Part left) {
+  return of(side == 0 ? Side::left : Side::right, left);
+}
+
+bool in_t_pose(const RigMap& rig, const ModelPose& model) {
+  std::array<Vector3f, 2> shoulders;
+  for (int side = 0; side < 2; ++side) {
+    shoulders[static_cast<std::size_t>(side)] = position_of(rig[of_side(side, Part::left_upper_arm)], model);
+  }
+  Vector3f across = shoulders[0] - shoulders[1];  // to the left
+  across.y() = 0;
+  if (across.norm() < 1e-4f) return false;
+  across.normalize();
+  for (int side = 0; side < 2; ++side) {
+    const Vector3f shoulder = shoulders[static_cast<std::size_t>(side)];
+    const Vector3f wrist = position_of(rig[of_side(side, Part::left_hand)], model);
+    const Vector3f arm = (wrist - shoulder).normalized();
+    if (std::abs(arm.y()) > kLevel || arm.dot(side == 0 ? across : -across) < kSideways) return false;
+    const PartPlace& elbow = rig[of_side(side, Part::left_forearm)];
+    if (!elbow.known()) continue;
+    const Vector3f at = position_of(elbow, model);
+    if ((at - shoulder).normalized().dot((wrist - at).normalized()) < kStraight) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TPoseWatch::TPoseWatch(const Motion& motion, const RigMap& rig) : motion_(motion), rig_(rig), can_tell_(true) {
+  for (int side = 0; side < 2; ++side) {
+    can_tell_ = can_tell_ && rig.has(of_side(side, Part::left_upper_arm)) && rig.has(of_side(side, Part::left_hand));
+  }
+}
+
+void TPoseWatch::see(std::int64_t frame, const ModelPose& model) {
+  if (!in_t_pose(rig_, model)) {
+    end_stretch(frame);
+    return;
+  }
+  const std::array<Vector3f, 2> wrists = {position_of(rig_[Part::left_hand], model),
+                                          position_of(rig_[Part::right_hand], model)};
+  if (since_ < 0) {
+    since_ = frame;
+    way_ = 0;
+  } else {
+    for (std::size_t side = 0; side < 2; ++side) way_ += static_cast<double>((wrists[side] - wrists_[side]).norm());
+  }
+  wrists_ = wrists;
+}
+
+void TPoseWatch::end_stretch(std::int64_t end) {
+  if (since_ < 0) return;
+  const FrameRange frames{since_, end};
+  since_ = -1;
+  const double seconds = static_cast<double>(frames.size()) / motion_.rate().hertz();
+  const bool at_edge = frames.begin == 0 || end == motion_.frame_count();
+  if (!at_edge && (seconds < kHeld || way_ / 2 / seconds > kStill)) return;
+  const bool all = frames.begin == 0 && end == motion_.frame_count();
+  found_.push_back({.kind = DefectKind::t_pose,
+                    .frames = frames,
+                    .value = static_cast<float>(seconds),
+                    .text = all ? "every frame is a T-pose: there is no signing in it"
+                                : fmt::format("both arms straight out sideways{}: calibration, no signing; leave these "
+                                              "frames out",
+                                              frames.begin == 0              ? " at the start"
+                                              : end == motion_.frame_count() ? " at the end"
+                                                                             : "")});
+}
+
+std::vector<Defect> TPoseWatch::found() {
+  if (can_tell_) end_stretch(motion_.frame_count());
+  return found_;
+}
+
+bool has_permuted_root(const Motion& motion) {
+  const Skeleton& skeleton = motion.skeleton();
+  if (motion.frame_count() < 2 || !skeleton.joint(0).translated) return false;
+  const Eigen::Quaternionf first = motion.pose(0).rotations[0];
+  const Vector3f offset = skeleton.joint(0).offset;
+  const Eigen::AngleAxisf turn(first);
+  const double degrees = static_cast<double>(turn.angle()) * 180 / std::numbers::pi;
+  if (degrees < 0.01 || offset.norm() < 1e-6f) return false;
+  if (std::abs(turn.axis().dot(offset.normalized())) < 0.999f) return false;
+  const double per_metre = degrees / static_cast<double>(offset.norm());
+  if (per_metre < 0.9 || per_metre > 1100) return false;  // file units a metre: m to mm
+  bool shifts = false;
+  for (std::int64_t frame = 1; frame < motion.frame_count(); ++frame) {
+    if (motion.pose(frame).rotations[0].coeffs() != first.coeffs()) return false;
+    shifts = shifts || motion.pose(frame).translations[0] != motion.pose(0).translations[0];
+  }
+  return shifts;
+}
+
+namespace {
+
+/// The way along the bones from a foot to the head, metres, in the mean of some frames.
+double bones_between(const Motion& motion, JointIndex foot, JointIndex head) {
+  const Skeleton& skeleton = motion.skeleton();
+  const std::int64_t step = std::max<std::int64_t>(1, motion.frame_count() / kFramesMeasured);
+  const auto bone = [&](JointIndex joint) {
+    const std::optional<std::size_t> translation = skeleton.translation_of(joint);
+    if (!translation) return static_cast<double>(skeleton.joint(joint).offset.norm());
+    double sum = 0;
+    double seen = 0;
+    for (std::int64_t frame = 0; frame < motion.frame_count(); frame += step, seen += 1) {
+      sum += static_cast<double>(motion.pose(frame).translations[*translation].norm());
+    }
+    return sum / seen;
+  };
+  double length = 0;
+  for (JointIndex a = foot, b = head; a != b;) {
+    JointIndex& later = a > b ? a : b;
+    length += bone(later);
+    later = skeleton.joint(later).parent;
+  }
+  return length;
+}
+
+/// From the head's joint to the top of the head, metres; none where the rig does not say.
+std::optional<double> crown_of(const Motion& motion, const RigMap& rig) {
+  const JointIndex head = rig[Part::head].joint;
+  if (rig.has(Part::head_top)) {
+    const PartPlace& top = rig[Part::head_top];
+    return bones_between(motion, top.joint, head) + static_cast<double>(top.offset.norm());
+  }
+  std::optional<double> crown;
+  for (const Tip& tip : motion.skeleton().tips()) {
+    if (tip.joint == head) crown = std::max(crown.value_or(0), static_cast<double>(tip.offset.norm()));
+  }
+  return crown;
+}
+
+}  // namespace
+
+std::vector<Defect> odd_scale(const Motion& motion, const RigMap& rig) {
+  const PartPlace& head = rig[Part::head];
+  double legs = 0;
+  int count = 0;
+  for (const Part foot : {Part::left_foot, Part::right_foot}) {
+    if (!head.known() || !rig.has(foot)) continue;
+    legs += bones_between(motion, rig[foot].joint, head.joint);
+    ++count;
+  }
+  if (count == 0) return {};
+  const double bones = legs / count;
+  const double stature = bones + std::min(crown_of(motion, rig).value_or(kCrown * bones), kMostCrown * bones);
+  if (!std::isfinite(stature) || (stature >= kShortest && stature <= kTallest)) return {};
+  Defect defect{.kind = DefectKind::scale, .value = static_cast<float>(stature)};
+  defect.text = fmt::format(
+      "the body is {:.3g} m tall, as its bones go from foot to head: read the file with another "
+      "--unit",
+      stature);
+  return {defect};
+}
+
+}  // namespace signweave::defect

@@ -15,6 +15,7 @@
 #include "signweave/core/text.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/formats/face_csv.h"
+#include "signweave/rig/rig_map.h"
 
 namespace signweave::cli {
 namespace {
@@ -46,7 +47,7 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, I
                                    {"root", skeleton.joint(0).name},
                                    {"up", file.layout.up == bvh::UpAxis::z ? "z" : "y"},
                                    {"unit", unit_name(file.layout.unit)}};
-  const std::vector<Defect> defects = find_defects(file.motion, RigMap());
+  const std::vector<Defect> defects = find_defects(file.motion, map_rig(file.motion));
   if (io.json) {
     json names = json::array();
     for (const Joint& joint : skeleton.joints()) names.push_back(joint.name);

@@ -12,11 +12,11 @@
 namespace signweave {
 
 /// A row that takes part in an answer.
-struct Part {
+struct SegmentPart {
   RowId row = kNoRow;
   std::string name;  ///< as Segment::name of that row alone
   TimeSpan span{};
-  friend bool operator==(const Part&, const Part&) = default;
+  friend bool operator==(const SegmentPart&, const SegmentPart&) = default;
 };
 
 /// One answer (the paper, section 4.2: "each segment a name as well as starting and ending time stamps").
@@ -30,7 +30,7 @@ struct Segment {
   RowId row = kNoRow;  ///< of a sequence: its first place
   /// Every place in order, each followed by its partners in relations; empty for a query of one place without
   /// relations.
-  std::vector<Part> parts;
+  std::vector<SegmentPart> parts;
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "app/cli/defect_report.h"
+#include "app/cli/rig_report.h"
 #include "app/cli/storage_options.h"
 #include "app/cli/table.h"
 #include "signweave/core/text.h"
@@ -164,12 +165,17 @@ void info_of_recording(const std::string& folder, const std::string& name, Io& i
   if (io.json) {
     fields["notices"] = json_of(info.notices);
     if (model)
-      if (model) fields["defects"] = json_of(info.defects, *database.skeleton(name));
+      if (model) fields["rig"] = json_of_rig(*database.skeleton(name), model->rig);
+    if (model) fields["defects"] = json_of(info.defects, *database.skeleton(name));
     io.out << fields.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
     return;
   }
   print_pairs(io, fields);
-  if (model) io.out << table_of(info.defects, *database.skeleton(name), info.notices);
+  if (model) {
+    const std::shared_ptr<const Skeleton> skeleton = database.skeleton(name);
+    io.out << table_of(info.defects, *skeleton, info.notices);
+    print_rig(*skeleton, model->rig, info.name, io);
+  }
   print_notices(io, info.notices);
 }
 

@@ -32,6 +32,17 @@ std::string place_name(const Skeleton& skeleton, const PartPlace& place) {
   return fmt::format("{}{}", printable(skeleton.joint(place.joint).name), place.offset.isZero() ? "" : "+");
 }
 
+/// "…2" for LeftHandIndex2 after LeftHandIndex1.
+std::string shortened(const std::string& name, const std::string& before) {
+  std::size_t same = 0;
+  while (same < std::min(name.size(), before.size()) && name[same] == before[same]) ++same;
+  while (same > 0 && (name[same] & 0xC0) == 0x80) --same;  // between letters, not inside one
+  if (same < 4 || name.size() - same > 3) return name;
+  // A number stays whole: Finger1, Finger11 -> Finger1 …11.
+  while (same > 0 && name[same - 1] >= '0' && name[same - 1] <= '9') --same;
+  return "…" + name.substr(same);
+}
+
 std::vector<std::string> row_of(std::string name, const std::vector<std::string>& joints,
                                 const std::vector<PartPlace>& places) {
   float least = 1;
@@ -66,7 +77,8 @@ void print_rig(const Skeleton& skeleton, const RigMap& map, const std::string& w
       for (std::size_t point = 0; point < kFingerPoints; ++point) {
         const PartPlace& place = map[finger_part(side, finger, static_cast<FingerPoint>(point))];
         if (!place.known()) continue;
-        joints.push_back(place_name(skeleton, place));
+        joints.push_back(
+            shortened(place_name(skeleton, place), joints.empty() ? "" : place_name(skeleton, places.back())));
         places.push_back(place);
       }
       if (joints.empty()) continue;

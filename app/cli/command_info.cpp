@@ -12,6 +12,7 @@
 #include "app/cli/motion_options.h"
 #include "app/cli/progress.h"
 #include "app/cli/table.h"
+#include "signweave/annotation/sign.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/formats/face_csv.h"

@@ -17,7 +17,9 @@ namespace signweave {
 struct Handshape {
   static constexpr std::size_t kSize = 15;
   /// Thumb to little finger, three each: flexion at the knuckle, flexion beyond it (mean of the joints), both 0
-  /// straight to 1 fully bent, and spread from the next finger towards the thumb, 0 together to 1 (45°).
+  /// straight to 1 fully bent (90°), and spread from the next finger towards the thumb, 0 together to 1 (45°; index
+  /// from thumb 90°). The thumb's knuckle is that near the wrist, its flexion how far its first bone stands out of the
+  /// palm; its third number tells how far its end lies across the palm, 0 beside the index to 1 at the little finger.
   std::array<float, kSize> values{};
 };
 /// Root mean square difference, in [0, 1].
@@ -42,7 +44,7 @@ struct HandFrame {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();      ///< middle of the palm; signer-centred, shoulder widths
   Eigen::Vector3f velocity = Eigen::Vector3f::Zero();      ///< metres a second, signer's axes, smoothed
   Eigen::Vector3f acceleration = Eigen::Vector3f::Zero();  ///< metres a second squared, signer's axes, smoothed
-  float curvature = 0;                                     ///< of the path, 1/metre; 0 where the hand hardly moves
+  float curvature = 0;                                     ///< of the path, 1/metre; 0 below kLeastSpeed
   Eigen::Vector3f palm = Eigen::Vector3f::Zero();          ///< unit, out of the palm, signer's axes; zero: no fingers
   Eigen::Vector3f fingers = Eigen::Vector3f::Zero();  ///< unit, wrist to middle knuckle, signer's axes; zero likewise
   float openness = 0;                                 ///< 0 a fist to 1 a flat hand; 0 without fingers
@@ -74,5 +76,7 @@ struct SignerModel {
 HandMotion measure_hands(const Motion& motion, const SignerModel& model, FrameRange range);
 
 inline constexpr Seconds kSmoothing{0.1};
+/// Where a hand is slower its path has no curvature. Metres a second. (ours)
+inline constexpr float kLeastSpeed = 0.1f;
 
 }  // namespace signweave

@@ -27,4 +27,42 @@ ModelPose to_model_space(const Skeleton& skeleton, PoseView pose) {
   return result;
 }
 
+JointChains::JointChains(const Skeleton& skeleton, std::span<const JointIndex> joints)
+    : joint_count_(skeleton.joint_count()) {
+  std::vector<bool> needed(joint_count_);
+  for (JointIndex joint : joints) {
+    for (; joint != kNoJoint && !needed[static_cast<std::size_t>(joint)]; joint = skeleton.joint(joint).parent) {
+      needed[static_cast<std::size_t>(joint)] = true;
+    }
+  }
+  std::ptrdiff_t translation = 0;
+  for (std::size_t i = 0; i < joint_count_; ++i) {
+    const Joint& joint = skeleton.joints()[i];
+    if (needed[i]) {
+      const auto index = static_cast<JointIndex>(i);
+      links_.push_back({index, joint.parent, joint.translated ? translation : -1, joint.offset});
+      joints_.push_back(index);
+    }
+    if (joint.translated) ++translation;
+  }
+}
+
+void JointChains::to_model_space(PoseView pose, ModelPose& out) const {
+  out.rotations.resize(joint_count_);
+  out.positions.resize(joint_count_);
+  for (const Link& link : links_) {
+    const auto i = static_cast<std::size_t>(link.joint);
+    const Eigen::Vector3f& local =
+        link.translation < 0 ? link.offset : pose.translations[static_cast<std::size_t>(link.translation)];
+    if (link.parent == kNoJoint) {
+      out.rotations[i] = pose.rotations[i];
+      out.positions[i] = local;
+    } else {
+      const auto parent = static_cast<std::size_t>(link.parent);
+      out.rotations[i] = out.rotations[parent] * pose.rotations[i];
+      out.positions[i] = out.positions[parent] + out.rotations[parent] * local;
+    }
+  }
+}
+
 }  // namespace signweave

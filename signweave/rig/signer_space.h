@@ -39,10 +39,12 @@ enum class Height : std::uint8_t {
   forehead = 6,
   above_head = 7,
 };
-/// Across: within half a shoulder width and a little of the middle, or beyond. Stored on disk: never renumber.
+/// Across: within kCentre of the middle, or beyond. Stored on disk: never renumber.
 enum class Across : std::uint8_t { left = 0, centre = 1, right = 2 };
 /// How far in front. Stored on disk: never renumber.
 enum class Reach : std::uint8_t { near = 0, far = 1 };
+/// Half a shoulder width and a little. (ours)
+inline constexpr float kCentre = 0.6f;  ///< shoulder widths
 struct Zone {
   Height height = Height::chest;
   Across across = Across::centre;
@@ -58,17 +60,25 @@ struct SignerBody {
   float shoulder_width = 0;  ///< metres: median over the motion; above 0
   /// y of each height's lower border, shoulder widths, ascending; [below_waist] is minus infinity.
   std::array<float, 8> heights{};
-  float near_reach = 0;  ///< z up to which a place is near, shoulder widths
-  float arm_length = 0;  ///< shoulder to wrist, shoulder widths
+  float near_reach = 0;         ///< z up to which a place is near, shoulder widths
+  float arm_length = 0;         ///< shoulder to wrist along the bones, shoulder widths
+  JointIndex trunk = kNoJoint;  ///< the joint from which both arms grow
+  /// How the signer's axes stand in that joint's space while the shoulders tell them.
+  Eigen::Quaternionf trunk_from_signer = Eigen::Quaternionf::Identity();
 };
 
-/// None where the map lacks a shoulder (then `why_not` says what is missing).
+/// Measured over at most kBodyFrames frames, spread evenly. Heights come from the body's own joints where it has them
+/// where a body has such, else from its proportions (docs/signing-space.md). None where the map lacks a shoulder, and
+/// of a motion without frames or one whose shoulders are always in one place.
 std::optional<SignerBody> signer_body(const Motion& motion, const RigMap& rig);
-/// Why there is no signer-centred space: "no left shoulder: name it in a mapping file"; empty where there is one.
+inline constexpr std::int64_t kBodyFrames = 240;
+/// Why a map gives no signer-centred space: "no left shoulder: name it in a mapping file"; empty where it has both.
 std::string why_no_signer_space(const RigMap& rig);
 
-/// The space of one pose. Robust to the signer turning: it turns about the vertical with the shoulders, does not lean
-/// with the trunk, and where the shoulders stand one above the other (no direction across) it takes the trunk's.
+/// The space of one pose, of which the shoulders and the joint `body.trunk` are looked at. It turns about the vertical
+/// with the shoulders and does not lean with the trunk; the less the shoulders tell of a direction across (one above
+/// the other, or in one place), the more the trunk's own counts, without a step. Numbers that are none give a space,
+/// too.
 SignerSpace signer_space(const SignerBody& body, const RigMap& rig, const ModelPose& pose) noexcept;
 
 /// The zone of a place (shoulder widths, signer-centred space).

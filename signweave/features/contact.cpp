@@ -1,0 +1,140 @@
+#include "signweave/features/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signweave {
+namespace {
+
+using Eigen::Vector3f;
+
+// Shoulder widths.
+constexpr float kTorsoRadius = 0.33f;  // half as deep as a trunk
+constexpr float kTorsoAside = 0.17f;   // of each bar's line from the middle
+// Shares of the head's height from the chin to the top.
+constexpr float kHeadRadius = 0.36f;   // between half its breadth and half its depth
+constexpr float kHeadForward = 0.10f;  // the skull's middle before the line from its joint to its top
+// Shares of the arm's length.
+constexpr float kPalmRadius = 0.030f;
+constexpr float kFingerRadius = 0.017f;
+constexpr float kHandLength = 0.32f;  // wrist to finger tips: 0.108 of the stature (Drillis and Contini 1966)
+
+/// Between the nearest points of two stretches of lines.
+float distance_between(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
+  const Vector3f u = b - a;
+  const Vector3f v = d - c;
+  const Vector3f w = a - c;
+  const float uu = u.squaredNorm();
+  const float vv = v.squaredNorm();
+  const float uv = u.dot(v);
+  const float uw = u.dot(w);
+  const float vw = v.dot(w);
+  constexpr float kPoint = 1e-12f;
+  float s = 0;
+  float t = 0;
+  if (uu <= kPoint) {
+    t = vv <= kPoint ? 0 : std::clamp(vw / vv, 0.0f, 1.0f);
+  } else if (vv <= kPoint) {
+    s = std::clamp(-uw / uu, 0.0f, 1.0f);
+  } else {
+    const float across = uu * vv - uv * uv;
+    s = across > 1e-6f * uu * vv ? std::clamp((uv * vw - uw * vv) / across, 0.0f, 1.0f) : 0;
+    t = (uv * s + vw) / vv;
+    if (t < 0 || t > 1) {
+      t = std::clamp(t, 0.0f, 1.0f);
+      s = std::clamp((uv * t - uw) / uu, 0.0f, 1.0f);
+    }
+  }
+  return (w + s * u - t * v).norm();
+}
+
+}  // namespace
+
+float clearance(const Capsule& a, const Capsule& b) noexcept {
+  return distance_between(a.from, a.to, b.from, b.to) - a.radius - b.radius;
+}
+
+HandShell shell_of(const HandPoints& hand, const std::optional<Vector3f>& elbow, const SignerBody& body) noexcept {
+  const float arm = body.arm_length * body.shoulder_width;
+  HandShell shell;
+  const auto add = [&](const Vector3f& from, const Vector3f& to, float radius) {
+    shell.bars[shell.count++] = {from, to, radius};
+  };
+  for (const HandPoints::OneFinger& finger : hand.fingers) {
+    if (finger.count == 0) continue;
+    // A finger in two bars: one to its middle joint, one from there to its end.
+    const std::size_t middle = std::min<std::size_t>(1, finger.count - 1);
+    add(hand.wrist, finger.points[0], kPalmRadius * arm);
+    add(finger.points[0], finger.points[middle], kFingerRadius * arm);
+    if (finger.count > 2) add(finger.points[middle], finger.points[finger.count - 1], kFingerRadius * arm);
+  }
+  if (shell.count == 0) {
+    Vector3f end = hand.wrist;
+    if (elbow && (hand.wrist - *elbow).norm() > 1e-6f) {
+      end += kHandLength * arm * (hand.wrist - *elbow).normalized();
+    }
+    add(hand.wrist, end, kPalmRadius * arm);
+  }
+  shell.middle = hand.wrist;
+  for (const Capsule& bar : shell.all()) {
+    shell.reach = std::max(
+        {shell.reach, (bar.from - shell.middle).norm() + bar.radius, (bar.to - shell.middle).norm() + bar.radius});
+  }
+  return shell;
+}
+
+BodyShell shell_of(const SignerBody& body, const RigMap& rig, const SignerSpace& space,
+                   const ModelPose& pose) noexcept {
+  const float width = body.shoulder_width;
+  BodyShell shell;
+  const float radius = kTorsoRadius * width;
+  // The trunk's line leans with it: from between the shoulders to between the hips.
+  Vector3f hips = space.to_model({0, body.heights[static_cast<std::size_t>(Height::waist)], 0});
+  if (rig.has(Part::pelvis)) hips = position_of(rig[Part::pelvis], pose);
+  const Vector3f along = (hips - space.origin).normalized();
+  const float length = std::max((hips - space.origin).norm(), 2 * radius);
+  const Vector3f aside = kTorsoAside * width * (space.model_from_signer * Vector3f::UnitX());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vector3f middle = space.origin + (i == 0 ? aside : Vector3f(-aside));
+    shell.torso[i] = {middle + radius * along, middle + (length - radius) * along, radius};
+  }
+  if (!rig.has(Part::head)) return shell;
+
+  const auto border = [&](Height height) { return body.heights[static_cast<std::size_t>(height)]; };
+  const float face = (border(Height::forehead) - border(Height::mouth)) / 0.75f;  // chin to eyes
+  const float height = width * (border(Height::above_head) - border(Height::forehead) + face);
+  const Vector3f joint = position_of(rig[Part::head], pose);
+  Vector3f up = Vector3f::UnitY();
+  if (rig.has(Part::head_top)) {
+    up = position_of(rig[Part::head_top], pose) - joint;
+  } else if (rig.has(Part::neck)) {
+    up = joint - position_of(rig[Part::neck], pose);
+  }
+  up = up.norm() > 1e-6f ? Vector3f(up.normalized()) : Vector3f::UnitY();
+  const Vector3f top = rig.has(Part::head_top) ? position_of(rig[Part::head_top], pose) : joint + 0.87f * height * up;
+  Vector3f forward = space.model_from_signer * Vector3f::UnitZ();
+  if (rig.has(Part::left_eye) && rig.has(Part::right_eye)) {
+    forward = 0.5f * (position_of(rig[Part::left_eye], pose) + position_of(rig[Part::right_eye], pose)) - joint;
+  }
+  forward -= forward.dot(up) * up;
+  if (forward.norm() > 1e-6f) forward = kHeadForward * height * forward.normalized();
+  const float head = kHeadRadius * height;
+  shell.head = Capsule{top - head * up + forward, top - (height - head) * up + forward, head};
+  return shell;
+}
+
+bool touches(const HandShell& hand, const Capsule& other, const SignerBody& body) noexcept {
+  const float margin = kContactGap * body.shoulder_width;
+  if (clearance({hand.middle, hand.middle, hand.reach}, other) > margin) return false;
+  return std::any_of(hand.bars.begin(), hand.bars.begin() + static_cast<std::ptrdiff_t>(hand.count),
+                     [&](const Capsule& bar) { return clearance(bar, other) <= margin; });
+}
+
+bool touches(const HandShell& a, const HandShell& b, const SignerBody& body) noexcept {
+  const float margin = kContactGap * body.shoulder_width;
+  if ((a.middle - b.middle).norm() > a.reach + b.reach + margin) return false;
+  return std::any_of(a.bars.begin(), a.bars.begin() + static_cast<std::ptrdiff_t>(a.count),
+                     [&](const Capsule& bar) { return touches(b, bar, body); });
+}
+
+}  // namespace signweave

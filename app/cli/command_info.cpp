@@ -47,7 +47,7 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, I
                                    {"root", skeleton.joint(0).name},
                                    {"up", file.layout.up == bvh::UpAxis::z ? "z" : "y"},
                                    {"unit", unit_name(file.layout.unit)}};
-  const std::vector<Defect> defects = find_defects(file.motion, RigMap());
+  const std::vector<Defect> defects = find_defects(file.motion, map_rig(file.motion));
   if (io.json) {
     json names = json::array();
     for (const Joint& joint : skeleton.joints()) names.push_back(joint.name);

@@ -1,0 +1,81 @@
+#include "signweave/rig/rig_notices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace signweave {
+namespace {
+
+using enum Part;
+
+constexpr std::string_view kSideNames[] = {"left", "right"};
+
+/// "no left arm" for a limb that is not there, "left arm without forearm" for one in part.
+void tell_limb(const RigMap& map, std::string_view limb, std::initializer_list<Part> left_parts,
+               std::vector<std::string>& out) {
+  std::vector<std::string> told[2];
+  bool whole[2];
+  for (const Side side : kSides) {
+    const auto i = static_cast<std::size_t>(side);
+    whole[i] = true;
+    for (const Part left : left_parts) {
+      if (map.has(of(side, left))) {
+        whole[i] = false;
+      } else {
+        told[i].emplace_back(name_of(of(side, left)));
+      }
+    }
+  }
+  if (whole[0] && whole[1]) {
+    out.push_back(fmt::format("no {}s", limb));
+    return;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (whole[i]) out.push_back(fmt::format("one {0}: no {1} {0}", limb, kSideNames[i]));
+    if (!whole[i] && !told[i].empty()) out.push_back(fmt::format("no {}", fmt::join(told[i], ", no ")));
+  }
+}
+
+std::size_t fingers_at(const RigMap& map, Side side) {
+  return static_cast<std::size_t>(std::count_if(kFingers.begin(), kFingers.end(), [&](Finger finger) {
+    return map.has(finger_part(side, finger, FingerPoint::proximal));
+  }));
+}
+
+}  // namespace
+
+std::vector<std::string> missing_parts(const RigMap& map) {
+  const auto known = [](const PartPlace& place) { return place.known(); };
+  if (std::none_of(map.places.begin(), map.places.end(), known)) {
+    return {"no body: neither names nor shape tell any part; a mapping file can"};
+  }
+  std::vector<std::string> out;
+  for (const Part part : {pelvis, chest, neck, head}) {
+    if (!map.has(part)) out.push_back(fmt::format("no {}", name_of(part)));
+  }
+  tell_limb(map, "arm", {left_upper_arm, left_forearm, left_hand}, out);
+  tell_limb(map, "leg", {left_thigh, left_shin, left_foot}, out);
+  const std::size_t fingers[] = {fingers_at(map, Side::left), fingers_at(map, Side::right)};
+  const bool hands[] = {map.has(left_hand), map.has(right_hand)};
+  if (fingers[0] + fingers[1] == 0) {
+    if (hands[0] || hands[1]) out.emplace_back("no fingers");
+    return out;
+  }
+  for (const Side side : kSides) {
+    const auto i = static_cast<std::size_t>(side);
+    if (!hands[i] || fingers[i] == kFingers.size()) continue;
+    std::vector<std::string_view> missing;
+    constexpr std::string_view kNames[] = {"thumb", "index finger", "middle finger", "ring finger", "little finger"};
+    for (const Finger finger : kFingers) {
+      if (!map.has(finger_part(side, finger, FingerPoint::proximal))) {
+        missing.push_back(kNames[static_cast<std::size_t>(finger)]);
+      }
+    }
+    out.push_back(fingers[i] == 0 ? fmt::format("{} hand: no fingers", kSideNames[i])
+                                  : fmt::format("{} hand: no {}", kSideNames[i], fmt::join(missing, ", no ")));
+  }
+  return out;
+}
+
+}  // namespace signweave

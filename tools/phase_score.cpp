@@ -14,6 +14,22 @@ double f1_of(std::size_t right, std::size_t missed, std::size_t wrong) {
   return sum == 0 ? 0 : 2 * static_cast<double>(right) / static_cast<double>(sum);
 }
 
+/// The moments that lie more than kBorder from every change of label.
+std::vector<std::size_t> inner_moments(const LabelledTrack& recording) {
+  const std::vector<Seconds>& times = recording.track.times;
+  std::vector<bool> inner(times.size(), true);
+  for (std::size_t change = 1; change < times.size(); ++change) {
+    if (recording.labels[change] == recording.labels[change - 1]) continue;
+    for (std::size_t i = change; i-- > 0 && times[change] - times[i] <= kBorder;) inner[i] = false;
+    for (std::size_t i = change; i < times.size() && times[i] - times[change] <= kBorder; ++i) inner[i] = false;
+  }
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < inner.size(); ++i) {
+    if (inner[i]) result.push_back(i);
+  }
+  return result;
+}
+
 SplitScore score_left_out(std::span<const LabelledTrack> recordings, const TrainingOptions& options, std::string name,
                           const std::function<bool(const LabelledTrack&)>& left_out) {
   std::vector<const LabelledTrack*> learnt;
@@ -23,7 +39,10 @@ SplitScore score_left_out(std::span<const LabelledTrack> recordings, const Train
   const PhaseModel model = train(learnt, options);
   SplitScore result{.name = std::move(name)};
   for (const LabelledTrack& recording : recordings) {
-    if (left_out(recording)) result.score.add(recording.labels, told_by(model, recording));
+    if (!left_out(recording)) continue;
+    const std::vector<MotionPhase> told = told_by(model, recording);
+    result.score.add(recording.labels, told);
+    for (const std::size_t i : inner_moments(recording)) result.inner.add({&recording.labels[i], 1}, {&told[i], 1});
   }
   return result;
 }
@@ -106,13 +125,15 @@ std::string table_of(std::span<const SplitScore> scores) {
   for (std::size_t phase = 0; phase < kMotionPhases; ++phase) {
     text += fmt::format("{:>12}", name_of(static_cast<MotionPhase>(phase)));
   }
-  text += fmt::format("{:>8}{:>11}{:>11}\n", "macro", "rest/non", "its macro");
+  text += fmt::format("{:>8}{:>11}{:>11}{:>13}\n", "macro", "rest/non", "its macro", "inner macro");
   const auto line = [&](std::string_view name, std::span<const SplitScore> mean_of) {
     const auto mean = [&](const auto& value) {
       double sum = 0;
       for (const SplitScore& one : mean_of) sum += value(one.score);
       return sum / static_cast<double>(mean_of.size());
     };
+    double inner = 0;
+    for (const SplitScore& one : mean_of) inner += one.inner.macro_f1() / static_cast<double>(mean_of.size());
     std::size_t frames = 0;
     for (const SplitScore& one : mean_of) frames += one.score.frames();
     text += fmt::format("{:<18}{:>7}", name, frames);
@@ -120,9 +141,9 @@ std::string table_of(std::span<const SplitScore> scores) {
       text +=
           fmt::format("{:>12.3f}", mean([&](const PhaseScore& s) { return s.f1(static_cast<MotionPhase>(phase)); }));
     }
-    text += fmt::format("{:>8.3f}{:>11.3f}{:>11.3f}\n", mean([](const PhaseScore& s) { return s.macro_f1(); }),
+    text += fmt::format("{:>8.3f}{:>11.3f}{:>11.3f}{:>13.3f}\n", mean([](const PhaseScore& s) { return s.macro_f1(); }),
                         mean([](const PhaseScore& s) { return s.rest_accuracy(); }),
-                        mean([](const PhaseScore& s) { return s.rest_macro_f1(); }));
+                        mean([](const PhaseScore& s) { return s.rest_macro_f1(); }), inner);
   };
   for (const SplitScore& one : scores) line(one.name, {&one, 1});
   if (!scores.empty()) line("mean", scores);

@@ -29,7 +29,10 @@ struct PhaseScore {
 struct SplitScore {
   std::string name;  ///< "user b left out", "file a1 left out"
   PhaseScore score;
+  PhaseScore inner;  ///< of the frames that are more than kBorder from any border that the person set
 };
+/// Two people who mark the same recording set a border this far apart and more.
+inline constexpr Seconds kBorder{0.1};
 
 /// Trains on all users but one, for each, and on all files but one, for each; tries what was left out.
 std::vector<SplitScore> score_users_left_out(std::span<const LabelledTrack> recordings,

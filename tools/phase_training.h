@@ -17,8 +17,8 @@ struct TrainingOptions {
   float noise = 0.4F;         ///< deviation of what is added to each scaled feature
   float dropout = 0.3F;       ///< share of the middle layer that a step leaves out
   float label_doubt = 0.05F;  ///< probability that a label is any of the five
-  std::vector<double> tempos = {0.8, 0.9, 1.0, 1.1, 1.25};  ///< each recording is learnt at these durations too
-  float step_weight = 0.3F;  ///< how much of the logarithm of a step's frequency counts when decoding
+  std::vector<double> tempos = {0.8, 0.9, 1.0, 1.1, 1.25};  ///< each recording is learnt so many times as long
+  float step_weight = 0.6F;  ///< how much of the logarithm of a step's frequency counts when decoding
 };
 
 /// One frame of the leading hand, and what a person calls it. Every recording labels both hands as one.

@@ -10,7 +10,6 @@ namespace signweave {
 namespace {
 
 constexpr auto kRate = static_cast<float>(kSegmenterRate);
-constexpr std::array kLags = {-30, -20, -14, -9, -5, -2, 2, 5, 9, 14, 20, 30};  ///< frames: up to a second each way
 
 /// A hand over one stretch, relative to the trunk, trunk lengths; x outwards on both sides.
 struct HandPath {
@@ -190,7 +189,7 @@ Signal logarithm(const Signal& signal, float unit) {
 }
 
 /// Strokes are slower than transitions yet accelerate more (Jantunen 2013): so speed, acceleration, straightness and
-/// the way to and from the resting place stand side by side, at several widths and up to a second each way.
+/// the way to and from the resting place stand side by side, at several widths: up to a second and a third each way.
 std::vector<float> features_of(const HandPath& hand, const OwnMeasures& own) {
   const std::size_t frames = hand.speed.size();
   const Path& path = hand.path;
@@ -213,8 +212,6 @@ std::vector<float> features_of(const HandPath& hand, const OwnMeasures& own) {
   const Signal leaving_2 = difference(smoothed(distance, 2));
   const Signal leaving_6 = difference(smoothed(distance, 6));
   const Path velocity_3 = {difference(path_3[0]), difference(path_3[1]), difference(path_3[2])};
-  const Path path_1 = smoothed(path, 1.5);
-  const Signal distance_1 = smoothed(distance, 1.5);
   const float per_speed = kRate / own.speed;
 
   std::vector<float> values;
@@ -237,15 +234,6 @@ std::vector<float> features_of(const HandPath& hand, const OwnMeasures& own) {
   columns.add([&](std::size_t i) { return path[1][i]; });
   for (std::size_t axis = 0; axis < 3; ++axis) {
     columns.add([&](std::size_t i) { return velocity_3[axis][i] * per_speed; });
-  }
-  for (const int lag : kLags) {
-    columns.add([&](std::size_t i) { return log_speed_3[shifted(i, lag, frames)]; });
-    columns.add([&](std::size_t i) { return distance_1[shifted(i, lag, frames)] / own.distance; });
-    columns.add([&](std::size_t i) { return path_1[1][shifted(i, lag, frames)] - path[1][i]; });
-    columns.add([&](std::size_t i) {
-      const std::size_t k = shifted(i, lag, frames);
-      return std::hypot(path_1[0][k] - path[0][i], path_1[1][k] - path[1][i], path_1[2][k] - path[2][i]) / own.distance;
-    });
   }
   for (const int width : {15, 40}) {
     for (const int direction : {1, -1}) {

@@ -145,6 +145,25 @@ TEST(RigOfRealFiles, IsWhatAPersonReadsOffThem) {
   EXPECT_THAT(seen, testing::Each(true)) << "every exporter was there";
 }
 
+/// A mirrored body has its left where the names say right; every real body shows it.
+TEST(RigOfRealFiles, TellsThatAMirroredBodyIsTheOtherWayRound) {
+  const fs::path root = fs::path(SIGNWEAVE_SHARED_DATA) / "bvh";
+  std::size_t bodies = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
+    if (entry.path().extension() != ".bvh") continue;
+    bvh::ReadOptions mirrored;
+    mirrored.mirror = true;
+    const RigMap map = map_rig(bvh::read(entry.path(), mirrored).motion);
+    if (!map.has(left_hand) || !map.has(right_hand)) continue;
+    const RigMap plain = map_rig(bvh::read(entry.path(), {}).motion);
+    ++bodies;
+    EXPECT_TRUE(map.sides_swapped) << entry.path();
+    EXPECT_EQ(map[left_hand].joint, plain[right_hand].joint);
+    EXPECT_EQ(map[right_foot].joint, plain[left_foot].joint);
+  }
+  EXPECT_GE(bodies, 77u);
+}
+
 /// The body's shape alone: what it tells, it tells as the names do.
 TEST(RigOfRealFiles, IsTheSameByShapeWhereTheWholeBodyIsThere) {
   const fs::path root = fs::path(SIGNWEAVE_SHARED_DATA) / "bvh";

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "signweave/rig/test_rigs.h"
@@ -262,8 +263,10 @@ TEST(RigMap, KnowsTheNamesOfEachConvention) {
     EXPECT_EQ(map.convention, rig.convention);
     EXPECT_FALSE(map.sides_swapped) << rig.convention;
     expect_body(motion, map, rig.naming, rig.convention);
-    for (const Part part : {left_hand, right_foot, chest}) {
-      EXPECT_EQ(map[part].evidence, Evidence::name) << rig.convention;
+    for (std::size_t i = 0; i < kPartCount; ++i) {
+      const auto part = static_cast<Part>(i);
+      if (!map.has(part)) continue;
+      EXPECT_EQ(map[part].evidence, Evidence::name) << rig.convention << ": " << name_of(part);
       EXPECT_EQ(map[part].confidence, 1.0f) << rig.convention << ": " << name_of(part);
     }
     if (rig.naming.fingers.empty()) {
@@ -416,10 +419,13 @@ TEST(RigMap, AMappingFileHasTheLastWord) {
 TEST(RigMap, ReadsAFewFramesOfALongMotion) {
   const Motion motion = rig_body(rigs()[0].naming, 12'000);
   map_rig(motion);  // the tables are made once
-  const auto begin = std::chrono::steady_clock::now();
-  map_rig(motion);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(25))
-      << "under 5 ms where nobody else runs";
+  auto least = std::chrono::steady_clock::duration::max();
+  for (int run = 0; run < 5; ++run) {  // the best of some: others run beside
+    const auto begin = std::chrono::steady_clock::now();
+    map_rig(motion);
+    least = std::min(least, std::chrono::steady_clock::now() - begin);
+  }
+  EXPECT_LT(least, std::chrono::milliseconds(5));
 }
 
 RC_GTEST_PROP(RigMapProperty, AnySkeletonHasAMapOfItsOwnJoints, ()) {

@@ -59,7 +59,13 @@ std::vector<std::string> row_of(std::string name, const std::vector<std::string>
 }  // namespace
 
 RigMap rig_map_of(const Motion& motion, const std::string& path) {
-  return map_rig(motion, path.empty() ? RigNames() : read_rig_names(path));
+  if (path.empty()) return map_rig(motion);
+  const RigNames names = read_rig_names(path);
+  try {
+    return map_rig(motion, names);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", path, error.what()));
+  }
 }
 
 void print_rig(const Skeleton& skeleton, const RigMap& map, const std::string& where, Io& io) {

@@ -135,10 +135,14 @@ constexpr NameRow kVrm[] = {
     {left_toes, "@Toes @ToeBase Toes_@"},
 };
 constexpr FingerNames kVrmFingers[] = {
-    {"@%#", "Thumb Index Middle Ring Little", "- Proximal Intermediate Distal Tip",
-     "Metacarpal - Intermediate Distal Tip"},
+    {"@%#", "Thumb Index Middle Ring Little", "- Proximal Intermediate Distal Tip"},
     {"@%#", "Thumb Index Middle Ring Little", "- 1 2 3 4"},
     {"%#_@", "Thumb Index Middle Ring Little", "- Proximal Intermediate Distal Tip"},
+};
+// Since 1.0 the thumb's joints are called one further out.
+constexpr FingerNames kVrm1Fingers[] = {
+    {"@%#", "- Index Middle Ring Little", "- Proximal Intermediate Distal Tip"},
+    {"@%#", "Thumb - - - -", "- Metacarpal Proximal Distal Tip"},
 };
 
 // MakeHuman's default rig: limbs in halves, the spine counted from above.
@@ -270,6 +274,7 @@ constexpr Convention kConventions[] = {
     {"CMU with MotionBuilder's names", "Left L", "Right R", kCmuMotionBuilder, kCmuFingers, "lhipjoint"},
     {"Unreal", "l", "r", kUnreal, kUnrealFingers},
     {"VRM", "Left L", "Right R", kVrm, kVrmFingers},
+    {"VRM 1.0", "Left L", "Right R", kVrm, kVrm1Fingers, "thumbmetacarpal"},
     {"Bandai-Namco", "L", "R", kVrm, kVrmFingers, "joint_root"},
     {"MakeHuman", "L", "R", kMakeHuman, kMakeHumanFingers},
     {"OptiTrack", "L Left", "R Right", kOptiTrack, kShortFingers},

@@ -17,9 +17,8 @@ struct NameRow {
 /// How the joints of fingers are called: `@` stands for the side, `%` for the finger, `#` for the point.
 struct FingerNames {
   std::string_view pattern;
-  std::string_view fingers;     ///< five words, thumb to little finger; `-` where there is none
-  std::string_view points;      ///< five words, metacarpal to tip; `-` where there is none
-  std::string_view thumb = {};  ///< the same for the thumb, where it differs
+  std::string_view fingers;  ///< five words, thumb to little finger; `-` where there is none
+  std::string_view points;   ///< five words, metacarpal to tip; `-` where there is none
 };
 
 struct Convention {

@@ -70,8 +70,7 @@ void add_fingers(const FingerNames& names, Side side, std::string_view word, Tab
     const std::string_view called = fingers[static_cast<std::size_t>(finger)];
     if (called == "-") continue;
     const std::string begun = with(with(names.pattern, '@', word), '%', called);
-    const bool own = finger == Finger::thumb && !names.thumb.empty();
-    const std::vector<std::string_view> points = words(own ? names.thumb : names.points);
+    const std::vector<std::string_view> points = words(names.points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (points[i] == "-") continue;
       const Part part = finger_part(side, finger, static_cast<FingerPoint>(i));

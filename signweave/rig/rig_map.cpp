@@ -9,6 +9,7 @@
 
 #include "signweave/core/text.h"
 #include "signweave/rig/body_shape.h"
+#include "signweave/rig/growth.h"
 #include "signweave/rig/name_match.h"
 #include "signweave/rig/rig_notices.h"
 #include "signweave/rig/sides.h"
@@ -55,7 +56,7 @@ class Mapper {
           .joint = names_.joints[i], .offset = Vector3f::Zero(), .evidence = Evidence::name, .confidence = kByName};
     }
     take_file();
-    drop_what_cannot_grow();
+    drop_what_cannot_grow(skeleton_, map_);
     take_limbs();
     take_trunk();
     take_fingers();
@@ -90,35 +91,6 @@ class Mapper {
         if (place.joint == *joint && place.evidence == Evidence::name) place = {};
       }
       map_[part] = {.joint = *joint, .offset = Vector3f::Zero(), .evidence = Evidence::file, .confidence = 1};
-    }
-  }
-
-  /// A part that a name puts where it cannot grow from what it grows from in a body is not there.
-  void drop_what_cannot_grow() {
-    const auto check = [&](std::initializer_list<Part> line) {
-      JointIndex above = kNoJoint;
-      for (const Part part : line) {
-        if (!map_.has(part)) continue;
-        const JointIndex joint = map_[part].joint;
-        if (map_[part].evidence == Evidence::name && above != kNoJoint && !grows_from(skeleton_, joint, above)) {
-          map_[part] = {};
-          continue;
-        }
-        above = joint;
-      }
-    };
-    check({neck, head, head_top});
-    check({head, jaw});
-    for (const Side side : kSides) {
-      check({head, of(side, left_eye)});
-      check({of(side, left_clavicle), of(side, left_upper_arm), of(side, left_forearm), of(side, left_hand)});
-      check({of(side, left_thigh), of(side, left_shin), of(side, left_foot), of(side, left_toes)});
-      for (const Finger finger : kFingers) {
-        check({of(side, left_hand), finger_part(side, finger, FingerPoint::proximal),
-               finger_part(side, finger, FingerPoint::intermediate), finger_part(side, finger, FingerPoint::distal),
-               finger_part(side, finger, FingerPoint::tip)});
-        check({of(side, left_hand), finger_part(side, finger, FingerPoint::metacarpal)});
-      }
     }
   }
 
@@ -168,6 +140,7 @@ class Mapper {
     } else {
       match_sides();
     }
+    tell_shoulders_apart();
     const float sure = sides_guessed_ ? kSideGuessed : 1.0f;
     for (const Side side : kSides) {
       const auto i = static_cast<std::size_t>(side);
@@ -184,6 +157,20 @@ class Mapper {
         take(of(side, left_shin), leg.lower, sure * kByShape);
         take(of(side, left_foot), leg.end, sure * kByShape);
         take(of(side, left_toes), leg.toes, sure * kByShape);
+      }
+    }
+  }
+
+  /// "Shoulder" is the collar bone to some and the arm's first joint to others: the bone after it tells.
+  void tell_shoulders_apart() {
+    for (const Side side : kSides) {
+      PartPlace& collar = map_[of(side, left_clavicle)];
+      PartPlace& upper = map_[of(side, left_upper_arm)];
+      const PartPlace& elbow = map_[of(side, left_forearm)];
+      if (collar.evidence != Evidence::name || upper.known() || blocked(of(side, left_upper_arm))) continue;
+      const bool by_shape = !body_.arms.empty() && body_.arms[static_cast<std::size_t>(side)].upper == collar.joint;
+      if (by_shape || (elbow.known() && skeleton_.joint(elbow.joint).parent == collar.joint)) {
+        upper = std::exchange(collar, {});
       }
     }
   }

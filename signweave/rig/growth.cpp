@@ -1,0 +1,67 @@
+#include "signweave/rig/growth.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "signweave/rig/body_shape.h"
+
+namespace signweave {
+namespace {
+
+using enum Part;
+
+/// Drops each part that does not grow from the one before it.
+void keep_grown(const Skeleton& skeleton, std::initializer_list<Part> line, RigMap& map) {
+  JointIndex above = kNoJoint;
+  for (const Part part : line) {
+    if (!map.has(part)) continue;
+    const JointIndex joint = map[part].joint;
+    if (map[part].evidence == Evidence::name && above != kNoJoint && !grows_from(skeleton, joint, above)) {
+      map[part] = {};
+      continue;
+    }
+    above = joint;
+  }
+}
+
+/// Of a limb whose names come in an order that no limb has, no name is believed: which of them lies nobody knows.
+void keep_whole(const Skeleton& skeleton, std::initializer_list<Part> line, RigMap& map) {
+  const bool named =
+      std::none_of(line.begin(), line.end(), [&](Part part) { return map[part].evidence == Evidence::file; });
+  JointIndex above = kNoJoint;
+  bool grown = true;
+  for (const Part part : line) {
+    if (!map.has(part)) continue;
+    if (above != kNoJoint && !grows_from(skeleton, map[part].joint, above)) grown = false;
+    above = map[part].joint;
+  }
+  if (grown) return;
+  if (!named) return keep_grown(skeleton, line, map);
+  for (const Part part : line) map[part] = {};
+}
+
+}  // namespace
+
+void drop_what_cannot_grow(const Skeleton& skeleton, RigMap& map) {
+  keep_grown(skeleton, {neck, head, head_top}, map);
+  keep_grown(skeleton, {head, jaw}, map);
+  for (const Side side : kSides) {
+    keep_grown(skeleton, {head, of(side, left_eye)}, map);
+    keep_whole(skeleton,
+               {of(side, left_clavicle), of(side, left_upper_arm), of(side, left_forearm), of(side, left_hand)}, map);
+    keep_whole(skeleton, {of(side, left_thigh), of(side, left_shin), of(side, left_foot), of(side, left_toes)}, map);
+    for (const Finger finger : kFingers) {
+      const auto point = [&](FingerPoint at) { return finger_part(side, finger, at); };
+      keep_whole(skeleton,
+                 {point(FingerPoint::proximal), point(FingerPoint::intermediate), point(FingerPoint::distal),
+                  point(FingerPoint::tip)},
+                 map);
+      // Some rigs let two fingers grow from one joint of the palm, so that is not asked of the others.
+      for (std::size_t i = 0; i < kFingerPoints; ++i) {
+        keep_grown(skeleton, {of(side, left_hand), point(static_cast<FingerPoint>(i))}, map);
+      }
+    }
+  }
+}
+
+}  // namespace signweave

@@ -33,7 +33,7 @@ constexpr double kMargin = 8;
 constexpr double kCaptionSize = 11;  // pixels, as are the next two
 constexpr double kTitleSize = 16;
 constexpr double kNoteSize = 12;
-constexpr float kAboveHead = 0.2f;  // shoulder widths
+constexpr float kBeyond = 0.2f;  // shoulder widths: above the head and below the waist
 constexpr std::string_view kArrow = " → ";
 
 /// One line of text, no wider than `room` pixels: as large as `size`, smaller where that is too wide.
@@ -230,10 +230,12 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
     poses.push_back(to_model_space(skeleton, pose.view()));
     if (options.turn != 0) turn_about_vertical(options.turn, poses.back());
     figures.push_back(extent_of(figure_points(skeleton, plan, poses.back())));
-    if (signer) {  // room for the name above the head
+    if (signer) {  // room for the names of the highest and the lowest
       const SignerSpace space = signer_space(signer->body, signer->rig, poses.back());
-      const float top = space.to_model({0, signer->body.heights.back() + kAboveHead, 0}).y();
-      figures.back().top = std::max(figures.back().top, static_cast<double>(top));
+      const auto height = [&](float y) { return static_cast<double>(space.to_model({0, y, 0}).y()); };
+      Extent& figure = figures.back();
+      figure.top = std::max(figure.top, height(signer->body.heights.back() + kBeyond));
+      figure.low = std::min(figure.low, height(signer->body.heights[1] - 2 * kBeyond));
     }
   }
   const Extent common = common_extent(figures);

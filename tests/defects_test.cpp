@@ -39,8 +39,9 @@ std::vector<Defect> defects_of(const Motion& motion) {
 /// The only defect there is.
 Defect only(const Motion& motion) {
   const std::vector<Defect> found = defects_of(motion);
-  EXPECT_EQ(found.size(), 1u);
-  for (const Defect& defect : found) SCOPED_TRACE(defect.text);
+  std::string texts;
+  for (const Defect& defect : found) texts += defect.text + '\n';
+  EXPECT_EQ(found.size(), 1u) << texts;
   return found.empty() ? Defect{} : found.front();
 }
 

@@ -23,6 +23,7 @@ struct Options {
   std::optional<std::int64_t> from;
   std::optional<std::int64_t> to;
   std::string joints;
+  bool signing_space = false;
 };
 
 /// The joints named in "LeftHand,RightHand", with near matches for one that does not exist.
@@ -82,7 +83,9 @@ Run export_recording(CLI::App& verb) {
   verb.add_option("--from", options->from, "annotation time in ms to begin at");
   verb.add_option("--to", options->to, "annotation time in ms to end at");
   verb.add_option("--joints", options->joints, "joint names, separated by commas; the others are left at rest");
+  verb.add_flag("--signing-space", options->signing_space, kSigningSpaceHelp);
   return [options](Io& io) {
+    check_signing_space(options->signing_space, options->outputs);
     const Database database(options->folder, kv::Access::read_only);
     report_damage(database, io);
     const std::shared_ptr<const Contents> contents = database.contents();
@@ -118,6 +121,7 @@ Run export_recording(CLI::App& verb) {
                        .layout = info.layout,
                        .document = document ? &*document : nullptr,
                        .title = info.name,
+                       .signing_space = options->signing_space,
                        .declarations = info.declarations};
     for (const std::string& path : options->outputs) {
       if (!options->joints.empty() && fold_case(path).ends_with(".face.csv")) {

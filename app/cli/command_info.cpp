@@ -11,6 +11,7 @@
 #include "app/cli/info_database.h"
 #include "app/cli/motion_options.h"
 #include "app/cli/progress.h"
+#include "app/cli/rig_report.h"
 #include "app/cli/table.h"
 #include "signweave/annotation/sign.h"
 #include "signweave/core/text.h"
@@ -30,12 +31,14 @@ std::string unit_name(double metres) {
   return fmt::format("{:.6g} m", metres);
 }
 
-void info_of_bvh(const std::string& path, const MotionOptions& motion_options, Io& io) {
+void info_of_bvh(const std::string& path, const MotionOptions& motion_options, const std::string& rig_path, Io& io) {
   bvh::ReadOptions options = read_options(motion_options);
   Progress progress(io, "reading");
   options.progress = [&](double fraction) { progress.show(fraction); };
   const bvh::File file = bvh::read(path, options);
+  progress.hide();
   const Skeleton& skeleton = file.motion.skeleton();
+  const RigMap rig = rig_map_of(file.motion, rig_path);
   nlohmann::ordered_json fields = {{"file", path},
                                    {"format", "BVH"},
                                    {"frames", file.motion.frame_count()},
@@ -47,11 +50,12 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, I
                                    {"root", skeleton.joint(0).name},
                                    {"up", file.layout.up == bvh::UpAxis::z ? "z" : "y"},
                                    {"unit", unit_name(file.layout.unit)}};
-  const std::vector<Defect> defects = find_defects(file.motion, map_rig(file.motion));
+  const std::vector<Defect> defects = find_defects(file.motion, rig);
   if (io.json) {
     json names = json::array();
     for (const Joint& joint : skeleton.joints()) names.push_back(joint.name);
     fields["joint_names"] = std::move(names);
+    fields["rig"] = json_of_rig(skeleton, rig);
     fields["defects"] = cli::json_of(defects, skeleton);
     fields["notices"] = json_of(file.notices);
     io.out << fields.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
@@ -62,6 +66,7 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, I
   print_pairs(io, fields);
   io.out << table_of(defects, skeleton, file.notices);
   print_notices(io, file.notices);
+  print_rig(skeleton, rig, path, io);
 }
 
 /// "browInnerUp, jawOpen, mouthPucker and 49 more".
@@ -147,6 +152,7 @@ Run info(CLI::App& verb) {
   struct Options {
     std::string path;
     std::string recording;
+    std::string rig;
     MotionOptions motion;
   };
   auto options = std::make_shared<Options>();
@@ -154,6 +160,8 @@ Run info(CLI::App& verb) {
                   "a database, a motion file (.bvh), an annotation file (.eaf) or a face capture (.face.csv)")
       ->required();
   verb.add_option("RECORDING", options->recording, "of a database: all that is known of this one");
+  verb.add_option("--rig", options->rig, "a mapping file (part = joint) that says which joint plays which part")
+      ->type_name("FILE");
   add_motion_options(verb, options->motion);
   return [options](Io& io) {
     const std::string ending = fold_case(std::filesystem::path(options->path).extension().string());
@@ -171,7 +179,7 @@ Run info(CLI::App& verb) {
     } else if (!std::filesystem::is_regular_file(options->path, ignored)) {
       throw Error(ErrorCode::bad_input, options->path + ": is no file");
     } else if (ending == ".bvh") {
-      info_of_bvh(options->path, options->motion, io);
+      info_of_bvh(options->path, options->motion, options->rig, io);
     } else if (ending == ".eaf") {
       info_of_eaf(options->path, io);
     } else if (fold_case(options->path).ends_with(".face.csv")) {

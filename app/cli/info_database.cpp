@@ -4,6 +4,8 @@
 
 #include <ostream>
 
+#include "app/cli/defect_report.h"
+#include "app/cli/rig_report.h"
 #include "app/cli/storage_options.h"
 #include "app/cli/table.h"
 #include "signweave/core/text.h"
@@ -110,11 +112,11 @@ void info_of_database(const std::string& folder, Io& io) {
     std::vector<std::string> row = {info.name, info.signer};
     if (info.motion) {
       const motion_db::StoredMotion& motion = *info.motion;
-      row.insert(row.end(),
-                 {std::to_string(motion.frames), to_string(motion.rate),
-                  fmt::format("{:.2f}", static_cast<double>(motion.frames) / motion.rate.hertz()),
-                  std::to_string(motion.joints), std::to_string(motion.tracks.size()), to_string(motion.mode),
-                  std::to_string(motion_db::packet_count(motion)), precision_name(motion.tolerance), std::to_string(info.defects.size())});
+      row.insert(row.end(), {std::to_string(motion.frames), to_string(motion.rate),
+                             fmt::format("{:.2f}", static_cast<double>(motion.frames) / motion.rate.hertz()),
+                             std::to_string(motion.joints), std::to_string(motion.tracks.size()),
+                             to_string(motion.mode), std::to_string(motion_db::packet_count(motion)),
+                             precision_name(motion.tolerance), std::to_string(info.defects.size())});
     } else {
       row.insert(row.end(), 9, "-");
     }
@@ -130,7 +132,6 @@ void info_of_database(const std::string& folder, Io& io) {
   for (const std::string& fault : contents->faults) io.err << "signweave: " << fault << '\n';
   if (!contents->faults.empty()) io.status = 1;
 }
-
 
 void info_of_recording(const std::string& folder, const std::string& name, Io& io) {
   const Database database(folder, kv::Access::read_only);
@@ -163,12 +164,18 @@ void info_of_recording(const std::string& folder, const std::string& name, Io& i
   }
   if (io.json) {
     fields["notices"] = json_of(info.notices);
-    if (model) fields["rig"] = json_of(model->rig, skeleton_of(database, name));
-    fields["defects"] = json_of(info.defects);
+    if (model)
+      if (model) fields["rig"] = json_of_rig(*database.skeleton(name), model->rig);
+    if (model) fields["defects"] = json_of(info.defects, *database.skeleton(name));
     io.out << fields.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
     return;
   }
   print_pairs(io, fields);
+  if (model) {
+    const std::shared_ptr<const Skeleton> skeleton = database.skeleton(name);
+    io.out << table_of(info.defects, *skeleton, info.notices);
+    print_rig(*skeleton, model->rig, info.name, io);
+  }
   print_notices(io, info.notices);
 }
 

@@ -166,6 +166,12 @@ std::string check_output(const std::string& path) {
   return "'" + printable(path) + "' ends in none of " + writable_endings();
 }
 
+void check_signing_space(bool wanted, const std::vector<std::string>& paths) {
+  const auto is_sheet = [](const std::string& path) { return ending_of(path) == ".svg"; };
+  if (!wanted || std::any_of(paths.begin(), paths.end(), is_sheet)) return;
+  throw Error(ErrorCode::bad_input, "--signing-space is drawn on contact sheets: add -o FILE.svg");
+}
+
 json describe(const Synthesis& synthesis) {
   json signs = json::array();
   for (const PlacedSign& placed : synthesis.signs) {
@@ -208,7 +214,7 @@ json describe(const Synthesis& synthesis) {
 }
 
 void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made,
-                     const std::optional<bvh::Layout>& layout, const std::string& title) {
+                     const std::optional<bvh::Layout>& layout, const SheetWishes& sheet) {
   const Synthesis& result = made.result;
   std::string motion_file;
   check_folders(paths);
@@ -235,10 +241,13 @@ void write_synthesis(const std::vector<std::string>& paths, const Synthesized& m
       document["motion"] = json_of(result.motion);
       write_text(path, document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
     } else if (ending == ".svg") {
-      write_text(path, contact_sheet(result.motion, sheet_options(result, title)));
+      ContactSheetOptions options = sheet_options(result, sheet.title);
+      options.signing_space = sheet.signing_space;
+      write_text(path, contact_sheet(result.motion, options));
     } else {
       write_recording(
-          path, {.motion = &result.motion, .layout = layout, .title = title, .declarations = result.declarations});
+          path,
+          {.motion = &result.motion, .layout = layout, .title = sheet.title, .declarations = result.declarations});
     }
   }
 }
@@ -267,6 +276,7 @@ void write_recording(const std::string& path, const Outgoing& recording) {
     ContactSheetOptions options;
     options.title = recording.title;
     options.note = note_of(recording.declarations);
+    options.signing_space = recording.signing_space;
     write_text(path, contact_sheet(motion, options));
   } else {
     json document = json_of(motion);

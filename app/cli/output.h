@@ -19,10 +19,21 @@ std::string writable_endings();
 /// Empty where `path` has an ending that can be written; else what is wrong with it.
 std::string check_output(const std::string& path);
 
-/// Writes a synthesis to each path, by its ending. An annotation written beside a motion links it. `title` heads a
-/// contact sheet.
+/// The help of --signing-space.
+inline constexpr const char* kSigningSpaceHelp = "in .svg: the signer's heights and zones behind each figure";
+
+/// Throws Error{bad_input} where a signing space is to be drawn and no path is a contact sheet's.
+void check_signing_space(bool wanted, const std::vector<std::string>& paths);
+
+/// What heads a contact sheet and what else it shows.
+struct SheetWishes {
+  std::string title;
+  bool signing_space = false;
+};
+
+/// Writes a synthesis to each path, by its ending. An annotation written beside a motion links it.
 void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made,
-                     const std::optional<bvh::Layout>& layout, const std::string& title);
+                     const std::optional<bvh::Layout>& layout, const SheetWishes& sheet);
 
 /// What there is of a recording to write. Borrowed.
 struct Outgoing {
@@ -30,6 +41,7 @@ struct Outgoing {
   std::optional<bvh::Layout> layout;             ///< for .bvh
   const AnnotationDocument* document = nullptr;  ///< for .eaf
   std::string title;
+  bool signing_space = false;                                     ///< for .svg
   std::vector<std::pair<std::string, std::string>> declarations;  ///< what its sources say of themselves
 };
 

@@ -124,11 +124,13 @@ void add_synthesis_options(CLI::App& verb, SynthesisWords& words) {
           "bring signers to one place: auto (other recordings than the first or the edited one), ground (all), none")
       ->check(CLI::IsMember({"auto", "ground", "none"}))
       ->capture_default_str();
+  verb.add_flag("--signing-space", words.signing_space, kSigningSpaceHelp);
   verb.add_flag("--explain", words.explain, "show candidates, costs and junctions");
   verb.add_flag("--timings", words.timings, "show how long each step took");
 }
 
 SynthesisOptions synthesis_options(const SynthesisWords& words) {
+  check_signing_space(words.signing_space, words.outputs);
   SynthesisOptions options;
   options.method = find_transition_method(words.method);
   options.duration.fixed = parse_duration(words.duration);
@@ -148,7 +150,7 @@ void deliver(const Synthesized& made, const SynthesisWords& words, const std::st
     layout->root_unit = layout->unit;
     layout->frame_time.clear();
   }
-  write_synthesis(words.outputs, made, layout, title);
+  write_synthesis(words.outputs, made, layout, {.title = title, .signing_space = words.signing_space});
   print_notices(io, made.result.notices);
   for (const auto& [name, value] : made.result.declarations) io.err << "signweave: " << value << '\n';
   const Synthesis& result = made.result;

@@ -12,6 +12,7 @@ namespace signweave::cli {
 struct SynthesisWords {
   std::string folder;
   std::vector<std::string> outputs;
+  bool signing_space = false;
   std::string method;
   std::string duration = "corpus";
   double tempo = 1;

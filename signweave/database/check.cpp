@@ -13,7 +13,8 @@ namespace {
 
 /// Looks at one recording's document: that it is there and reads (else it throws), and gives the segments beside it,
 /// and motion and segments the features.
-void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& info, CheckListener& listener) {
+void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& info, bool motion_sound,
+                    CheckListener& listener) {
   const std::string source = semantic_db::read_document(snapshot, info.document, info.name);
   const SegmentChunk stored = semantic_db::read_segments(snapshot, info.document, info.name);
   const AnnotationDocument document = eaf::read_text(info.annotation_file, source).document;
@@ -27,6 +28,7 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
         fmt::format("{}: the stored segments are not those of the stored annotation; import it again", info.name));
     return;
   }
+  if (!motion_sound) return;  // what is measured of a damaged motion tells nothing
   const std::string fault = fault_of_features(snapshot, info, stored);
   if (!fault.empty()) listener.fault(fault);
 }
@@ -59,12 +61,14 @@ void check_slots(const Database& database, std::uint32_t first, CheckListener& l
     try {
       const RecordingInfo info = catalogue::read_recording(*snapshot, slot);
       listener.slot(slot, info.name);
+      bool motion_sound = true;
       if (info.motion) {
         for (const std::string& fault : motion_db::check(*snapshot, *info.motion, [&] { listener.alive(); })) {
           listener.fault(info.name + ": " + fault);
+          motion_sound = false;
         }
       }
-      if (info.document != 0) check_document(*snapshot, info, listener);
+      if (info.document != 0) check_document(*snapshot, info, motion_sound, listener);
     } catch (const Error& error) {  // one damaged recording does not hide the others
       listener.fault(error.what());
     }

@@ -65,7 +65,7 @@ HandMotion measure_hands(const Motion& motion, const SignerModel& model, FrameRa
   std::array<Arm, 2> arms = {Arm{.side = Side::left, .places = HandPlaces(model.rig, Side::left)},
                              Arm{.side = Side::right, .places = HandPlaces(model.rig, Side::right)}};
   std::string why_not = why_no_signer_space(model.rig);
-  if (why_not.empty() && !model.body) why_not = "the shoulders are in one place";
+  if (why_not.empty() && !model.body) why_not = "the shoulders are in one place, or the motion has no frames";
   for (Arm& arm : arms) {
     HandMotion::OneHand& hand = result.hands[static_cast<std::size_t>(arm.side)];
     hand.why_no_fingers = arm.places.why_no_fingers();

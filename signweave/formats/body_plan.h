@@ -6,9 +6,9 @@
 
 #include "signweave/motion/kinematics.h"
 #include "signweave/motion/motion.h"
+#include "signweave/rig/rig_map.h"
 
-/// What a skeleton is a skeleton of, told from its shape alone: no table of names. For drawing only, so a wrong answer
-/// makes an odd picture and nothing else.
+/// What is drawn of a skeleton: its rig map as places, widths and directions.
 namespace signweave {
 
 /// The head as an ellipsoid, in the plan's pose.
@@ -24,7 +24,7 @@ struct HeadShape {
 /// A joint from which fingers grow.
 struct HandShape {
   JointIndex joint = kNoJoint;
-  std::vector<JointIndex> knuckles;  ///< where fingers leave the palm; at least four
+  std::vector<JointIndex> knuckles;  ///< where fingers leave the palm, below the joint; at least four
 };
 
 /// Everything is in the model space of one captured pose, metres: in a rest pose the limbs of one body may point
@@ -38,9 +38,9 @@ struct BodyPlan {
   Eigen::Vector3f left = Eigen::Vector3f::UnitX();  ///< unit, of the trunk
   Eigen::Vector3f up = Eigen::Vector3f::UnitY();
   Eigen::Vector3f forward = Eigen::Vector3f::UnitZ();
-  std::vector<JointIndex> trunk;      ///< from the hips to the chest; empty where no chest was found
+  std::vector<JointIndex> trunk;      ///< from the pelvis to the chest; empty where the map lacks trunk, arm or head
   JointIndex neck = kNoJoint;         ///< child of the chest that leads to the head
-  std::vector<JointIndex> shoulders;  ///< where the two arms begin
+  std::vector<JointIndex> shoulders;  ///< where the two arms begin, the left first
   std::vector<JointIndex> collars;    ///< between the chest and the shoulders
   float hip_width = 0;                ///< half the distance between the legs
   float shoulder_width = 0;           ///< half the distance between the arms
@@ -50,8 +50,9 @@ struct BodyPlan {
   const Eigen::Vector3f& place(JointIndex joint) const { return pose.positions[static_cast<std::size_t>(joint)]; }
 };
 
-/// The plan of a motion of at least one frame, from its middle one. `head` says which joint is the head, where the
-/// caller knows.
+/// The plan of a motion of at least one frame, from its middle one. `rig` must be a map of its skeleton.
+BodyPlan plan_of(const Motion& motion, const RigMap& rig);
+/// With the map that names and shape give; `head` says which joint is the head, where the caller knows.
 BodyPlan plan_of(const Motion& motion, std::optional<JointIndex> head = {});
 
 }  // namespace signweave

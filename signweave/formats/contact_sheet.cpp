@@ -8,14 +8,18 @@
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string_view>
 
 #include "signweave/core/error.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/figure.h"
+#include "signweave/formats/signing_space.h"
 #include "signweave/formats/svg_text.h"
 #include "signweave/motion/blend.h"
 #include "signweave/motion/kinematics.h"
+#include "signweave/rig/rig_map.h"
+#include "signweave/rig/signer_space.h"
 
 namespace signweave {
 namespace {
@@ -29,6 +33,7 @@ constexpr double kMargin = 8;
 constexpr double kCaptionSize = 11;  // pixels, as are the next two
 constexpr double kTitleSize = 16;
 constexpr double kNoteSize = 12;
+constexpr float kAboveHead = 0.2f;  // shoulder widths
 constexpr std::string_view kArrow = " → ";
 
 /// One line of text, no wider than `room` pixels: as large as `size`, smaller where that is too wide.
@@ -186,6 +191,22 @@ std::vector<Cell> thinned(const std::vector<Cell>& all, std::size_t most, const 
   return kept;
 }
 
+/// Who signs, where heights and zones are to be drawn.
+struct Signer {
+  RigMap rig;
+  SignerBody body;
+};
+
+std::optional<Signer> signer_of(const Motion& motion, const ContactSheetOptions& options) {
+  if (!options.signing_space) return std::nullopt;
+  const RigMap rig = options.rig ? *options.rig : map_rig(motion);
+  const std::optional<SignerBody> body = signer_body(motion, rig);
+  if (body) return Signer{rig, *body};
+  const std::string why = why_no_signer_space(rig);
+  throw Error(ErrorCode::not_found, fmt::format("contact sheet: no signing space to draw: {}",
+                                                why.empty() ? "the shoulders are in one place" : why));
+}
+
 }  // namespace
 
 std::string contact_sheet(const Motion& motion, const ContactSheetOptions& options) {
@@ -197,6 +218,7 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
     note += fmt::format("{}{} of {} frames shown", note.empty() ? "" : "; ", shown.size(), all.size());
   }
   const Skeleton& skeleton = motion.skeleton();
+  const std::optional<Signer> signer = signer_of(motion, options);
 
   std::vector<ModelPose> poses;
   std::vector<Extent> figures;
@@ -208,6 +230,11 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
     poses.push_back(to_model_space(skeleton, pose.view()));
     if (options.turn != 0) turn_about_vertical(options.turn, poses.back());
     figures.push_back(extent_of(figure_points(skeleton, plan, poses.back())));
+    if (signer) {  // room for the name above the head
+      const SignerSpace space = signer_space(signer->body, signer->rig, poses.back());
+      const float top = space.to_model({0, signer->body.heights.back() + kAboveHead, 0}).y();
+      figures.back().top = std::max(figures.back().top, static_cast<double>(top));
+    }
   }
   const Extent common = common_extent(figures);
 
@@ -233,8 +260,12 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
                    "<g transform=\"translate({:.1f} {:.1f})\">\n<rect x=\"2\" y=\"2\" width=\"{:.1f}\" "
                    "height=\"{:.1f}\" fill=\"#f6f7f9\" rx=\"4\"/>\n",
                    x, y, kCellWidth - 4, kCellHeight - 4);
-    draw_figure(skeleton, plan, poses[cell], figure_face(motion, shown[cell].frame), view_of(figures[cell], common),
-                out);
+    const FigureView view = view_of(figures[cell], common);
+    if (signer) {
+      draw_signing_space(signer->body, signer_space(signer->body, signer->rig, poses[cell]), view, kCellWidth,
+                         kCellHeight - kCaption, out);
+    }
+    draw_figure(skeleton, plan, poses[cell], figure_face(motion, shown[cell].frame), view, out);
     const double seconds = static_cast<double>(shown[cell].frame) * motion.rate().frame_time().count();
     const std::size_t given = shown[cell].given;
     put_caption(given < options.captions.size() ? options.captions[given] : fmt::format("{:.2f} s", seconds), out);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "signweave/motion/motion.h"
+#include "signweave/rig/rig_map.h"
 
 namespace signweave {
 
@@ -19,9 +21,11 @@ struct ContactSheetOptions {
   std::size_t most_cells = 0;
   std::vector<int> importance;  ///< [cell] of the given frames, more is kept rather; where there are too few, 0
   std::size_t columns = 6;
-  double turn = 0;    ///< degrees by which figures are turned to their left: 90 shows them from their right side
-  std::string title;  ///< a line above, empty for none
-  std::string note;   ///< a line below, empty for none, such as "placeholder shapes, not LSF"
+  double turn = 0;  ///< degrees by which figures are turned to their left: 90 shows them from their right side
+  bool signing_space = false;  ///< the signer's heights and zones behind each figure (docs/signing-space.md)
+  std::optional<RigMap> rig;   ///< for these: which joint is what; where none is given, `map_rig` tells
+  std::string title;           ///< a line above, empty for none
+  std::string note;            ///< a line below, empty for none, such as "placeholder shapes, not LSF"
 };
 
 /// A sheet of figures as an SVG document: the upper body from the front, as a signer's addressee sees it, all cells at
@@ -29,7 +33,8 @@ struct ContactSheetOptions {
 /// blue, the left orange, hands in a stronger tone; what is farther away is paler. Where the skeleton has eyes or the
 /// motion has a face's scalar tracks there is a face, which shows them. Sides, hands, head are told by joint names,
 /// arms and hips by the body's shape where those say nothing; what neither tells is drawn in grey. The same input gives
-/// the same bytes. Throws Error{bad_input} for a motion without frames, a frame that it has not, or no columns.
+/// the same bytes. Throws Error{bad_input} for a motion without frames, a frame that it has not, or no columns;
+/// Error{not_found} where a signing space is to be drawn and the motion has none.
 std::string contact_sheet(const Motion& motion, const ContactSheetOptions& options = {});
 
 }  // namespace signweave

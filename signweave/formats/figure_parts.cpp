@@ -3,53 +3,50 @@
 #include <algorithm>
 #include <string_view>
 
-#include "signweave/core/text.h"
 #include "signweave/formats/figure.h"
+#include "signweave/rig/body_shape.h"
 
 namespace signweave {
 namespace {
 
-bool contains(std::string_view text, std::string_view what) {
-  return text.find(what) != std::string_view::npos;
-}
-
-BodySide side_of(std::string_view name, std::string_view folded) {
-  if (contains(folded, "left")) return BodySide::left;
-  if (contains(folded, "right")) return BodySide::right;
-  // lHand, LHand, l_hand; hand_l, hand.L
-  const auto apart = [](char c) { return c == '_' || c == '.' || c == '-' || c == ' '; };
-  if (name.size() > 1) {
-    const bool begins = apart(name[1]) || (name[1] >= 'A' && name[1] <= 'Z');
-    const bool ends = apart(folded[folded.size() - 2]);
-    if ((begins && folded.front() == 'l') || (ends && folded.back() == 'l')) return BodySide::left;
-    if ((begins && folded.front() == 'r') || (ends && folded.back() == 'r')) return BodySide::right;
-  }
-  return BodySide::none;
-}
-
-/// Marks the arms that names did not tell: two long bones from each shoulder, and what is beyond them.
-void arms_by_shape(const Skeleton& skeleton, const BodyPlan& body, std::vector<FigurePart>& parts) {
-  const auto told = [](const FigurePart& part) { return part.arm && part.side != BodySide::none; };
-  if (std::any_of(parts.begin(), parts.end(), told)) return;
-  for (const JointIndex shoulder : body.shoulders) {
-    std::vector<int> bones(parts.size(), -1);  // from the shoulder
-    bones[static_cast<std::size_t>(shoulder)] = 0;
-    const auto first = static_cast<std::size_t>(shoulder);
-    const Eigen::Vector3f aside = body.place(shoulder) - body.place(body.trunk.front());
-    if (parts[first].side == BodySide::none) {
-      parts[first].side = aside.dot(body.left) > 0 ? BodySide::left : BodySide::right;
+/// What the map says of each joint itself.
+void take_map(const RigMap& rig, std::vector<FigurePart>& parts) {
+  const auto place_side = [&](Part part, BodySide side) {
+    if (rig.has(part)) parts[static_cast<std::size_t>(rig[part].joint)].side = side;
+  };
+  for (const Side side : kSides) {
+    const BodySide drawn = side == Side::left ? BodySide::left : BodySide::right;
+    for (const Part part : {Part::left_eye, Part::left_clavicle, Part::left_upper_arm, Part::left_forearm,
+                            Part::left_hand, Part::left_thigh, Part::left_shin, Part::left_foot, Part::left_toes}) {
+      place_side(of(side, part), drawn);
     }
-    for (std::size_t i = first + 1; i < parts.size(); ++i) {
-      const auto parent = static_cast<std::size_t>(skeleton.joints()[i].parent);
-      if (bones[parent] < 0) continue;
-      const bool twist = skeleton.joints()[i].offset.isZero();
-      bones[i] = bones[parent] + (twist ? 0 : 1);
-      parts[i].side = parts[first].side;
-      parts[i].arm = bones[i] <= 2;
-      parts[i].finger = bones[i] > 2;
-      parts[i].palm = parts[i].finger && !parts[parent].finger;
+    if (rig.has(of(side, Part::left_eye))) {
+      parts[static_cast<std::size_t>(rig[of(side, Part::left_eye)].joint)].eye = true;
     }
   }
+  for (const Part part : {Part::head, Part::head_top}) {
+    if (rig.has(part)) parts[static_cast<std::size_t>(rig[part].joint)].head = true;
+  }
+}
+
+/// [joint] 'a' within an arm, 'l' within a leg or on the way to one, else ' '.
+std::vector<char> limbs_of(const Skeleton& skeleton, const RigMap& rig) {
+  std::vector<char> limbs(skeleton.joint_count(), ' ');
+  for (const Side side : kSides) {
+    for (const Part part : {Part::left_clavicle, Part::left_upper_arm, Part::left_forearm, Part::left_hand}) {
+      if (rig.has(of(side, part))) limbs[static_cast<std::size_t>(rig[of(side, part)].joint)] = 'a';
+    }
+    if (!rig.has(Part::pelvis) || !rig.has(of(side, Part::left_thigh))) continue;
+    const JointIndex thigh = rig[of(side, Part::left_thigh)].joint;
+    if (!grows_from(skeleton, thigh, rig[Part::pelvis].joint)) continue;
+    for (JointIndex joint = thigh; joint != rig[Part::pelvis].joint; joint = skeleton.joint(joint).parent) {
+      limbs[static_cast<std::size_t>(joint)] = 'l';
+    }
+  }
+  for (std::size_t i = 1; i < limbs.size(); ++i) {
+    if (limbs[i] == ' ') limbs[i] = limbs[static_cast<std::size_t>(skeleton.joints()[i].parent)];
+  }
+  return limbs;
 }
 
 std::optional<FigureHead> figure_head(const Skeleton& skeleton, const BodyPlan& body) {
@@ -70,7 +67,8 @@ std::optional<FigureHead> figure_head(const Skeleton& skeleton, const BodyPlan& 
 
 FigurePlan figure_plan(const Motion& motion) {
   const Skeleton& skeleton = motion.skeleton();
-  const BodyPlan body = plan_of(motion);
+  const RigMap rig = map_rig(motion);
+  const BodyPlan body = plan_of(motion, rig);
   const ModelPose& pose = body.pose;
   FigurePlan plan;
   if (!body.trunk.empty()) plan.hips = static_cast<std::size_t>(body.trunk.front());
@@ -94,29 +92,30 @@ FigurePlan figure_plan(const Motion& motion) {
     float& parent = highest[static_cast<std::size_t>(skeleton.joints()[i].parent)];
     parent = std::max(parent, highest[i]);
   }
-  std::vector<bool> arm(count);  // arms stay even where they hang below the hips
+  take_map(rig, parts);
+  const std::vector<char> limbs = limbs_of(skeleton, rig);
+  std::vector<bool> beyond_shoulder(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Joint& joint = skeleton.joints()[i];
-    const std::string folded = fold_case(joint.name);
     FigurePart& part = parts[i];
-    part.side = side_of(joint.name, folded);
-    part.head = contains(folded, "head");
-    part.eye = contains(folded, "eye") && !contains(folded, "eyebrow") && !contains(folded, "lid");
+    const auto plays = [&](Part left, JointIndex who) {
+      return rig[of(Side::left, left)].joint == who || rig[of(Side::right, left)].joint == who;
+    };
+    beyond_shoulder[i] = plays(Part::left_upper_arm, static_cast<JointIndex>(i));
     if (joint.parent == kNoJoint) continue;
     const auto parent = static_cast<std::size_t>(joint.parent);
-    const std::string above = fold_case(skeleton.joints()[parent].name);
-    part.finger = parts[parent].finger || contains(above, "hand") || contains(above, "wrist");
+    beyond_shoulder[i] = beyond_shoulder[i] || beyond_shoulder[parent];
+    part.finger = parts[parent].finger || plays(Part::left_hand, joint.parent);
     part.palm = part.finger && !parts[parent].finger;
-    part.arm = !part.finger && contains(above, "arm");
+    part.arm = !part.finger && beyond_shoulder[parent];
     part.in_head = parts[parent].in_head || (parts[parent].head && !part.head);
-    arm[i] = arm[parent] || contains(folded, "arm") || contains(folded, "shoulder") || contains(folded, "hand");
+    // Where the map knows no legs, they are what grows beside the trunk and is low; arms stay even where they hang.
     const bool beside = body.trunk.size() > 1 && static_cast<std::size_t>(body.trunk[1]) != i;
     const bool low = highest[i] < pose.positions[plan.hips].y() + 0.03f * (top - bottom);
-    const bool leg = parent == plan.hips && (low || beside);
-    part.shown = (parts[parent].shown || parent == plan.hips) && !above_hips[parent] && (!leg || arm[i]);
+    const bool leg = limbs[i] == 'l' || (parent == plan.hips && (low || beside));
+    part.shown = (parts[parent].shown || parent == plan.hips) && !above_hips[parent] && (!leg || limbs[i] == 'a');
     if (part.side == BodySide::none) part.side = parts[parent].side;
   }
-  arms_by_shape(skeleton, body, parts);
   plan.head = figure_head(skeleton, body);
   return plan;
 }
@@ -139,9 +138,9 @@ FigureFace figure_face(const Motion& motion, std::int64_t frame) {
   face.pucker = weight("mouthPucker");
   face.puff = weight("cheekPuff");
   face.press = std::max(weight("mouthPressLeft"), weight("mouthPressRight"));
-  constexpr std::string_view kSides[] = {"Left", "Right"};
+  constexpr std::string_view kSideNames[] = {"Left", "Right"};
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto of = [&](std::string_view name) { return weight(fmt::format("{}{}", name, kSides[i])); };
+    const auto of = [&](std::string_view name) { return weight(fmt::format("{}{}", name, kSideNames[i])); };
     face.brow_up[i] = of("browOuterUp");
     face.brow_down[i] = of("browDown");
     face.blink[i] = of("eyeBlink");

@@ -86,5 +86,33 @@ TEST(ToModelSpace, KeepsBoneLengthsWhateverTheRotations) {
   EXPECT_NEAR((position_of(skeleton.tips()[0], model) - model.positions[3]).norm(), 0.1f, 1e-6f);
 }
 
+TEST(JointChains, ComputeTheJointsAskedForAndThoseAboveToTheSameBits) {
+  const Skeleton skeleton = body();
+  Pose pose(skeleton);
+  for (std::size_t i = 0; i < pose.rotations.size(); ++i) {
+    const auto number = static_cast<float>(i);
+    pose.rotations[i] = AngleAxisf(0.3f + number, Vector3f(number, 1, 2).normalized());
+  }
+  pose.translations[0] = {1, 2, 3};
+  pose.translations[1] = {0.1f, -0.2f, 0};  // the leg's: its place among the translations counts the hips' too
+  const ModelPose whole = to_model_space(skeleton, pose.view());
+  const auto expect_same = [&](const std::vector<JointIndex>& asked, const JointSet& computed) {
+    const JointChains chains(skeleton, asked);
+    EXPECT_EQ(chains.joints(), computed);
+    ModelPose model;
+    chains.to_model_space(pose.view(), model);
+    ASSERT_EQ(model.positions.size(), skeleton.joint_count());
+    for (const JointIndex joint : computed) {
+      const auto i = static_cast<std::size_t>(joint);
+      EXPECT_EQ(model.positions[i], whole.positions[i]);
+      EXPECT_EQ(model.rotations[i].coeffs(), whole.rotations[i].coeffs());
+    }
+  };
+  expect_same({4, 4}, {0, 4});
+  expect_same({3, 0}, {0, 1, 2, 3});
+  expect_same({2, 4}, {0, 1, 2, 4});
+  expect_same({}, {});
+}
+
 }  // namespace
 }  // namespace signweave

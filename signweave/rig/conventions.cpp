@@ -270,6 +270,7 @@ constexpr Convention kConventions[] = {
     {"CMU with MotionBuilder's names", "Left L", "Right R", kCmuMotionBuilder, kCmuFingers, "lhipjoint"},
     {"Unreal", "l", "r", kUnreal, kUnrealFingers},
     {"VRM", "Left L", "Right R", kVrm, kVrmFingers},
+    {"Bandai-Namco", "L", "R", kVrm, kVrmFingers, "joint_root"},
     {"MakeHuman", "L", "R", kMakeHuman, kMakeHumanFingers},
     {"OptiTrack", "L Left", "R Right", kOptiTrack, kShortFingers},
     {"3ds Max Biped", "L", "R", kBiped, kBipedFingers},

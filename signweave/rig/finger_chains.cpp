@@ -37,6 +37,11 @@ std::vector<Chain> chains_of(const Skeleton& skeleton, const BodyShape& shape, J
   return chains;
 }
 
+/// Where the finger leaves the palm: of four joints before an end the first is inside it.
+JointIndex knuckle_of(const Chain& chain) {
+  return chain.joints[chain.joints.size() > 3 && chain.ends ? chain.joints.size() - 3 : 0];
+}
+
 FingerChain points_of(const BodyShape& shape, const Chain& chain, JointIndex hand, bool thumb) {
   FingerChain points;
   points.fill(kNoJoint);
@@ -56,15 +61,20 @@ FingerChain points_of(const BodyShape& shape, const Chain& chain, JointIndex han
 
 }  // namespace
 
+std::vector<JointIndex> knuckles_of(const Skeleton& skeleton, const BodyShape& shape, JointIndex hand) {
+  std::vector<JointIndex> knuckles;
+  for (const Chain& chain : chains_of(skeleton, shape, hand)) knuckles.push_back(knuckle_of(chain));
+  if (knuckles.size() < 4) knuckles.clear();
+  return knuckles;
+}
+
 std::vector<std::pair<Finger, FingerChain>> fingers_of(const Skeleton& skeleton, const BodyShape& shape,
                                                        JointIndex hand) {
   std::vector<Chain> chains = chains_of(skeleton, shape, hand);
   if (chains.size() < 4 || chains.size() > 5) return {};
   // Where a finger leaves the palm; the thumb leaves it nearest to the wrist, and not along the others.
   const Vector3f wrist = shape.place(hand);
-  const auto knuckle = [&](const Chain& chain) {
-    return shape.place(chain.joints[chain.joints.size() > 3 && chain.ends ? chain.joints.size() - 3 : 0]);
-  };
+  const auto knuckle = [&](const Chain& chain) { return shape.place(knuckle_of(chain)); };
   std::sort(chains.begin(), chains.end(),
             [&](const Chain& a, const Chain& b) { return (knuckle(a) - wrist).norm() < (knuckle(b) - wrist).norm(); });
   if ((knuckle(chains[0]) - wrist).norm() > 0.75f * (knuckle(chains[1]) - wrist).norm()) return {};

@@ -177,8 +177,8 @@ NameMatch match_names(const Skeleton& skeleton) {
     best = all[i];
     best.convention = convention.name;
   }
-  // "Hips" and "Head" alone are in many tables.
-  if (best_score < 4 * 4) best.convention.clear();
+  // "Hips", "Spine" and "Head" alone are in many tables.
+  if (best_score < 4 * 5) best.convention.clear();
   // What the best table does not know another may, as long as no joint plays two parts.
   std::vector<bool> used(names.size());
   for (const JointIndex joint : best.joints) {

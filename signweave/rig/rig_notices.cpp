@@ -43,6 +43,19 @@ std::size_t fingers_at(const RigMap& map, Side side) {
   }));
 }
 
+/// "no ring, little finger"; empty where all are there.
+std::string missing_fingers(const RigMap& map, Side side) {
+  if (fingers_at(map, side) == 0) return "no fingers";
+  constexpr std::string_view kNames[] = {"thumb", "index", "middle", "ring", "little"};
+  std::vector<std::string_view> missing;
+  for (const Finger finger : kFingers) {
+    if (map.has(finger_part(side, finger, FingerPoint::proximal))) continue;
+    missing.push_back(kNames[static_cast<std::size_t>(finger)]);
+  }
+  if (missing.empty()) return {};
+  return fmt::format("no {}{}", fmt::join(missing, ", "), missing.back() == "thumb" ? "" : " finger");
+}
+
 }  // namespace
 
 std::vector<std::string> missing_parts(const RigMap& map) {
@@ -62,18 +75,14 @@ std::vector<std::string> missing_parts(const RigMap& map) {
     if (hands[0] || hands[1]) out.emplace_back("no fingers");
     return out;
   }
-  for (const Side side : kSides) {
-    const auto i = static_cast<std::size_t>(side);
-    if (!hands[i] || fingers[i] == kFingers.size()) continue;
-    std::vector<std::string_view> missing;
-    constexpr std::string_view kNames[] = {"thumb", "index finger", "middle finger", "ring finger", "little finger"};
-    for (const Finger finger : kFingers) {
-      if (!map.has(finger_part(side, finger, FingerPoint::proximal))) {
-        missing.push_back(kNames[static_cast<std::size_t>(finger)]);
-      }
-    }
-    out.push_back(fingers[i] == 0 ? fmt::format("{} hand: no fingers", kSideNames[i])
-                                  : fmt::format("{} hand: no {}", kSideNames[i], fmt::join(missing, ", no ")));
+  const std::string told[] = {hands[0] ? missing_fingers(map, Side::left) : "",
+                              hands[1] ? missing_fingers(map, Side::right) : ""};
+  if (told[0] == told[1] && !told[0].empty()) {
+    out.push_back(fmt::format("both hands: {}", told[0]));
+    return out;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!told[i].empty()) out.push_back(fmt::format("{} hand: {}", kSideNames[i], told[i]));
   }
   return out;
 }

@@ -51,12 +51,16 @@ struct Mean {
   }
 };
 
-void add_feet(const Standing& body, Mean& mean) {
+/// From the ankle to the end of the toes.
+void add_feet(const Standing& body, const BodyShape& shape, Mean& mean) {
   const auto forward = body.forward(left_thigh);
   if (!forward) return;
   for (const Side side : kSides) {
-    if (!body.has(side, left_foot) || !body.has(side, left_toes)) continue;
-    const Vector3f toes = body.at(side, left_toes) - body.at(side, left_foot);
+    if (!body.has(side, left_foot)) continue;
+    const JointIndex last = body.map[of(side, body.has(side, left_toes) ? left_toes : left_foot)].joint;
+    Vector3f end = body.pose.positions[static_cast<std::size_t>(last)];
+    if (shape.has_tip(last)) end = position_of(shape.tips[static_cast<std::size_t>(last)], body.pose);
+    const Vector3f toes = end - body.at(side, left_foot);
     if (toes.norm() > 1e-4f) mean.add(toes.normalized().dot(*forward), 1);
   }
 }
@@ -98,7 +102,7 @@ void add_hands(const Standing& body, Mean& mean) {
     const Vector3f wrist = body.at(side, left_hand);
     const Vector3f thumbwards = body.at(index) - body.at(little);
     const Vector3f along = 0.5f * (body.at(index) + body.at(little)) - wrist;
-    const Vector3f back = along.cross(thumbwards);  // of a right hand: away from its palm… or of a left: out of it
+    const Vector3f back = along.cross(thumbwards);  // of a right hand out of its back, of a left one out of its palm
     if (back.norm() < 1e-7f) continue;
     for (const Finger finger : {Finger::index, Finger::middle, Finger::ring, Finger::little}) {
       const Part from = knuckle(finger);
@@ -107,7 +111,6 @@ void add_hands(const Standing& body, Mean& mean) {
       const Vector3f bent = body.at(to) - body.at(from);
       if (bent.norm() < 1e-4f) continue;
       const float out = bent.normalized().dot(back.normalized());
-      // along × n points to the thumb of a right hand, so n is on the side of -(along × thumb).
       const float right = out < 0 ? 1.0f : -1.0f;
       if (std::abs(out) > 0.2f) mean.add(side == Side::right ? right : -right, std::abs(out));
     }
@@ -120,7 +123,7 @@ std::vector<SideCue> side_cues(const BodyShape& shape, const RigMap& map) {
   Mean feet, knees, face, elbows, hands;
   for (const ModelPose& pose : shape.poses) {
     const Standing body{map, pose};
-    add_feet(body, feet);
+    add_feet(body, shape, feet);
     add_bend(body, left_thigh, left_shin, left_foot, 1, knees);
     add_face(body, face);
     add_bend(body, left_upper_arm, left_forearm, left_hand, -1, elbows);

@@ -120,7 +120,8 @@ Landmarks landmarks(std::span<const ModelPose> poses, const RigMap& rig, float w
       ++known;
     }
     const float mean = sum / static_cast<float>(std::max(known, 1));
-    const bool likely = known > 0 && mean / usual > 0.5f && mean / usual < 1.7f;
+    const float room = 0.6f * std::max(std::abs(usual), (1 - kShoulder) * stature);
+    const bool likely = known > 0 && std::abs(mean - usual) < room;
     return likely ? std::optional(mean) : std::nullopt;
   };
   const auto usual = [&](float share) { return (share - kShoulder) * stature; };

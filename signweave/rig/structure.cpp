@@ -97,11 +97,12 @@ Limb limb_of(const BodyShape& shape, JointIndex root) {
     }
   }
   const auto length = [&](std::size_t i) { return (shape.place(path[i]) - shape.place(path[i - 1])).norm(); };
-  float longest = 0.1f * shape.size;
+  float longest = 0.12f * shape.size;
   for (std::size_t i = 0; i + 2 < path.size(); ++i) {
     const float upper = length(i + 1);
     const float lower = length(i + 2);
-    if (upper + lower <= longest || std::min(upper, lower) < 0.4f * std::max(upper, lower)) continue;
+    // Where a long collar could be the upper arm, the arm is what comes last: hands and feet are short.
+    if (upper + lower <= 0.8f * longest || std::min(upper, lower) < 0.4f * std::max(upper, lower)) continue;
     longest = upper + lower;
     limb.collar = i > 0 ? path[0] : kNoJoint;
     limb.upper = path[i];

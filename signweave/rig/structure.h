@@ -32,6 +32,8 @@ Structure structure_of(const Skeleton& skeleton, const BodyShape& shape);
 
 /// The joints of one finger beneath a wrist, by shape: [point], kNoJoint where there is none.
 using FingerChain = std::array<JointIndex, kFingerPoints>;
+/// Where at least four fingers leave the palm, in no order; empty where fewer chains of joints grow from the hand.
+std::vector<JointIndex> knuckles_of(const Skeleton& skeleton, const BodyShape& shape, JointIndex hand);
 /// By order from the thumb. Empty where no four or five fingers are seen, or no thumb tells which end is which.
 std::vector<std::pair<Finger, FingerChain>> fingers_of(const Skeleton& skeleton, const BodyShape& shape,
                                                        JointIndex hand);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -62,6 +63,105 @@ inline RigMap rig_of_signer(const Skeleton& skeleton) {
     }
   }
   return rig;
+}
+
+/// A person of 1.70 m (times `scale`) who looks along z in the rest pose, arms out, palms down. Names as the made
+/// signer's (demo/signer.h); the arms may move by translation, as some rigs let them.
+inline std::shared_ptr<const Skeleton> whole_person(float scale = 1, bool fingers = true) {
+  std::vector<Joint> joints = {{"Hips", kNoJoint, {0, 0.95f, 0}, true},
+                               {"Spine", 0, {0, 0.15f, 0}, false},
+                               {"Spine2", 1, {0, 0.15f, 0}, false},
+                               {"Neck", 2, {0, 0.19f, 0}, false},
+                               {"Head", 3, {0, 0.08f, 0}, false},
+                               {"LeftEye", 4, {0.03f, 0.08f, 0.08f}, false},
+                               {"RightEye", 4, {-0.03f, 0.08f, 0.08f}, false}};
+  std::vector<Tip> tips = {{4, {0, 0.19f, 0}}};
+  const auto add = [&](const std::string& name, JointIndex parent, const Eigen::Vector3f& offset) {
+    joints.push_back({name, parent, offset, false});
+    return static_cast<JointIndex>(joints.size()) - 1;
+  };
+  const char* const names[] = {"Thumb", "Index", "Middle", "Ring", "Pinky"};
+  for (const float side : {1.0f, -1.0f}) {
+    const std::string name = side > 0 ? "Left" : "Right";
+    const auto at = [&](float x, float y, float z) { return Eigen::Vector3f(side * x, y, z); };
+    const JointIndex clavicle = add(name + "Shoulder", 2, at(0.03f, 0.13f, 0));
+    const JointIndex arm = add(name + "Arm", clavicle, at(0.15f, 0, 0));
+    joints.back().translated = true;
+    const JointIndex hand = add(name + "Hand", add(name + "ForeArm", arm, at(0.28f, 0, 0)), at(0.25f, 0, 0));
+    for (int finger = 0; fingers && finger < 5; ++finger) {
+      const bool thumb = finger == 0;
+      const float z = 0.04f - 0.02f * static_cast<float>(finger);
+      const Eigen::Vector3f bone = thumb ? at(0.03f, 0, 0.025f) : at(0.03f, 0, 0);
+      JointIndex joint = hand;
+      for (int i = 1; i <= 3; ++i) {
+        joint = add(fmt::format("{}Hand{}{}", name, names[finger], i), joint,
+                    i > 1   ? bone
+                    : thumb ? at(0.02f, 0, 0.025f)
+                            : at(0.09f, 0, z));
+      }
+      tips.push_back({joint, 0.8f * bone});
+    }
+  }
+  for (const float side : {1.0f, -1.0f}) add(side > 0 ? "LeftUpLeg" : "RightUpLeg", 0, {0.09f * side, -0.04f, 0});
+  for (Joint& joint : joints) joint.offset *= scale;
+  for (Tip& tip : tips) tip.offset *= scale;
+  return std::make_shared<const Skeleton>(std::move(joints), std::move(tips));
+}
+
+/// Somebody who moves: every joint but the root turns to and fro, each in its own way, the arms farthest; the same seed
+/// moves in the same way.
+inline Motion moving(std::shared_ptr<const Skeleton> skeleton, std::int64_t frames, unsigned seed = 1,
+                     FrameRate rate = {100, 1}) {
+  Motion motion(std::move(skeleton), rate, frames);
+  for (std::size_t joint = 1; joint < motion.skeleton().joint_count(); ++joint) {
+    const bool arm = motion.skeleton().joints()[joint].name.find("Arm") != std::string::npos;
+    const float own = static_cast<float>(joint) * 1.7f + static_cast<float>(seed % 1000) * 0.9f;
+    const Eigen::Vector3f axis = Eigen::Vector3f(std::sin(own), std::sin(2 * own + 1), std::sin(3 * own)).normalized();
+    for (std::int64_t frame = 0; frame < frames; ++frame) {
+      const auto seconds = static_cast<float>(static_cast<double>(frame) / rate.hertz());
+      motion.pose(frame).rotations[joint] = Eigen::AngleAxisf((arm ? 0.8f : 0.15f) * std::sin(own + 5 * seconds), axis);
+    }
+  }
+  return motion;
+}
+
+/// The same motion with the whole body turned about the vertical and shifted. The root must be translated.
+inline Motion placed(Motion motion, float turn, const Eigen::Vector3f& shift) {
+  const Eigen::Quaternionf turned(Eigen::AngleAxisf(turn, Eigen::Vector3f::UnitY()));
+  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+    const auto pose = motion.pose(frame);
+    pose.rotations[0] = turned * pose.rotations[0];
+    pose.translations[0] = turned * pose.translations[0] + shift;
+  }
+  return motion;
+}
+
+/// The motion seen in the mirror x → −x: each joint does what its namesake of the other side did.
+inline Motion in_mirror(const Motion& motion) {
+  const Skeleton& skeleton = motion.skeleton();
+  const auto other = [&](std::size_t joint) {
+    std::string name = skeleton.joints()[joint].name;
+    if (name.starts_with("Left")) {
+      name.replace(0, 4, "Right");
+    } else if (name.starts_with("Right")) {
+      name.replace(0, 5, "Left");
+    }
+    return *skeleton.find(name);
+  };
+  Motion result = motion;
+  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+    for (std::size_t joint = 0; joint < skeleton.joint_count(); ++joint) {
+      const Eigen::Quaternionf& q = motion.pose(frame).rotations[static_cast<std::size_t>(other(joint))];
+      result.pose(frame).rotations[joint] = {q.w(), q.x(), -q.y(), -q.z()};
+    }
+    for (std::size_t i = 0; i < skeleton.translation_count(); ++i) {
+      const JointIndex joint = other(static_cast<std::size_t>(skeleton.translated_joints()[i]));
+      Eigen::Vector3f place = motion.pose(frame).translations[*skeleton.translation_of(joint)];
+      place.x() = -place.x();
+      result.pose(frame).translations[i] = place;
+    }
+  }
+  return result;
 }
 
 }  // namespace signweave

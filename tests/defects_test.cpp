@@ -146,12 +146,15 @@ TEST(Defects, ACutIsSaidOnce) {
   for (std::int64_t frame = 0; frame < 300; ++frame) {
     for (Eigen::Quaternionf& rotation : motion.pose(frame).rotations) rotation = rotation * turn(50, {1, 2, 3});
   }
+  std::size_t jumps = 0;
   for (const Defect& defect : defects_of(motion)) {
     if (defect.kind != DefectKind::jump) continue;
+    ++jumps;
     EXPECT_EQ(defect.joint, kNoJoint);
     EXPECT_EQ(defect.frames, (FrameRange{300, 301}));
     EXPECT_THAT(defect.text, HasSubstr("joints jump at once"));
   }
+  EXPECT_EQ(jumps, 1u);
 }
 
 TEST(Defects, AQuaternionThatFlips) {

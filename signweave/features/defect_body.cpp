@@ -112,8 +112,8 @@ bool has_permuted_root(const Motion& motion) {
   if (degrees < 0.01 || offset.norm() < 1e-6f) return false;
   if (std::abs(turn.axis().dot(offset.normalized())) < 0.999f) return false;
   const double per_metre = degrees / static_cast<double>(offset.norm());
-  if (per_metre < 0.9 || per_metre > 1100) return false;  // file units a metre: m to mm
-  bool shifts = false;
+  if (per_metre < 0.9 || per_metre > 1100) return false;   // file units a metre: m to mm
+  bool shifts = motion.pose(0).translations[0] != offset;  // what stands there is no place
   for (std::int64_t frame = 1; frame < motion.frame_count(); ++frame) {
     if (motion.pose(frame).rotations[0].coeffs() != first.coeffs()) return false;
     shifts = shifts || motion.pose(frame).translations[0] != motion.pose(0).translations[0];

@@ -10,13 +10,16 @@ namespace {
 
 constexpr std::size_t kMostSteps = 40;
 
-/// The least of 1, 2, 5 times a power of ten that is not under `width`.
-double round_width(double width) {
+/// The one of 1, 2, 5 times powers of ten that is nearest to `width` as a ratio, but not under `least`.
+double round_width(double width, double least) {
   const double power = std::pow(10.0, std::floor(std::log10(width)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= width * (1 - 1e-9)) return factor * power;
+  double nearest = 0;
+  for (const double factor : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
+    const double one = factor * power;
+    if (one < least) continue;
+    if (nearest == 0 || std::abs(std::log(one / width)) < std::abs(std::log(nearest / width))) nearest = one;
   }
-  return 10 * power;
+  return nearest;
 }
 
 double quantile_of(std::span<const double> sorted, double part) {
@@ -31,10 +34,11 @@ Histogram histogram_of(std::span<const double> sorted) {
   const double range = sorted.back() - sorted.front();
   const double between = quantile_of(sorted, 0.75) - quantile_of(sorted, 0.25);
   double width = 2 * between / std::cbrt(static_cast<double>(sorted.size()));
-  width = std::max(width, range / static_cast<double>(kMostSteps - 2));
+  const double least = range / static_cast<double>(kMostSteps - 1);
+  width = std::max(width, least);
   if (!(width > 0)) width = std::max(std::abs(sorted.front()) * 0.1, 1e-6);  // all alike
   Histogram histogram;
-  histogram.width = round_width(width);
+  histogram.width = round_width(width, least);
   histogram.begin = std::floor(sorted.front() / histogram.width) * histogram.width;
   const double steps = std::floor((sorted.back() - histogram.begin) / histogram.width);
   histogram.counts.assign(static_cast<std::size_t>(steps) + 1, 0);

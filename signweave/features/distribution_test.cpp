@@ -54,6 +54,13 @@ TEST(Distribution, AHistogramHasRoundStepsOfFreedmanAndDiaconis) {
   EXPECT_EQ(of.counts, (std::vector<std::size_t>{97, 100, 100, 100, 100, 100, 100, 100, 100, 100, 3}));
 }
 
+TEST(Distribution, StepsAreTheNearestRoundOnes) {
+  // Quartiles 870 and 1250 of 21 numbers: 2 · 380 / ∛21 = 275.
+  std::vector<double> values = {610,  650,  670,  670,  720,  870,  980,  1010, 1030, 1050, 1060,
+                                1110, 1150, 1170, 1240, 1250, 1250, 1270, 1290, 1500, 1760};
+  EXPECT_EQ(distribution_of(values).histogram.width, 200);
+}
+
 RC_GTEST_PROP(Distribution, EveryValueFallsIntoOneStep, (const std::vector<std::int32_t>& numbers)) {
   const std::vector<double> values(numbers.begin(), numbers.end());
   const Distribution of = distribution_of(values);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -83,6 +84,10 @@ void run_segment(const Options& options, Io& io) {
     proposed = propose_phases(upper_body_of(file.motion, rig));
   } catch (const Error& error) {  // the library knows parts of the body, the user a file
     throw Error(error.code(), fmt::format("{}: {} (--rig)", options.motion, error.what()));
+  }
+  // The segmenter's frames are longer than most motions' own, so the last one may reach past the end.
+  for (std::vector<ProposedPhase>& hand : proposed.hands) {
+    for (ProposedPhase& one : hand) one.end = std::min(one.end, file.motion.duration());
   }
   for (Notice& notice : proposed.notices) notice.where = options.motion;
   print_notices(io, proposed.notices);

@@ -425,7 +425,11 @@ TEST(RigMap, ReadsAFewFramesOfALongMotion) {
     map_rig(motion);
     least = std::min(least, std::chrono::steady_clock::now() - begin);
   }
+#ifdef NDEBUG
   EXPECT_LT(least, std::chrono::milliseconds(5));
+#else  // unoptimised, and with sanitizers
+  EXPECT_LT(least, std::chrono::milliseconds(200));
+#endif
 }
 
 RC_GTEST_PROP(RigMapProperty, AnySkeletonHasAMapOfItsOwnJoints, ()) {

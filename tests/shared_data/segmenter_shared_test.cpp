@@ -62,6 +62,8 @@ TEST(SegmenterOnRealGestures, IsFiveHundredTimesFasterThanTheMotion) {
   std::cout << seconds / taken.count() << " times real time\n";
 #ifdef NDEBUG
   EXPECT_GT(seconds / taken.count(), 500);
+#else  // unoptimised, and with sanitizers
+  EXPECT_GT(seconds / taken.count(), 5);
 #endif
 }
 

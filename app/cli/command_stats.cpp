@@ -40,7 +40,26 @@ struct Counted {
   std::vector<RecordedTransition> all;
 };
 
-Counted count(const Contents& contents, const std::string& recording) {
+/// What tells how the hands move in the transitions of a recording; none where nothing was measured.
+MotionOf motion_of(const Database& database, const Contents& contents, std::uint32_t recording,
+                   const std::vector<Sign>& signs) {
+  auto features = std::make_shared<const RecordingFeatures>(database.features(contents.recordings[recording].name));
+  auto places =
+      std::make_shared<const std::vector<std::vector<std::size_t>>>(phase_places_of(contents.segments, recording));
+  if (!features->why_not.empty() || places->size() != signs.size()) return {};
+  const auto phases_of = [features, places](std::size_t sign) {
+    std::vector<PhaseFeatures> phases;
+    for (const std::size_t place : (*places)[sign]) {
+      if (place < features->phases.size()) phases.push_back(features->phases[place]);
+    }
+    return phases;
+  };
+  return [=](const Sign& from, const Sign& to, const Transition& transition) {
+    return motion_between(from, phases_of(transition.from), to, phases_of(transition.to), features->shoulder_width);
+  };
+}
+
+Counted count(const Database& database, const Contents& contents, const std::string& recording, Io& io) {
   if (!recording.empty()) contents.at(recording);  // throws where there is none
   Counted counted;
   for (std::size_t i = 0; i < contents.recordings.size(); ++i) {
@@ -48,7 +67,14 @@ Counted count(const Contents& contents, const std::string& recording) {
     if (!recording.empty() && name != recording) continue;
     counted.names.push_back(name);
     counted.signs.push_back(signs_of(contents.segments, static_cast<std::uint32_t>(i)));
-    counted.transitions.push_back(recorded_transitions(name, counted.signs.back()));
+    MotionOf hands;
+    try {
+      hands = motion_of(database, contents, static_cast<std::uint32_t>(i), counted.signs.back());
+    } catch (const Error& error) {  // durations can be told all the same
+      io.err << "signweave: " << one_line(error.what()) << '\n';
+      io.status = 1;
+    }
+    counted.transitions.push_back(recorded_transitions(name, counted.signs.back(), hands));
     counted.all.insert(counted.all.end(), counted.transitions.back().begin(), counted.transitions.back().end());
   }
   const bool none = std::all_of(counted.signs.begin(), counted.signs.end(), [](const auto& of) { return of.empty(); });
@@ -177,6 +203,8 @@ void print_tables(const Options& options, const Counted& counted, Io& io) {
   }
   const std::vector<NamedSummary> summaries = summaries_of(counted);
   io.out << format_table(transition_rows(summaries));
+  const Rows hands = hand_rows(summaries);
+  if (hands.size() > 1) io.out << '\n' << format_table(hands);
   for (const NamedSummary& one : summaries) {
     if (!one.summary.inferred) continue;
     io.out << fmt::format("{}: gaps between signs, for no phases are annotated\n",
@@ -192,7 +220,7 @@ void run_stats(const Options& options, Io& io) {
   const Database database(options.folder, kv::Access::read_only);
   report_damage(database, io);
   const std::shared_ptr<const Contents> contents = database.contents();
-  const Counted counted = count(*contents, options.recording);
+  const Counted counted = count(database, *contents, options.recording, io);
   if (!options.plot.empty()) draw(counted, options.plot);
   if (io.json || options.format == "json") {
     print_json(options, counted, io);

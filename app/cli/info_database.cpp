@@ -151,7 +151,7 @@ void info_of_recording(const std::string& folder, const std::string& name, Io& i
     fields["seconds"] = std::stod(fmt::format("{:.3f}", motion.duration().count()));
     fields["joints"] = motion.skeleton().joint_count();
     fields["scalar_tracks"] = motion.tracks().size();
-    fields["clock_origin_ms"] = std::stod(fmt::format("{:.3f}", 1e3 * info.clock.origin.count()));
+    fields["clock_origin_ms"] = std::stod(fmt::format("{:.3f}", 1e3 * info.clock.origin.count() + 0.0));
   }
   const RecordingFeatures features = database.features(name);
   std::size_t known = 0;

@@ -103,6 +103,23 @@ Rows transition_rows(const std::vector<NamedSummary>& summaries) {
   return rows;
 }
 
+Rows hand_rows(const std::vector<NamedSummary>& summaries) {
+  Rows rows = {{"recording", "hand", "transitions", "displacement m", "SD", "path m", "SD", "velocity m/s", "SD"}};
+  for (const NamedSummary& one : summaries) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const TravelStats& hand = one.summary.whole.hands[side];
+      if (hand.path.count == 0) continue;
+      std::vector<std::string> row = {one.recording.empty() ? "(all)" : one.recording, kSideNames[side],
+                                      std::to_string(hand.path.count)};
+      for (const Distribution* of : {&hand.displacement, &hand.path, &hand.speed}) {
+        row = joined(std::move(row), {fmt::format("{:.2f}", of->mean), fmt::format("{:.2f}", of->deviation)});
+      }
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
 Rows pair_rows(const std::vector<PairStats>& pairs) {
   Rows rows = {{"from", "to", "count", "mean ms", "±95 %", "SD", "median", "retraction", "preparation"}};
   for (const PairStats& pair : pairs) {

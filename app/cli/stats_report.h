@@ -19,6 +19,9 @@ struct NamedSummary {
 };
 
 Rows transition_rows(const std::vector<NamedSummary>& summaries);
+/// How the hands go: displacement, path and average velocity of each hand over the whole transition (the paper, section
+/// 5.1); the head alone where nothing was measured.
+Rows hand_rows(const std::vector<NamedSummary>& summaries);
 Rows pair_rows(const std::vector<PairStats>& pairs);
 Rows gloss_rows(const std::vector<GlossStats>& glosses);
 Rows ngram_rows(const std::vector<NgramStats>& ngrams);

@@ -139,8 +139,8 @@ class Database {
   /// rounded with.
   bool relayout(std::string_view name, const Storage& to, const Progress& progress = {});
 
-  /// Measures the phases of a recording anew where what is stored of them was measured by another version, or nothing
-  /// is; false where it is current. Whatever else changes a recording measures by itself.
+  /// Measures the phases of a recording anew where what is stored of them was measured by another version, is
+  /// damaged, or nothing is; false where it is current. Whatever else changes a recording measures by itself.
   bool measure(std::string_view name);
 
   /// How motions are stored that are put from now on.

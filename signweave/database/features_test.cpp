@@ -226,5 +226,26 @@ TEST(Features, OfAnEarlierVersionAreMeasuredWhenAskedForAndStoredOnDemand) {
   }
 }
 
+TEST(Features, ThatAreDamagedAreToldAndMeasuredAnew) {
+  Scene scene;
+  scene.database->put(recording_of("a", 1, {"A"}));
+  const std::uint64_t document = scene.database->info("a")->document;
+  scene.database.reset();
+  change_behind(scene.folder, [&](kv::WriteTransaction& to) {
+    ByteWriter key;
+    key.number('F');
+    key.number(document);
+    const ByteSpan record = *to.get(key.bytes());
+    Bytes damaged(record.begin(), record.end());
+    damaged[20] ^= std::byte{1};
+    to.put(key.bytes(), damaged);
+  });
+  Database database(scene.folder / "db", kv::Access::read_write);
+  EXPECT_THAT(check(database).faults, ElementsAre(HasSubstr("a: features")));
+  EXPECT_THROW(database.features("a"), Error);
+  EXPECT_TRUE(database.measure("a"));
+  expect_current(database, "a");
+}
+
 }  // namespace
 }  // namespace signweave

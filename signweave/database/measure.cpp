@@ -10,7 +10,8 @@ namespace signweave {
 namespace {
 
 RecordingFeatures nothing(const SegmentChunk& segments, std::string why_not) {
-  RecordingFeatures features{.why_not = std::move(why_not), .phases = {}};
+  RecordingFeatures features;
+  features.why_not = std::move(why_not);
   features.phases.resize(semantic_db::phase_spans(segments).size());
   return features;
 }
@@ -59,7 +60,7 @@ std::string fault_of_features(const kv::ReadTransaction& snapshot, const Recordi
 RecordingFeatures Database::features(std::string_view name) const {
   const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
   const RecordingInfo info = recording_in(*snapshot, name);
-  if (info.document == 0) return {.why_not = "motion without annotation", .phases = {}};
+  if (info.document == 0) return nothing({}, "motion without annotation");
   if (auto stored = semantic_db::read_features(*snapshot, info.document, info.name)) return *std::move(stored);
   return measure_stored(*snapshot, info, semantic_db::read_segments(*snapshot, info.document, info.name));
 }
@@ -68,7 +69,12 @@ bool Database::measure(std::string_view name) {
   require_writable();
   const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
   const RecordingInfo info = recording_in(*transaction, name);
-  if (info.document == 0 || semantic_db::read_features(*transaction, info.document, info.name)) return false;
+  if (info.document == 0) return false;
+  try {
+    if (semantic_db::read_features(*transaction, info.document, info.name)) return false;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::corrupt) throw;
+  }
   const SegmentChunk segments = semantic_db::read_segments(*transaction, info.document, info.name);
   semantic_db::put_features(*transaction, info.document, measure_stored(*transaction, info, segments));
   transaction->commit();

@@ -6,6 +6,7 @@
 //
 //     u16  kFeatureVersion
 //     text why nothing was measured (empty: it was)
+//     f32  shoulder width, metres
 //     u32  phases, then for each:
 //       f32 seconds
 //       u8  bits: 1 something is known, 2 the left hand, 4 the right hand
@@ -56,6 +57,7 @@ std::uint8_t bits_of(const PhaseFeatures& phase) {
 void encode(const RecordingFeatures& features, ByteWriter& out) {
   out.number(kFeatureVersion);
   out.text(features.why_not);
+  out.number(features.shoulder_width);
   out.number(static_cast<std::uint32_t>(features.phases.size()));
   for (const PhaseFeatures& phase : features.phases) {
     out.number(phase.seconds);
@@ -73,7 +75,8 @@ void encode(const RecordingFeatures& features, ByteWriter& out) {
 
 std::optional<RecordingFeatures> decode_features(ByteReader& in) {
   if (in.number<std::uint16_t>() != kFeatureVersion) return std::nullopt;
-  RecordingFeatures features{.why_not = in.text(), .phases = {}};
+  RecordingFeatures features;
+  features.why_not = in.text();
   const auto number = [&](float& value) {
     value = in.number<float>();
     if (!std::isfinite(value)) in.fail("a feature that is no number");
@@ -82,6 +85,7 @@ std::optional<RecordingFeatures> decode_features(ByteReader& in) {
     value = in.number<std::remove_reference_t<decltype(value)>>();
     if (value > largest) in.fail("a feature that does not exist");
   };
+  number(features.shoulder_width);
   features.phases.resize(in.count(kSmallestPhase));
   for (PhaseFeatures& phase : features.phases) {
     number(phase.seconds);

@@ -90,6 +90,7 @@ RecordingFeatures measure_phases(const Motion& motion, const SignerModel& model,
   result.phases.resize(phases.size());
   if (motion.frame_count() == 0) result.why_not = "the motion has no frame";
   if (result.why_not.empty() && !model.body) result.why_not = why_no_signer_space(model.rig);
+  if (result.why_not.empty()) result.shoulder_width = model.body->shoulder_width;
   for (std::size_t i = 0; i < phases.size(); ++i) {
     const FrameRange asked = frames_of(phases[i], clock);
     FrameRange frames = clamp(asked, motion.frame_count());

@@ -54,6 +54,7 @@ struct PhaseFeatures {
 /// What is measured of the phases of one recording.
 struct RecordingFeatures {
   std::string why_not;                ///< empty, or why nothing was measured: one line with its mend
+  float shoulder_width = 0;           ///< metres; 0 where nothing was measured
   std::vector<PhaseFeatures> phases;  ///< one for each phase that was asked for
 };
 

@@ -96,7 +96,9 @@ RecordingFeatures stored_and_read(const RecordingFeatures& features) {
 }
 
 RC_GTEST_PROP(FeatureRecord, ComesBackAsItWas, (const std::vector<std::vector<std::uint8_t>>& speeds)) {
-  RecordingFeatures features{.why_not = speeds.empty() ? "nothing" : "", .phases = {}};
+  RecordingFeatures features;
+  features.why_not = speeds.empty() ? "nothing" : "";
+  features.shoulder_width = 0.4f;
   for (const std::vector<std::uint8_t>& phase : speeds) {
     std::vector<float> numbers(phase.begin(), phase.end());
     features.phases.emplace_back();
@@ -110,6 +112,7 @@ RC_GTEST_PROP(FeatureRecord, ComesBackAsItWas, (const std::vector<std::vector<st
   }
   const RecordingFeatures read = stored_and_read(features);
   RC_ASSERT(read.why_not == features.why_not);
+  RC_ASSERT(read.shoulder_width == features.shoulder_width);
   RC_ASSERT(read.phases.size() == features.phases.size());
   for (std::size_t i = 0; i < read.phases.size(); ++i) RC_ASSERT(nearly_same(read.phases[i], features.phases[i]));
   ByteWriter again;

@@ -11,6 +11,7 @@
 #include "signweave/annotation/sign.h"
 #include "signweave/core/time.h"
 #include "signweave/features/distribution.h"
+#include "signweave/features/phase_features.h"
 
 namespace signweave {
 
@@ -66,6 +67,13 @@ struct TransitionMotion {
   std::array<HandTravel, 2> preparation;
   std::array<HandTravel, 2> whole;  ///< from the end of one stroke to the begin of the next
 };
+
+/// How the hands go from the last stroke of one sign to the first stroke of the next, from what was measured of their
+/// phases: `from_phases[i]` of `from.phases[i]`. The path is that along the phases, and straight where they do not
+/// meet. None where a sign has no annotated phases, or nothing was measured of either hand.
+std::optional<TransitionMotion> motion_between(const Sign& from, std::span<const PhaseFeatures> from_phases,
+                                               const Sign& to, std::span<const PhaseFeatures> to_phases,
+                                               float shoulder_width);
 
 /// A transition with its names.
 struct RecordedTransition {

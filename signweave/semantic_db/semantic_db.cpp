@@ -116,6 +116,24 @@ std::vector<Sign> signs_of(const SegmentTable& table, std::uint32_t recording) {
   return signs;
 }
 
+std::vector<std::vector<std::size_t>> phase_places_of(const SegmentTable& table, std::uint32_t recording) {
+  const SegmentTable::RowRange rows = table.recording_rows(recording);
+  std::vector<std::size_t> places(rows.size());  // [row]
+  std::size_t phases = 0;
+  for (RowId row = rows.begin; row < rows.end; ++row) {
+    if (table.row(row).kind == RowKind::phase) places[row - rows.begin] = phases++;
+  }
+  std::vector<std::vector<std::size_t>> of_signs;
+  for (RowId row = rows.begin; row < rows.end; ++row) {
+    if (table.row(row).kind != RowKind::sign) continue;
+    of_signs.emplace_back();
+    for (const RowId child : table.children(row)) {
+      if (table.row(child).kind == RowKind::phase) of_signs.back().push_back(places[child - rows.begin]);
+    }
+  }
+  return of_signs;
+}
+
 std::vector<Sign> main_signs_of(const SegmentTable& table, std::uint32_t recording) {
   std::map<std::string, std::vector<Sign>> tiers;
   for (Sign& sign : signs_of(table, recording)) tiers[sign.tier].push_back(std::move(sign));

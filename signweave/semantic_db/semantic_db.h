@@ -54,6 +54,10 @@ Sign sign_at(const SegmentTable& table, RowId row);
 /// All signs of a recording, by tier as the table lists them, then time.
 std::vector<Sign> signs_of(const SegmentTable& table, std::uint32_t recording);
 
+/// Which phase rows each of them has, [sign][phase]: their places among all phase rows of the recording, which is the
+/// order of its features.
+std::vector<std::vector<std::size_t>> phase_places_of(const SegmentTable& table, std::uint32_t recording);
+
 /// Those of its main sign tier, the one with most signs (of several, the first): what a run of signs means where each
 /// hand has a tier of its own.
 std::vector<Sign> main_signs_of(const SegmentTable& table, std::uint32_t recording);

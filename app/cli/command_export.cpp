@@ -122,6 +122,7 @@ Run export_recording(CLI::App& verb) {
                        .document = document ? &*document : nullptr,
                        .title = info.name,
                        .signing_space = options->signing_space,
+                       .rig = info.rig,
                        .declarations = info.declarations};
     for (const std::string& path : options->outputs) {
       if (!options->joints.empty() && fold_case(path).ends_with(".face.csv")) {

@@ -182,7 +182,10 @@ Run import(CLI::App& verb) {
       ->check([](const std::string& text) {
         return parse_sync(text) ? std::string() : "expected FRAME@MS, such as 120@4010";
       });
-  verb.add_option("--rig", options->rig, "lines PART = JOINT: what the joints are that their names do not tell");
+  verb.add_option("--rig", options->rig,
+                  "mapping file: lines 'part = joint' for what the joints' names do not tell; remembered, an empty "
+                  "file forgets")
+      ->type_name("FILE");
   verb.add_flag("--replace-motion", options->replace_motion,
                 "take motion and face files again, changed or not: instead of what was imported, or over damage");
   return [options](Io& io) {

@@ -165,6 +165,9 @@ Run info(CLI::App& verb) {
   add_motion_options(verb, options->motion);
   return [options](Io& io) {
     const std::string ending = fold_case(std::filesystem::path(options->path).extension().string());
+    if (!options->rig.empty() && ending != ".bvh") {
+      throw CLI::ValidationError("--rig", "is about a motion file; a recording's mapping is given by import --rig");
+    }
     std::error_code ignored;
     if (std::filesystem::is_directory(options->path, ignored)) {
       if (options->recording.empty()) {

@@ -23,6 +23,7 @@ struct Options {
   std::string motion;
   std::string output;
   std::string rig;
+  bool overwrite = false;
   MotionOptions reading;
 };
 
@@ -69,7 +70,16 @@ void print_table(const ProposedPhases& proposed, Io& io) {
   io.out << format_table(rows);
 }
 
+/// A person's annotation must not be lost to proposals.
+void require_new(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return;
+  throw Error(ErrorCode::already_exists,
+              path + ": is there already, and may hold a person's annotation; give another name, or --overwrite");
+}
+
 void run_segment(const Options& options, Io& io) {
+  if (!options.output.empty() && !options.overwrite) require_new(options.output);
   bvh::ReadOptions reading = read_options(options.reading);
   Progress progress(io, "reading");
   reading.progress = [&](double fraction) { progress.show(fraction); };
@@ -83,7 +93,7 @@ void run_segment(const Options& options, Io& io) {
   try {
     proposed = propose_phases(upper_body_of(file.motion, rig));
   } catch (const Error& error) {  // the library knows parts of the body, the user a file
-    throw Error(error.code(), fmt::format("{}: {} (--rig)", options.motion, error.what()));
+    throw Error(error.code(), fmt::format("{}: {}", options.motion, error.what()));
   }
   // The segmenter's frames are longer than most motions' own, so the last one may reach past the end.
   for (std::vector<ProposedPhase>& hand : proposed.hands) {
@@ -112,7 +122,9 @@ Run segment(CLI::App& verb) {
       ->check([](const std::string& path) {
         return fold_case(path).ends_with(".eaf") ? std::string() : "'" + printable(path) + "' does not end in .eaf";
       });
-  verb.add_option("--rig", options->rig, "mapping file: a line 'part = joint' for each part that is not told right");
+  verb.add_flag("--overwrite", options->overwrite, "take the place of an annotation file that is there already");
+  verb.add_option("--rig", options->rig, "mapping file: a line 'part = joint' for each part that is not told right")
+      ->type_name("FILE");
   add_motion_options(verb, options->reading);
   return [options](Io& io) { run_segment(*options, io); };
 }

@@ -173,7 +173,7 @@ void info_of_recording(const std::string& folder, const std::string& name, Io& i
   print_pairs(io, fields);
   if (model) {
     const std::shared_ptr<const Skeleton> skeleton = database.skeleton(name);
-    io.out << table_of(info.defects, *skeleton, info.notices);
+    io.out << table_of(info.defects, *skeleton, {});
     print_rig(*skeleton, model->rig, info.name, io);
   }
   print_notices(io, info.notices);

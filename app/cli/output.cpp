@@ -243,11 +243,14 @@ void write_synthesis(const std::vector<std::string>& paths, const Synthesized& m
     } else if (ending == ".svg") {
       ContactSheetOptions options = sheet_options(result, sheet.title);
       options.signing_space = sheet.signing_space;
+      options.rig = map_rig(result.motion, sheet.rig);
       write_text(path, contact_sheet(result.motion, options));
     } else {
-      write_recording(
-          path,
-          {.motion = &result.motion, .layout = layout, .title = sheet.title, .declarations = result.declarations});
+      write_recording(path, {.motion = &result.motion,
+                             .layout = layout,
+                             .title = sheet.title,
+                             .rig = sheet.rig,
+                             .declarations = result.declarations});
     }
   }
 }
@@ -266,7 +269,11 @@ void write_recording(const std::string& path, const Outgoing& recording) {
   if (ending == ".bvh") {
     bvh::write(path, motion, layout_for(recording.layout, motion.skeleton()));
   } else if (ending == ".glb" || ending == ".gltf") {
-    gltf::write(path, motion, {.name = recording.title, .declarations = recording.declarations, .head = {}});
+    gltf::write(path, motion,
+                {.name = recording.title,
+                 .declarations = recording.declarations,
+                 .head = {},
+                 .rig = map_rig(motion, recording.rig)});
   } else if (ending == ".csv") {
     write_positions_csv(path, motion);
   } else if (ending == kFace) {
@@ -277,6 +284,7 @@ void write_recording(const std::string& path, const Outgoing& recording) {
     options.title = recording.title;
     options.note = note_of(recording.declarations);
     options.signing_space = recording.signing_space;
+    options.rig = map_rig(motion, recording.rig);
     write_text(path, contact_sheet(motion, options));
   } else {
     json document = json_of(motion);

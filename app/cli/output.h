@@ -9,6 +9,7 @@
 #include "signweave/annotation/document.h"
 #include "signweave/formats/bvh.h"
 #include "signweave/motion/motion.h"
+#include "signweave/rig/rig_map.h"
 #include "signweave/synthesis/synthesizer.h"
 
 namespace signweave::cli {
@@ -29,6 +30,7 @@ void check_signing_space(bool wanted, const std::vector<std::string>& paths);
 struct SheetWishes {
   std::string title;
   bool signing_space = false;
+  RigNames rig;  ///< what a mapping file said of the skeleton
 };
 
 /// Writes a synthesis to each path, by its ending. An annotation written beside a motion links it.
@@ -42,6 +44,7 @@ struct Outgoing {
   const AnnotationDocument* document = nullptr;  ///< for .eaf
   std::string title;
   bool signing_space = false;                                     ///< for .svg
+  RigNames rig;                                                   ///< what a mapping file said of the skeleton
   std::vector<std::pair<std::string, std::string>> declarations;  ///< what its sources say of themselves
 };
 

@@ -39,8 +39,12 @@ std::vector<std::string> complete_head() {
 
 std::vector<std::string> complete(const Distribution& of) {
   const auto number = [](double value) { return fmt::format("{:.6g}", value); };
-  std::vector<std::string> row = {std::to_string(of.count), number(of.mean),      number(of.deviation),
-                                  number(of.mean_low),      number(of.mean_high), number(of.least)};
+  std::vector<std::string> row = {std::to_string(of.count),
+                                  number(of.mean),
+                                  number(of.deviation),
+                                  of.count < 2 ? "" : number(of.mean_low),
+                                  of.count < 2 ? "" : number(of.mean_high),
+                                  number(of.least)};
   for (const double quantile : of.quantiles) row.push_back(number(quantile));
   std::string counts;
   for (const std::size_t count : of.histogram.counts) {
@@ -186,6 +190,7 @@ Rows ngram_csv(const std::vector<NgramStats>& ngrams) {
 }
 
 json json_of(const Distribution& of) {
+  if (of.count == 0) return {{"count", 0}};
   json quantiles = json::object();
   for (std::size_t i = 0; i < of.quantiles.size(); ++i) {
     quantiles[fmt::format("{:g}", Distribution::kQuantiles[i])] = of.quantiles[i];
@@ -194,7 +199,7 @@ json json_of(const Distribution& of) {
       {"count", of.count},
       {"mean", of.mean},
       {"sd", of.deviation},
-      {"mean_95", {of.mean_low, of.mean_high}},
+      {"mean_95", of.count < 2 ? json() : json{of.mean_low, of.mean_high}},  // one value tells nothing of it
       {"least", of.least},
       {"most", of.most},
       {"quantiles", std::move(quantiles)},
@@ -220,6 +225,11 @@ json json_of(const RecordedTransition& transition) {
   if (!of.inferred) {
     one["retraction_ms"] = of.retraction.count();
     one["preparation_ms"] = of.preparation.count();
+  }
+  for (std::size_t side = 0; transition.motion && side < 2; ++side) {
+    const HandTravel& travel = transition.motion->whole[side];
+    if (!travel.known) continue;
+    one[fmt::format("{}_hand", kSideNames[side])] = {{"displacement_m", travel.displacement}, {"path_m", travel.path}};
   }
   return one;
 }

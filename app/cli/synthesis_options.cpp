@@ -144,13 +144,17 @@ SynthesisOptions synthesis_options(const SynthesisWords& words) {
 
 void deliver(const Synthesized& made, const SynthesisWords& words, const std::string& title, Io& io) {
   std::optional<bvh::Layout> layout;
-  if (const RecordingInfo* source = made.contents->find(made.layout_from)) layout = source->layout;
+  RigNames rig;
+  if (const RecordingInfo* source = made.contents->find(made.layout_from)) {
+    layout = source->layout;
+    rig = source->rig;
+  }
   if (layout) {  // of the source's file its axes, unit and orders, but not its oddities
     layout->root_columns = bvh::RootColumns::declared;
     layout->root_unit = layout->unit;
     layout->frame_time.clear();
   }
-  write_synthesis(words.outputs, made, layout, {.title = title, .signing_space = words.signing_space});
+  write_synthesis(words.outputs, made, layout, {.title = title, .signing_space = words.signing_space, .rig = rig});
   print_notices(io, made.result.notices);
   for (const auto& [name, value] : made.result.declarations) io.err << "signweave: " << value << '\n';
   const Synthesis& result = made.result;

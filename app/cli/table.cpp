@@ -71,7 +71,7 @@ std::string format_csv(const std::vector<std::vector<std::string>>& rows) {
 }
 
 std::string counted(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : noun.ends_with('s') ? "es" : "s");
 }
 
 }  // namespace signweave::cli

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "signweave/kv/sealed.h"
 
 namespace signweave::catalogue {
@@ -135,6 +137,8 @@ std::vector<Defect> decode_defects(ByteReader& in) {
     defect.frames.end = in.number<std::int64_t>();
     defect.value = in.number<float>();
     defect.text = in.text();
+    const bool in_order = 0 <= defect.frames.begin && defect.frames.begin <= defect.frames.end;
+    if (defect.joint < kNoJoint || !in_order || !std::isfinite(defect.value)) in.fail("a defect that cannot be");
     defects.push_back(std::move(defect));
   }
   return defects;

@@ -166,6 +166,16 @@ void Database::put(const Recording& recording, const Progress& progress) {
     stored = write_motion(*motion, head.access_mode, tolerance, part_of(progress, rounds ? 0.5 : 0, 1));
   }
 
+  // Another rig: what it says must fit the motion, and what is wrong with that may be told by it.
+  const bool new_rig = !recording.motion && before && before->motion && rig != before->rig;
+  if (new_rig) {
+    const Motion motion = read(recording.name);
+    defects = find_defects(motion, map_rig(motion, rig));
+    for (const Defect& defect : before->defects) {  // gone from what is stored, not from what came
+      if (defect.kind == DefectKind::quaternion_flip) defects.push_back(defect);
+    }
+  }
+
   const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
   catalogue::Head head = catalogue::read_head(*transaction);
   const std::optional<std::uint32_t> known = slot_of(*transaction, recording.name);
@@ -180,6 +190,7 @@ void Database::put(const Recording& recording, const Progress& progress) {
   info.signer_given = recording.signer_given;
   info.notices = recording.notices;
   info.rig = rig;
+  if (new_rig) info.defects = std::move(defects);
   if (recording.motion) {
     make_visible(*transaction, info, *stored);
     info.defects = std::move(defects);

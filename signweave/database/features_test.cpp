@@ -12,6 +12,7 @@ namespace signweave {
 namespace {
 
 using namespace testing_database;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -77,7 +78,8 @@ RecordingFeatures measured_again(const Database& database, const std::string& na
   return measure_phases(motion, model_of(motion, info.rig), semantic_db::phase_spans(segments), info.clock);
 }
 
-void expect_current(const Database& database, const std::string& name) {
+void expect_current(Database& database, const std::string& name) {
+  EXPECT_FALSE(database.measure(name)) << "nothing was stored";
   const RecordingFeatures stored = database.features(name);
   const RecordingFeatures again = measured_again(database, name);
   EXPECT_EQ(stored.why_not, again.why_not);
@@ -159,6 +161,45 @@ TEST(Features, AMappingFileThatNamesNoJointChangesNothing) {
   expect_current(*scene.database, "a");
 }
 
+TEST(Features, AMappingFileMustFitAMotionThatHasNoAnnotationYet) {
+  Scene scene;
+  Recording motion = recording_of("a", 1, {});
+  motion.annotation.reset();
+  scene.database->put(motion);
+  Recording rig{.name = "a", .signer = "s", .motion = {}, .annotation = {}};
+  rig.clock = motion.clock;
+  rig.rig = RigNames{{Part::right_hand, "RightHandd"}};
+  EXPECT_THROW(scene.database->put(rig), Error);
+  EXPECT_TRUE(scene.database->info("a")->rig.empty());
+}
+
+TEST(Features, OfABodyWithoutHandsSayWhy) {
+  Scene scene;
+  Recording recording = recording_of("a", 1, {"A"});
+  recording.rig = RigNames{{Part::right_hand, ""}, {Part::left_hand, ""}};
+  scene.database->put(recording);
+  EXPECT_THAT(scene.database->features("a").why_not, AllOf(HasSubstr("left wrist"), HasSubstr("right wrist")));
+  expect_current(*scene.database, "a");
+}
+
+TEST(Features, OfSignsBesideTheMotionSayWhy) {
+  Scene scene;
+  Recording recording = recording_of("a", 1, {"A"});
+  recording.clock.origin = Seconds(60);
+  scene.database->put(recording);
+  EXPECT_THAT(scene.database->features("a").why_not, HasSubstr("no phase lies within the motion"));
+  expect_current(*scene.database, "a");
+}
+
+TEST(Features, ShouldersInOnePlaceSayWhy) {
+  Scene scene;
+  Recording recording = recording_of("a", 1, {"A"});
+  recording.rig = RigNames{{Part::left_upper_arm, "LeftShoulder"}, {Part::right_upper_arm, "RightShoulder"}};
+  scene.database->put(recording);  // collar bones six centimetres apart
+  EXPECT_THAT(scene.database->features("a").why_not, HasSubstr("too near"));
+  expect_current(*scene.database, "a");
+}
+
 TEST(Features, OfABodyThatIsNoneSayWhy) {
   Scene scene;
   scene.database->put(small_recording("a", 1, {"A"}));
@@ -219,9 +260,9 @@ TEST(Features, OfAnEarlierVersionAreMeasuredWhenAskedForAndStoredOnDemand) {
   });
   {
     Database database(scene.folder / "db", kv::Access::read_write);
-    expect_current(database, "a");
+    EXPECT_EQ(database.features("a").phases.size(), 3u);
+    EXPECT_TRUE(database.features("a").phases[0].known);
     EXPECT_TRUE(database.measure("a"));
-    EXPECT_FALSE(database.measure("a"));
     expect_current(database, "a");
   }
 }

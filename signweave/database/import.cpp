@@ -54,6 +54,13 @@ TierNames tier_names(const AnnotationDocument& document, const ImportOptions& op
     for (const std::string& tier : names.phase_tiers) told += fmt::format("{}'{}'", told.empty() ? "" : ", ", tier);
     if (!told.empty() && !as_before) notices.push_back({where, fmt::format("phase tier {} guessed", told)});
   }
+  for (const TierNames::SignTier& tier : names.sign_tiers) {
+    if (std::ranges::find(names.phase_tiers, tier.id) == names.phase_tiers.end()) continue;
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: tier '{}' is taken for signs and for phases; give another with --sign-tier or "
+                            "--phase-tier",
+                            where, tier.id));
+  }
   return names;
 }
 
@@ -73,6 +80,10 @@ std::optional<FrameClock> given_clock(const ImportJob& job, const ImportOptions&
   if (options.sync.size() == 2) {
     const SyncPoint& first = options.sync[0];
     const SyncPoint& second = options.sync[1];
+    if (first.frame == second.frame) {
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("--sync: both points are at frame {:g}; give two frames", first.frame));
+    }
     clock.frame_time = (second.time - first.time) / (second.frame - first.frame);
     clock.origin = first.time - first.frame * clock.frame_time;
   } else if (!options.sync.empty()) {
@@ -126,6 +137,16 @@ void add_face(const fs::path& path, std::uint64_t fingerprint, MotionPart& part,
   notices.insert(notices.end(), face.notices.begin(), face.notices.end());
   part.face_file = path.filename().string();
   part.face_fingerprint = fingerprint;
+}
+
+/// What was guessed of the skeleton, and what is odd about it.
+void add_rig_notices(const Motion& motion, const ImportOptions& options, const RecordingInfo* known,
+                     const ImportJob& job, std::vector<Notice>& notices) {
+  const RigNames names = options.rig ? *options.rig : known != nullptr ? known->rig : RigNames{};
+  try {
+    for (const Notice& notice : map_rig(motion, names).notices) notices.push_back({job.motion->string(), notice.text});
+  } catch (const Error&) {  // names that do not fit: storing it says so
+  }
 }
 
 /// Signs that lie outside the motion can be found but not signed: say so.
@@ -267,6 +288,7 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     rate = file.motion.rate();
     report.frames = file.motion.frame_count();
     recording.notices = std::move(file.notices);
+    if (report.frames > 0) add_rig_notices(file.motion, options, known ? &*known : nullptr, job, recording.notices);
     recording.motion = MotionPart{.motion = std::move(file.motion),
                                   .layout = std::move(file.layout),
                                   .file = job.motion->filename().string(),
@@ -338,7 +360,18 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                                           .file = job.annotation->filename().string(),
                                           .fingerprint = annotation_print};
   }
-  database.put(recording, half(progress, 0.5));
+  try {
+    database.put(recording, half(progress, 0.5));
+  } catch (const Error& error) {  // of a mapping file that does not fit
+    if (options.rig && !options.rig->empty() && error.code() != ErrorCode::io) {
+      throw Error(error.code(), fmt::format("{}: its mapping file: {}", recording.name, error.what()));
+    }
+    if (options.rig || !known || known->rig.empty() || error.code() != ErrorCode::not_found) throw;
+    throw Error(error.code(),
+                fmt::format("{}: the mapping file of an earlier import says {}; give another with --rig, or "
+                            "an empty file to forget it",
+                            recording.name, error.what()));
+  }
   report.signs = signs.size();
   report.tracks = recording.motion ? recording.motion->motion.tracks().size()
                   : motion_known   ? known->motion->tracks.size()

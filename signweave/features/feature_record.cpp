@@ -122,7 +122,8 @@ bool nearly_same(const PhaseFeatures& a, const PhaseFeatures& b) noexcept {
   const auto same = [&](const HandOver& first, const HandOver& second) {
     std::size_t count = 0;
     each_of(
-        first, [&](float value) { numbers[count++] = value; }, [](auto, auto) {});
+        first, [&](float value) { numbers[count++] = value; },
+        [&](auto value, auto) { numbers[count++] = static_cast<float>(value); });
     bool all = true;
     count = 0;
     each_of(
@@ -131,7 +132,7 @@ bool nearly_same(const PhaseFeatures& a, const PhaseFeatures& b) noexcept {
           const float other = numbers[count++];
           all = all && std::abs(value - other) <= kRounding * (1 + std::abs(other));
         },
-        [](auto, auto) {});
+        [&](auto value, auto) { all = all && numbers[count++] == static_cast<float>(value); });
     return all;
   };
   return std::abs(a.seconds - b.seconds) <= kRounding && same(a.hands[0], b.hands[0]) && same(a.hands[1], b.hands[1]) &&

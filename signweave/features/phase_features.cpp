@@ -56,6 +56,21 @@ HandOver over(std::span<const HandFrame> frames, FrameRate rate, const SignerBod
   return hand;
 }
 
+/// Empty, or why nothing can be measured of any phase.
+std::string why_not_measured(const Motion& motion, const SignerModel& model) {
+  if (motion.frame_count() == 0) return "the motion has no frame";
+  if (!model.body) {
+    const std::string why = why_no_signer_space(model.rig);
+    return why.empty()
+               ? "the shoulders are in one place, or too near each other for a body: name them in a mapping file"
+               : why;
+  }
+  const HandMotion first = measure_hands(motion, model, {0, 1});
+  const std::string& left = first.hands[0].why_not;
+  const std::string& right = first.hands[1].why_not;
+  return left.empty() || right.empty() ? "" : left + ", " + right;
+}
+
 }  // namespace
 
 SignerModel model_of(const Motion& motion, const RigNames& names) {
@@ -88,9 +103,9 @@ RecordingFeatures measure_phases(const Motion& motion, const SignerModel& model,
                                  const FrameClock& clock) {
   RecordingFeatures result;
   result.phases.resize(phases.size());
-  if (motion.frame_count() == 0) result.why_not = "the motion has no frame";
-  if (result.why_not.empty() && !model.body) result.why_not = why_no_signer_space(model.rig);
+  result.why_not = why_not_measured(motion, model);
   if (result.why_not.empty()) result.shoulder_width = model.body->shoulder_width;
+  bool known = phases.empty();
   for (std::size_t i = 0; i < phases.size(); ++i) {
     const FrameRange asked = frames_of(phases[i], clock);
     FrameRange frames = clamp(asked, motion.frame_count());
@@ -101,8 +116,12 @@ RecordingFeatures measure_phases(const Motion& motion, const SignerModel& model,
     if (result.why_not.empty()) {
       features = features_over(measure_hands(motion, model, frames), frames, motion.rate(), *model.body);
       if (!finite(features)) features = {};
+      known = known || features.known;
     }
     features.seconds = short_one ? 0 : seconds_of(frames, motion.rate());
+  }
+  if (result.why_not.empty() && !known) {
+    result.why_not = "no phase lies within the motion; if the two do not start together, give --offset-ms or --sync";
   }
   return result;
 }

@@ -129,10 +129,4 @@ BodyPlan plan_of(const Motion& motion, const RigMap& rig) {
   return plan;
 }
 
-BodyPlan plan_of(const Motion& motion, std::optional<JointIndex> head) {
-  RigMap rig = map_rig(motion);
-  if (head) rig[Part::head] = {.joint = *head, .evidence = Evidence::file, .confidence = 1};
-  return plan_of(motion, rig);
-}
-
 }  // namespace signweave

@@ -52,7 +52,9 @@ struct BodyPlan {
 
 /// The plan of a motion of at least one frame, from its middle one. `rig` must be a map of its skeleton.
 BodyPlan plan_of(const Motion& motion, const RigMap& rig);
-/// With the map that names and shape give; `head` says which joint is the head, where the caller knows.
-BodyPlan plan_of(const Motion& motion, std::optional<JointIndex> head = {});
+/// With the map that names and shape give.
+inline BodyPlan plan_of(const Motion& motion) {
+  return plan_of(motion, map_rig(motion));
+}
 
 }  // namespace signweave

@@ -197,9 +197,8 @@ struct Signer {
   SignerBody body;
 };
 
-std::optional<Signer> signer_of(const Motion& motion, const ContactSheetOptions& options) {
-  if (!options.signing_space) return std::nullopt;
-  const RigMap rig = options.rig ? *options.rig : map_rig(motion);
+std::optional<Signer> signer_of(const Motion& motion, const RigMap& rig, bool wanted) {
+  if (!wanted) return std::nullopt;
   const std::optional<SignerBody> body = signer_body(motion, rig);
   if (body) return Signer{rig, *body};
   const std::string why = why_no_signer_space(rig);
@@ -218,11 +217,12 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
     note += fmt::format("{}{} of {} frames shown", note.empty() ? "" : "; ", shown.size(), all.size());
   }
   const Skeleton& skeleton = motion.skeleton();
-  const std::optional<Signer> signer = signer_of(motion, options);
+  const RigMap rig = options.rig ? *options.rig : map_rig(motion);
+  const std::optional<Signer> signer = signer_of(motion, rig, options.signing_space);
 
   std::vector<ModelPose> poses;
   std::vector<Extent> figures;
-  const FigurePlan plan = figure_plan(motion);
+  const FigurePlan plan = figure_plan(motion, rig);
   for (const auto& [frame, given] : shown) {
     // Seen from where the signer faces, wherever that is on the floor.
     Pose pose(motion.pose(frame));

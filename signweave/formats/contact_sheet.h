@@ -23,7 +23,7 @@ struct ContactSheetOptions {
   std::size_t columns = 6;
   double turn = 0;  ///< degrees by which figures are turned to their left: 90 shows them from their right side
   bool signing_space = false;  ///< the signer's heights and zones behind each figure (docs/signing-space.md)
-  std::optional<RigMap> rig;   ///< for these: which joint is what; where none is given, `map_rig` tells
+  std::optional<RigMap> rig;   ///< which joint is what; where none is given, `map_rig` tells
   std::string title;           ///< a line above, empty for none
   std::string note;            ///< a line below, empty for none, such as "placeholder shapes, not LSF"
 };

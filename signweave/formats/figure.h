@@ -7,6 +7,7 @@
 #include "signweave/formats/body_plan.h"
 #include "signweave/motion/kinematics.h"
 #include "signweave/motion/motion.h"
+#include "signweave/rig/rig_map.h"
 
 namespace signweave {
 
@@ -34,8 +35,8 @@ struct FigurePlan {
   std::size_t hips = 0;           ///< the joint where the trunk begins
   std::optional<FigureHead> head;
 };
-/// Of a motion of at least one frame.
-FigurePlan figure_plan(const Motion& motion);
+/// Of a motion of at least one frame. `rig` must be a map of its skeleton.
+FigurePlan figure_plan(const Motion& motion, const RigMap& rig);
 
 /// Weights of a face from 0 to 1; all 0 for a face that does nothing.
 struct FigureFace {

@@ -65,9 +65,8 @@ std::optional<FigureHead> figure_head(const Skeleton& skeleton, const BodyPlan& 
 
 }  // namespace
 
-FigurePlan figure_plan(const Motion& motion) {
+FigurePlan figure_plan(const Motion& motion, const RigMap& rig) {
   const Skeleton& skeleton = motion.skeleton();
-  const RigMap rig = map_rig(motion);
   const BodyPlan body = plan_of(motion, rig);
   const ModelPose& pose = body.pose;
   FigurePlan plan;

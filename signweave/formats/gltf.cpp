@@ -87,6 +87,12 @@ void require_finite(const Motion& motion) {
   }
 }
 
+RigMap rig_of(const Motion& motion, const WriteOptions& options) {
+  RigMap rig = options.rig ? *options.rig : map_rig(motion);
+  if (options.head) rig[Part::head] = {.joint = *options.head, .evidence = Evidence::file, .confidence = 1};
+  return rig;
+}
+
 /// Puts one motion into a document, part by part.
 class Writer {
  public:
@@ -94,7 +100,7 @@ class Writer {
       : motion_(motion),
         skeleton_(motion.skeleton()),
         options_(options),
-        plan_(plan_of(motion, options.head)),
+        plan_(plan_of(motion, rig_of(motion, options))),
         document_(document),
         model_(document.model()) {}
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "signweave/motion/motion.h"
+#include "signweave/rig/rig_map.h"
 
 /// glTF 2.0 out, for viewers and for Blender: the skeleton as a node tree, one skinned mesh that shows it as a person
 /// of simple solids, and one animation.
@@ -23,6 +24,7 @@ struct WriteOptions {
   std::vector<std::pair<std::string, std::string>> declarations;
   /// The joint that carries the face; else the one that is called Head, else the one that looks like it.
   std::optional<JointIndex> head;
+  std::optional<RigMap> rig;  ///< which joint is what; where none is given, `map_rig` tells
 };
 
 /// A motion as glTF. Joints and tips are nodes, in metres, Y up; names are kept, and numbered where two are the same.

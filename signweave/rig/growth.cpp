@@ -1,8 +1,11 @@
 #include "signweave/rig/growth.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <initializer_list>
 
+#include "signweave/core/text.h"
 #include "signweave/rig/body_shape.h"
 
 namespace signweave {
@@ -60,6 +63,35 @@ void drop_what_cannot_grow(const Skeleton& skeleton, RigMap& map) {
       for (std::size_t i = 0; i < kFingerPoints; ++i) {
         keep_grown(skeleton, {of(side, left_hand), point(static_cast<FingerPoint>(i))}, map);
       }
+    }
+  }
+}
+
+void require_grown(const Skeleton& skeleton, const RigMap& map) {
+  const auto line = [&](std::initializer_list<Part> parts) {
+    const PartPlace* above = nullptr;
+    Part inner = pelvis;
+    for (const Part part : parts) {
+      const PartPlace& place = map[part];
+      if (place.evidence != Evidence::file) continue;
+      if (above != nullptr && !grows_from(skeleton, place.joint, above->joint)) {
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{} = {} does not lie beyond {} = {}; parts are named from the trunk outwards",
+                                name_of(part), printable(skeleton.joint(place.joint).name), name_of(inner),
+                                printable(skeleton.joint(above->joint).name)));
+      }
+      above = &place;
+      inner = part;
+    }
+  };
+  line({pelvis, neck, head});
+  for (const Side side : kSides) {
+    line({of(side, left_clavicle), of(side, left_upper_arm), of(side, left_forearm), of(side, left_hand)});
+    line({of(side, left_thigh), of(side, left_shin), of(side, left_foot), of(side, left_toes)});
+    for (const Finger finger : kFingers) {
+      line({of(side, left_hand), finger_part(side, finger, FingerPoint::proximal),
+            finger_part(side, finger, FingerPoint::intermediate), finger_part(side, finger, FingerPoint::distal),
+            finger_part(side, finger, FingerPoint::tip)});
     }
   }
 }

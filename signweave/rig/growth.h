@@ -8,4 +8,7 @@ namespace signweave {
 /// its forearm. What a mapping file says stays.
 void drop_what_cannot_grow(const Skeleton& skeleton, RigMap& map);
 
+/// Throws Error{bad_input} where a mapping file puts a part of a limb, or the head, before the one that it grows from.
+void require_grown(const Skeleton& skeleton, const RigMap& map);
+
 }  // namespace signweave

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "signweave/core/text.h"
@@ -74,6 +75,7 @@ class Mapper {
 
  private:
   void take_file() {
+    std::map<Part, JointIndex> told;
     for (const auto& [part, name] : file_) {
       if (name.empty()) {
         map_[part] = {};
@@ -86,12 +88,19 @@ class Mapper {
         throw Error(ErrorCode::not_found, fmt::format("{} = {}: the skeleton has no such joint{}", name_of(part),
                                                       printable(name), did_you_mean(name, known)));
       }
+      for (const auto& [other, place] : told) {
+        if (place != *joint) continue;
+        throw Error(ErrorCode::bad_input, fmt::format("{} and {} = {}: a joint plays one part; keep one of the lines",
+                                                      name_of(other), name_of(part), printable(name)));
+      }
+      told.emplace(part, *joint);
       // A joint plays one part by name: the user's word counts.
       for (PartPlace& place : map_.places) {
         if (place.joint == *joint && place.evidence == Evidence::name) place = {};
       }
       map_[part] = {.joint = *joint, .offset = Vector3f::Zero(), .evidence = Evidence::file, .confidence = 1};
     }
+    require_grown(skeleton_, map_);
   }
 
   /// A part that the shape tells. Names stand where they say something.

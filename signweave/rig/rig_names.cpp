@@ -38,6 +38,10 @@ RigNames read_rig_names(const std::filesystem::path& path) {
     std::string_view joint = text.substr(equals + 1);
     for (const std::string_view comment : {" #", "\t#"}) joint = joint.substr(0, joint.find(comment));
     const std::optional<Part> part = part_named(name);
+    if (!part && part_named(fmt::format("{}_proximal", name))) {
+      fail(fmt::format(
+          "\"{0}\" has several joints: {0}_metacarpal, {0}_proximal, {0}_intermediate, {0}_distal and {0}_tip", name));
+    }
     if (!part) fail(fmt::format("unknown part \"{}\"{}", printable(name), did_you_mean(name, known)));
     if (!names.emplace(*part, std::string(trimmed(joint))).second) {
       fail(fmt::format("part \"{}\" comes twice; keep one line", name));

@@ -19,6 +19,9 @@ constexpr float kEye = 0.936f;
 constexpr float kArm = 0.186f + 0.146f;  // upper arm and forearm
 /// Between the shoulders' joints of common rigs, which lie nearer together than a body is broad. (ours)
 constexpr float kShoulders = 0.21f;
+/// Of the trunk, from pelvis to neck: joints nearer together than that are no shoulders. In real rigs they lie at half
+/// of it and more apart. (ours)
+constexpr float kNarrowest = 0.2f;
 
 // Where the borders lie between the landmarks. (ours)
 constexpr float kChestOfTrunk = 0.5f;     // up from the hips
@@ -159,6 +162,15 @@ std::array<float, 8> borders(const Landmarks& at) {
   return heights;
 }
 
+/// From pelvis to neck (else head), metres; 0 where the map does not tell.
+float trunk_length(std::span<const ModelPose> poses, const RigMap& rig) {
+  const Part top = rig.has(Part::neck) ? Part::neck : Part::head;
+  if (!rig.has(Part::pelvis) || !rig.has(top)) return 0;
+  return median_over(poses, [&](const ModelPose& pose) {
+    return (position_of(rig[Part::pelvis], pose) - position_of(rig[top], pose)).norm();
+  });
+}
+
 }  // namespace
 
 std::optional<SignerBody> signer_body(const Motion& motion, const RigMap& rig) {
@@ -169,7 +181,8 @@ std::optional<SignerBody> signer_body(const Motion& motion, const RigMap& rig) {
   SignerBody body;
   body.shoulder_width = median_over(
       poses, [&](const ModelPose& pose) { return (position_of(left, pose) - position_of(right, pose)).norm(); });
-  if (!(body.shoulder_width > 1e-6f)) return std::nullopt;
+  if (!(body.shoulder_width > 1e-6f) || body.shoulder_width < kNarrowest * trunk_length(poses, rig))
+    return std::nullopt;
   body.arm_length = arm_length(poses, rig, body.shoulder_width);
   // An arm tells the stature better than the shoulders' joints do, unless it is no arm.
   const bool likely_arm = body.arm_length > 0.7f && body.arm_length < 3.5f;

@@ -67,9 +67,9 @@ struct SignerBody {
   Eigen::Quaternionf trunk_from_signer = Eigen::Quaternionf::Identity();
 };
 
-/// Measured over at most kBodyFrames frames, spread evenly. Heights come from the body's own joints where it has them
-/// where a body has such, else from its proportions (docs/signing-space.md). None where the map lacks a shoulder, and
-/// of a motion without frames or one whose shoulders are always in one place.
+/// Measured over at most kBodyFrames frames, spread evenly. Heights come from the body's own joints
+/// where it has such, else from its proportions (docs/signing-space.md). None where the map lacks a shoulder, of
+/// a motion without frames, and where the shoulders lie nearer together than a fifth of the trunk: those are none.
 std::optional<SignerBody> signer_body(const Motion& motion, const RigMap& rig);
 inline constexpr std::int64_t kBodyFrames = 240;
 /// Why a map gives no signer-centred space: "no left shoulder: name it in a mapping file"; empty where it has both.

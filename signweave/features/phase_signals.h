@@ -9,7 +9,7 @@
 namespace signweave {
 
 inline constexpr double kSegmenterRate = 30;       ///< frames a second at which the segmenter works
-inline constexpr std::size_t kPhaseFeatures = 27;  ///< numbers per hand and frame; see phase_features.cpp
+inline constexpr std::size_t kPhaseFeatures = 27;  ///< numbers per hand and frame; see segment_features.cpp
 
 /// One stretch of a recording without gaps, at kSegmenterRate.
 struct PhaseFrames {

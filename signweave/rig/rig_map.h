@@ -32,7 +32,7 @@ struct PartPlace {
   bool known() const noexcept { return joint != kNoJoint; }
 };
 
-/// Which joint of a skeleton plays which part of a body. One map serves every use: features, drawing, glTF, the player.
+/// Which joint of a skeleton plays which part of a body. One map serves every use: features, statistics, drawing, glTF.
 struct RigMap {
   std::array<PartPlace, kPartCount> places;
   std::string convention;       ///< the table of names that fits: "MotionBuilder", "CMU", …; empty: none does
@@ -50,7 +50,7 @@ using RigNames = std::map<Part, std::string>;
 /// The map of a motion of at least one frame: a user's names first, then tables of the names that common rigs give
 /// their joints, then structure, from the skeleton and from how the body stands in the captured frames. What cannot be
 /// told is absent, with a notice. Throws Error{not_found} where `names` tells a joint that the skeleton lacks, with
-/// near matches.
+/// near matches; Error{bad_input} where it gives two parts one joint, or puts a hand before its forearm.
 RigMap map_rig(const Motion& motion, const RigNames& names = {});
 
 /// Reads a mapping file: a line `part = joint` each, `#` begins a comment. Throws Error{bad_input} with file and line

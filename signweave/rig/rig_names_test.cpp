@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "signweave/rig/rig_map.h"
+#include "signweave/rig/test_rigs.h"
 
 namespace signweave {
 namespace {
@@ -79,6 +80,30 @@ TEST(RigNames, TellsAFileThatIsNotThere) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::not_found);
   }
+}
+
+std::string refusal(const Motion& motion, const RigNames& names) {
+  try {
+    map_rig(motion, names);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::bad_input);
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(RigNames, AreRefusedWhereNoBodyFitsThem) {
+  const Motion motion = rig_body(RigNaming{}, 2);
+  const RigMap map = map_rig(motion);
+  const auto joint = [&](Part part) { return motion.skeleton().joint(map[part].joint).name; };
+  EXPECT_THAT(refusal(motion, {{Part::left_hand, joint(Part::left_hand)}, {Part::right_hand, joint(Part::left_hand)}}),
+              HasSubstr("a joint plays one part"));
+  EXPECT_THAT(
+      refusal(motion, {{Part::left_hand, joint(Part::left_forearm)}, {Part::left_forearm, joint(Part::left_hand)}}),
+      HasSubstr("does not lie beyond"));
+  EXPECT_EQ(
+      refusal(motion, {{Part::left_hand, joint(Part::left_hand)}, {Part::left_forearm, joint(Part::left_forearm)}}),
+      "no error");
 }
 
 }  // namespace

@@ -39,17 +39,17 @@ bool in_t_pose(const RigMap& rig, const ModelPose& model) {
   }
   Vector3f across = shoulders[0] - shoulders[1];  // to the left
   across.y() = 0;
-  if (across.norm() < 1e-4f) return false;
+  if (!(across.norm() >= 1e-4f)) return false;  // so put that what is no number, from numbers too large, is no pose
   across.normalize();
   for (int side = 0; side < 2; ++side) {
     const Vector3f shoulder = shoulders[static_cast<std::size_t>(side)];
     const Vector3f wrist = position_of(rig[of_side(side, Part::left_hand)], model);
     const Vector3f arm = (wrist - shoulder).normalized();
-    if (std::abs(arm.y()) > kLevel || arm.dot(side == 0 ? across : -across) < kSideways) return false;
+    if (!(std::abs(arm.y()) <= kLevel && arm.dot(side == 0 ? across : -across) >= kSideways)) return false;
     const PartPlace& elbow = rig[of_side(side, Part::left_forearm)];
     if (!elbow.known()) continue;
     const Vector3f at = position_of(elbow, model);
-    if ((at - shoulder).normalized().dot((wrist - at).normalized()) < kStraight) return false;
+    if (!((at - shoulder).normalized().dot((wrist - at).normalized()) >= kStraight)) return false;
   }
   return true;
 }
@@ -63,8 +63,9 @@ TPoseWatch::TPoseWatch(const Motion& motion, const RigMap& rig) : motion_(motion
 }
 
 void TPoseWatch::see(std::int64_t frame, const ModelPose& model) {
+  if (first_ < 0) first_ = frame;
   if (!in_t_pose(rig_, model)) {
-    end_stretch(frame);
+    end_stretch(false);
     return;
   }
   const std::array<Vector3f, 2> wrists = {position_of(rig_[Part::left_hand], model),
@@ -75,30 +76,31 @@ void TPoseWatch::see(std::int64_t frame, const ModelPose& model) {
   } else {
     for (std::size_t side = 0; side < 2; ++side) way_ += static_cast<double>((wrists[side] - wrists_[side]).norm());
   }
+  until_ = frame + 1;
   wrists_ = wrists;
 }
 
-void TPoseWatch::end_stretch(std::int64_t end) {
+void TPoseWatch::end_stretch(bool at_end) {
   if (since_ < 0) return;
-  const FrameRange frames{since_, end};
+  const FrameRange frames{since_, until_};
   since_ = -1;
   const double seconds = static_cast<double>(frames.size()) / motion_.rate().hertz();
-  const bool at_edge = frames.begin == 0 || end == motion_.frame_count();
-  if (!at_edge && (seconds < kHeld || way_ / 2 / seconds > kStill)) return;
-  const bool all = frames.begin == 0 && end == motion_.frame_count();
+  const bool at_start = frames.begin == first_;
+  if (!at_start && !at_end && (seconds < kHeld || way_ / 2 / seconds > kStill)) return;
   found_.push_back({.kind = DefectKind::t_pose,
                     .frames = frames,
                     .value = static_cast<float>(seconds),
-                    .text = all ? "every frame is a T-pose: there is no signing in it"
+                    .text = at_start && at_end
+                                ? "every frame is a T-pose: there is no signing in it"
                                 : fmt::format("both arms straight out sideways{}: calibration, no signing; leave these "
                                               "frames out",
-                                              frames.begin == 0              ? " at the start"
-                                              : end == motion_.frame_count() ? " at the end"
-                                                                             : "")});
+                                              at_start ? " at the start"
+                                              : at_end ? " at the end"
+                                                       : "")});
 }
 
 std::vector<Defect> TPoseWatch::found() {
-  if (can_tell_) end_stretch(motion_.frame_count());
+  end_stretch(true);
   return found_;
 }
 

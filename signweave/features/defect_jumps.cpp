@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "signweave/core/text.h"
 #include "signweave/features/defect_watch.h"
@@ -28,6 +30,8 @@ constexpr float kLeastTurn = 0.1f;       // radians: less is noise at any rate
 constexpr std::int64_t kTogether = 3;    // frames: jumps so near are one
 constexpr std::size_t kWholeBody = 6;    // joints that jump at once
 constexpr double kWholeBodyShare = 0.2;  // of all, likewise
+// Points that the levers of one frame may take, for each joint and tip. A body takes as many as its joints lie deep.
+constexpr std::size_t kMostLooks = 64;
 
 float angle_between(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) noexcept {
   const float cosine = std::min(1.0f, std::abs(a.dot(b)));
@@ -51,37 +55,51 @@ std::vector<float> reaches(const Skeleton& skeleton) {
 
 }  // namespace
 
-JumpWatch::JumpWatch(const Motion& motion)
+JumpWatch::JumpWatch(const Motion& motion, Excuse excuse)
     : motion_(motion),
+      excuse_(std::move(excuse)),
       hertz_(motion.rate().hertz()),
+      many_(std::max(kWholeBody,
+                     static_cast<std::size_t>(kWholeBodyShare * static_cast<double>(motion.skeleton().joint_count())))),
       reach_(reaches(motion.skeleton())),
-      carried_(motion.skeleton().joint_count()) {
+      carried_(motion.skeleton().joint_count()),
+      tips_(motion.skeleton().joint_count()) {
   for (Steps& steps : ring_) {
     steps.turns.resize(motion.skeleton().joint_count());
     steps.shifts.resize(motion.skeleton().translation_count());
   }
+  for (std::vector<Jump>& near : near_) near.resize(motion.skeleton().joint_count());
   for (std::size_t i = 1; i < carried_.size(); ++i) {
     carried_[static_cast<std::size_t>(motion.skeleton().joints()[i].parent)].push_back(static_cast<JointIndex>(i));
   }
+  for (const Tip& tip : motion.skeleton().tips()) tips_[static_cast<std::size_t>(tip.joint)].push_back(tip);
 }
 
-void JumpWatch::see(std::int64_t frame) {
+void JumpWatch::see(std::int64_t frame, bool whole) {
   seen_ = frame + 1;
+  const bool known = whole && last_whole_;
+  last_whole_ = whole;
   if (frame == 0) return;
-  const PoseView before = motion_.pose(frame - 1);
-  const PoseView now = motion_.pose(frame);
   Steps& steps = ring_[static_cast<std::size_t>(frame % kRing)];
-  float most = 0;
-  for (std::size_t i = 0; i < steps.turns.size(); ++i) {
-    const bool same = before.rotations[i].coeffs() == now.rotations[i].coeffs();
-    steps.turns[i] = same ? 0 : angle_between(before.rotations[i], now.rotations[i]);
-    most = std::max(most, same ? 0.0f : 1.0f);
+  if (known) {
+    const PoseView before = motion_.pose(frame - 1);
+    const PoseView now = motion_.pose(frame);
+    float most = 0;
+    for (std::size_t i = 0; i < steps.turns.size(); ++i) {
+      const bool same = before.rotations[i].coeffs() == now.rotations[i].coeffs();
+      steps.turns[i] = same ? 0 : angle_between(before.rotations[i], now.rotations[i]);
+      most = std::max(most, same ? 0.0f : 1.0f);
+    }
+    for (std::size_t i = 0; i < steps.shifts.size(); ++i) {
+      steps.shifts[i] = (now.translations[i] - before.translations[i]).norm();
+      most = std::max(most, steps.shifts[i]);
+    }
+    steps.repeated = most == 0;
+  } else {  // as at the ends of the motion
+    std::fill(steps.turns.begin(), steps.turns.end(), 0.0f);
+    std::fill(steps.shifts.begin(), steps.shifts.end(), 0.0f);
+    steps.repeated = false;
   }
-  for (std::size_t i = 0; i < steps.shifts.size(); ++i) {
-    steps.shifts[i] = (now.translations[i] - before.translations[i]).norm();
-    most = std::max(most, steps.shifts[i]);
-  }
-  steps.repeated = most == 0;
   if (frame >= 3) judge(frame - 2);
 }
 
@@ -101,30 +119,39 @@ float JumpWatch::around(std::int64_t frame, std::vector<float> Steps::*what, std
   return std::max(beside(frame - 1, frame - 2, frame - 2, frame), beside(frame + 1, frame + 2, frame - 1, frame + 1));
 }
 
-/// How far from the axis of a turn the farthest joint or tip is that it carries, metres.
-float JumpWatch::lever(std::int64_t frame, JointIndex joint) {
-  if (model_of_ != frame) to_model_space(motion_.skeleton(), motion_.pose(frame), model_);
-  model_of_ = frame;
+/// Whether a joint or tip that a joint carries is farther than `lever`, metres, from the axis of its turn. Of a
+/// skeleton that is no body's, with chains of thousands of joints, the last ones of a frame are not looked at: no jump
+/// then.
+bool JumpWatch::reaches_beyond(std::int64_t frame, JointIndex joint, double lever) {
+  if (model_of_ != frame) {
+    to_model_space(motion_.skeleton(), motion_.pose(frame), model_);
+    model_of_ = frame;
+    looked_at_ = 0;
+  }
+  const std::size_t most = kMostLooks * (reach_.size() + motion_.skeleton().tips().size());
   const auto j = static_cast<std::size_t>(joint);
   const Eigen::Quaternionf turn = motion_.pose(frame - 1).rotations[j].conjugate() * motion_.pose(frame).rotations[j];
   const Eigen::Vector3f axis = model_.rotations[j] * turn.vec().normalized();
-  float most = 0;
-  std::vector<JointIndex> open = {joint};
-  while (!open.empty()) {
-    const JointIndex at = open.back();
-    open.pop_back();
-    most = std::max(most, axis.cross(model_.positions[static_cast<std::size_t>(at)] - model_.positions[j]).norm());
-    open.insert(open.end(), carried_[static_cast<std::size_t>(at)].begin(),
-                carried_[static_cast<std::size_t>(at)].end());
-    for (const Tip& tip : motion_.skeleton().tips()) {
-      if (tip.joint == at) most = std::max(most, axis.cross(position_of(tip, model_) - model_.positions[j]).norm());
+  const auto beyond = [&](const Eigen::Vector3f& point) {
+    return static_cast<double>(axis.cross(point - model_.positions[j]).norm()) > lever;
+  };
+  open_.assign(1, joint);
+  while (!open_.empty() && looked_at_ < most) {
+    const auto at = static_cast<std::size_t>(open_.back());
+    open_.pop_back();
+    looked_at_ += 1 + tips_[at].size();
+    if (beyond(model_.positions[at])) return true;
+    for (const Tip& tip : tips_[at]) {
+      if (beyond(position_of(tip, model_))) return true;
     }
+    open_.insert(open_.end(), carried_[at].begin(), carried_[at].end());
   }
-  return most;
+  return false;
 }
 
 void JumpWatch::judge(std::int64_t frame) {
   const Steps& steps = into(frame);
+  now_.clear();
   // Where a frame was written twice for want of a new one, the next step is that of both.
   double hertz = hertz_;
   for (std::int64_t before = frame - 1; before >= std::max<std::int64_t>(1, frame - 2) && into(before).repeated;
@@ -142,8 +169,8 @@ void JumpWatch::judge(std::int64_t frame) {
     const bool turns = excess > kFastestLimb && excess * hertz > kHardestTurn;
     if (turns || speed > kFastestTurn ||
         (excess * static_cast<double>(reach_[i]) > kFastestPoint &&
-         excess * static_cast<double>(lever(frame, static_cast<JointIndex>(i))) > kFastestPoint)) {
-      jumps_.push_back({frame, static_cast<JointIndex>(i), true, step, beside});
+         reaches_beyond(frame, static_cast<JointIndex>(i), kFastestPoint / excess))) {
+      now_.push_back({frame, frame, static_cast<JointIndex>(i), true, step, beside});
     }
   }
   for (std::size_t i = 0; i < steps.shifts.size(); ++i) {
@@ -155,72 +182,92 @@ void JumpWatch::judge(std::int64_t frame) {
     });
     const double excess = static_cast<double>(step - beside) * hertz;
     if (speed > kFastestPoint || (excess * hertz > kHardestShift && step - beside > kLeastShift)) {
-      jumps_.push_back({frame, motion_.skeleton().translated_joints()[i], false, step, beside});
+      now_.push_back({frame, frame, motion_.skeleton().translated_joints()[i], false, step, beside});
+    }
+  }
+  gather(frame);
+}
+
+/// Joins the jumps of a frame with those before it.
+void JumpWatch::gather(std::int64_t frame) {
+  if (now_.size() >= many_) {  // the motion goes on elsewhere: said once
+    Jump all = *std::max_element(now_.begin(), now_.end(), [](const Jump& a, const Jump& b) {
+      return a.turns != b.turns ? b.turns : a.step < b.step;
+    });
+    all.count = now_.size();
+    keep(all);
+    return;
+  }
+  for (const Jump& jump : now_) {
+    Jump& near = near_[jump.turns ? 1 : 0][static_cast<std::size_t>(jump.joint)];
+    if (near.first >= 0 && frame <= near.last + kTogether) {
+      near.last = frame;
+      if (jump.step > near.step) {
+        near.step = jump.step;
+        near.around = jump.around;
+      }
+    } else {
+      keep(near);
+      near = jump;
     }
   }
 }
 
-std::vector<Defect> JumpWatch::found() {
+bool JumpWatch::comes_before(const Jump& a, const Jump& b) noexcept {
+  const auto order = [](const Jump& jump) {
+    return std::tuple(jump.first, jump.count > 1 ? 0 : 1, jump.joint, jump.turns ? 0 : 1);
+  };
+  return order(a) < order(b);
+}
+
+/// Of all jumps the earliest are told, so no more than these need be kept.
+void JumpWatch::keep(const Jump& jump) {
+  if (jump.first < 0 || (excuse_ && excuse_(jump.first, jump.count > 1 ? kNoJoint : jump.joint))) return;
+  ++jumps_;
+  kept_.push_back(jump);
+  if (kept_.size() < 2 * kMostDefects) return;
+  std::sort(kept_.begin(), kept_.end(), comes_before);
+  kept_.resize(kMostDefects);
+}
+
+Defect JumpWatch::told(const Jump& jump) const {
+  const double speed = static_cast<double>(jump.step) * hertz_;
+  const double degrees = static_cast<double>(jump.step) * 180 / std::numbers::pi;
+  const std::string name = printable(motion_.skeleton().joint(jump.joint).name);
+  if (jump.count > 1) {
+    return {.kind = DefectKind::jump,
+            .frames = {jump.first, jump.first + 1},
+            .value = static_cast<float>(speed),
+            .text = fmt::format("{} joints jump at once, {} by {:.0f}°: a cut, or frames are missing", jump.count, name,
+                                degrees)};
+  }
+  const double beside = static_cast<double>(jump.around) * (jump.turns ? 180 / std::numbers::pi : 100.0);
+  const std::string text =
+      jump.turns ? fmt::format(
+                       "{} turns by {:.0f}° in one frame ({:.3g} rad/s), beside it by {:.2g}°; mend it or cut "
+                       "it out",
+                       name, degrees, speed, beside)
+                 : fmt::format(
+                       "{} shifts by {:.3g} cm in one frame ({:.3g} m/s), beside it by {:.2g} cm; mend it or "
+                       "cut it out",
+                       name, static_cast<double>(jump.step) * 100, speed, beside);
+  // There and back: the frames between are those out of place.
+  return {.kind = DefectKind::jump,
+          .joint = jump.joint,
+          .frames = {jump.first, std::max(jump.first + 1, jump.last)},
+          .value = static_cast<float>(speed),
+          .text = text};
+}
+
+Found JumpWatch::found() {
   for (std::int64_t frame = std::max<std::int64_t>(1, seen_ - 2); frame < seen_; ++frame) judge(frame);
-  std::vector<Defect> result;
-  // Many joints at once: the motion goes on elsewhere. Said once.
-  const std::size_t many =
-      std::max(kWholeBody, static_cast<std::size_t>(kWholeBodyShare * static_cast<double>(reach_.size())));
-  std::vector<Jump> single;
-  for (std::size_t i = 0; i < jumps_.size();) {
-    std::size_t end = i;
-    while (end < jumps_.size() && jumps_[end].frame == jumps_[i].frame) ++end;
-    if (end - i >= many) {
-      const auto fastest = std::max_element(
-          jumps_.begin() + static_cast<std::ptrdiff_t>(i), jumps_.begin() + static_cast<std::ptrdiff_t>(end),
-          [](const Jump& a, const Jump& b) { return a.turns != b.turns ? b.turns : a.step < b.step; });
-      result.push_back({.kind = DefectKind::jump,
-                        .frames = {jumps_[i].frame, jumps_[i].frame + 1},
-                        .value = static_cast<float>(static_cast<double>(fastest->step) * hertz_),
-                        .text = fmt::format("{} joints jump at once, {} by {:.0f}°: a cut, or frames are missing",
-                                            end - i, printable(motion_.skeleton().joint(fastest->joint).name),
-                                            static_cast<double>(fastest->step) * 180 / std::numbers::pi)});
-    } else {
-      single.insert(single.end(), jumps_.begin() + static_cast<std::ptrdiff_t>(i),
-                    jumps_.begin() + static_cast<std::ptrdiff_t>(end));
-    }
-    i = end;
+  for (std::vector<Jump>& near : near_) {
+    for (Jump& jump : near) keep(std::exchange(jump, {}));
   }
-  std::stable_sort(single.begin(), single.end(), [](const Jump& a, const Jump& b) {
-    return a.joint != b.joint ? a.joint < b.joint : a.turns != b.turns ? a.turns : a.frame < b.frame;
-  });
-  for (std::size_t i = 0; i < single.size();) {
-    std::size_t last = i;
-    std::size_t worst = i;
-    while (last + 1 < single.size() && single[last + 1].joint == single[i].joint &&
-           single[last + 1].turns == single[i].turns && single[last + 1].frame <= single[last].frame + kTogether) {
-      ++last;
-      if (single[last].step > single[worst].step) worst = last;
-    }
-    const Jump& jump = single[worst];
-    const double speed = static_cast<double>(jump.step) * hertz_;
-    const double degrees = static_cast<double>(jump.step) * 180 / std::numbers::pi;
-    const double beside = static_cast<double>(jump.around) * (jump.turns ? 180 / std::numbers::pi : 100.0);
-    const std::string name = printable(motion_.skeleton().joint(jump.joint).name);
-    const std::string text =
-        jump.turns ? fmt::format(
-                         "{} turns by {:.0f}° in one frame ({:.3g} rad/s), beside it by {:.2g}°; mend it or cut "
-                         "it out",
-                         name, degrees, speed, beside)
-                   : fmt::format(
-                         "{} shifts by {:.3g} cm in one frame ({:.3g} m/s), beside it by {:.2g} cm; mend it or "
-                         "cut it out",
-                         name, static_cast<double>(jump.step) * 100, speed, beside);
-    // There and back: the frames between are those out of place.
-    result.push_back({.kind = DefectKind::jump,
-                      .joint = jump.joint,
-                      .frames = {single[i].frame, std::max(single[i].frame + 1, single[last].frame)},
-                      .value = static_cast<float>(speed),
-                      .text = text});
-    i = last + 1;
-  }
-  std::stable_sort(result.begin(), result.end(),
-                   [](const Defect& a, const Defect& b) { return a.frames.begin < b.frames.begin; });
+  std::sort(kept_.begin(), kept_.end(), comes_before);
+  kept_.resize(std::min(kept_.size(), kMostDefects));
+  Found result{.more = jumps_ - kept_.size()};
+  for (const Jump& jump : kept_) result.defects.push_back(told(jump));
   return result;
 }
 

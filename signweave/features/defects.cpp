@@ -15,23 +15,35 @@ namespace {
 constexpr std::array<std::string_view, 7> kNames = {"T-pose",        "frozen joint", "jump",      "quaternion flip",
                                                     "permuted root", "scale",        "not finite"};
 
-/// The cut from a T-pose to the signing is no second defect.
-bool cuts_a_t_pose(const Defect& jump, const std::vector<Defect>& poses) {
+/// [frame] The cut from a T-pose to the signing, or back, is no second defect.
+std::vector<bool> cuts_of(const std::vector<Defect>& poses, std::int64_t frames) {
   constexpr std::int64_t kNear = 2;  // frames: the arms may be on their way for one
-  return std::any_of(poses.begin(), poses.end(), [&](const Defect& pose) {
-    return std::abs(jump.frames.begin - pose.frames.begin) <= kNear ||
-           std::abs(jump.frames.begin - pose.frames.end) <= kNear;
-  });
+  std::vector<bool> cuts(static_cast<std::size_t>(frames), false);
+  for (const Defect& pose : poses) {
+    for (const std::int64_t cut : {pose.frames.begin, pose.frames.end}) {
+      for (std::int64_t frame = std::max<std::int64_t>(0, cut - kNear); frame <= std::min(cut + kNear, frames - 1);
+           ++frame) {
+        cuts[static_cast<std::size_t>(frame)] = true;
+      }
+    }
+  }
+  return cuts;
 }
 
-/// Adds what was found of one kind, kMostDefects at most.
-void add(std::vector<Defect> found, std::vector<Defect>& all) {
-  if (found.size() > kMostDefects) {
-    const std::size_t more = found.size() - kMostDefects;
-    found.resize(kMostDefects);
-    fmt::format_to(std::back_inserter(found.back().text), "; and {} more of the kind", more);
+/// Adds what was found of one kind; the last says how many more there are.
+void add(defect::Found found, std::vector<Defect>& all) {
+  assert(found.defects.size() <= kMostDefects);
+  if (found.more > 0) {
+    fmt::format_to(std::back_inserter(found.defects.back().text), "; and {} more of the kind", found.more);
   }
-  std::move(found.begin(), found.end(), std::back_inserter(all));
+  std::move(found.defects.begin(), found.defects.end(), std::back_inserter(all));
+}
+
+/// The first kMostDefects.
+defect::Found first_of(std::vector<Defect> defects) {
+  const std::size_t more = defects.size() - std::min(defects.size(), kMostDefects);
+  defects.resize(defects.size() - more);
+  return {.defects = std::move(defects), .more = more};
 }
 
 }  // namespace
@@ -44,40 +56,46 @@ std::string_view name_of(DefectKind kind) noexcept {
 std::vector<Defect> find_defects(const Motion& motion, const RigMap& rig) {
   std::vector<Defect> all;
   if (motion.frame_count() == 0) return all;
-  defect::TPoseWatch poses(motion, rig);
-  defect::StillWatch still(motion, rig);
-  defect::JumpWatch jumps(motion);
+  // What the frames hold decides who may be shown them, and what T-poses there are which jumps are told.
   defect::NumberWatch numbers(motion);
+  defect::TPoseWatch poses(motion, rig);
+  std::vector<bool> is_whole(static_cast<std::size_t>(motion.frame_count()));  // every number is one
   ModelPose model;
-  bool whole = true;  // every number is one
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
-    whole = numbers.see(frame) && whole;
-    jumps.see(frame);
-    still.see(frame);
-    if (!poses.can_tell()) continue;
+    const bool good = numbers.see(frame);
+    is_whole[static_cast<std::size_t>(frame)] = good;
+    if (!good || !poses.can_tell()) continue;
     to_model_space(motion.skeleton(), motion.pose(frame), model);
     poses.see(frame, model);
   }
-  std::vector<Defect> t_poses = poses.found();
-  std::vector<Defect> jumped = jumps.found();
-  std::erase_if(jumped, [&](const Defect& jump) { return cuts_a_t_pose(jump, t_poses); });
+  const bool whole = std::find(is_whole.begin(), is_whole.end(), false) == is_whole.end();
   const bool permuted = whole && defect::has_permuted_root(motion);
-  if (permuted) {  // where the root is then says nothing
-    std::erase_if(jumped, [](const Defect& jump) { return jump.joint == 0; });
+  std::vector<Defect> t_poses = poses.found();
+  const std::vector<bool> cuts = cuts_of(t_poses, motion.frame_count());
+
+  defect::StillWatch still(motion, rig);
+  defect::JumpWatch jumps(motion, [&](std::int64_t frame, JointIndex joint) {
+    return cuts[static_cast<std::size_t>(frame)] || (permuted && joint == 0);  // where the root is then says nothing
+  });
+  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+    const bool good = is_whole[static_cast<std::size_t>(frame)];
+    jumps.see(frame, good);
+    if (good) still.see(frame);
   }
-  add(std::move(t_poses), all);
+  add(first_of(std::move(t_poses)), all);
   add(still.found(), all);
-  add(std::move(jumped), all);
-  add(numbers.found(), all);
+  add(jumps.found(), all);
+  add(numbers.flips(), all);
+  add(numbers.not_finite(), all);
   if (permuted) {
     Defect defect{.kind = DefectKind::permuted_root, .joint = 0};
     defect.text = fmt::format(
         "{} never turns, and stands turned by its own offset taken for degrees: its columns hold "
         "the rotation first; read the file with --root-order rotation_first",
         printable(motion.skeleton().joint(0).name));
-    add({std::move(defect)}, all);
+    all.push_back(std::move(defect));
   }
-  if (whole) add(defect::odd_scale(motion, rig), all);
+  if (whole) add(first_of(defect::odd_scale(motion, rig)), all);
   std::stable_sort(all.begin(), all.end(), [](const Defect& a, const Defect& b) {
     return a.kind != b.kind ? a.kind < b.kind : a.frames.begin < b.frames.begin;
   });

@@ -1,6 +1,7 @@
 // Defects of motions that are long, wide or damaged throughout: found in a time that grows as the motion does, told at
 // most kMostDefects times, and numbers that are none mistaken for nothing else.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -77,17 +78,22 @@ void drop_out(Motion& motion, std::int64_t joints) {
 }
 
 TEST(DefectLimits, DropOutsOfALongMotionTakeTimeAsItsFramesDo) {
-  Motion motion = trembling(body(52), 40'000, {10, 1});
-  const double clean = seconds_for(motion);
+#ifdef NDEBUG
+  constexpr std::int64_t kFrames = 40'000;
+#else  // unoptimised, and with sanitizers
+  constexpr std::int64_t kFrames = 4'000;
+#endif
+  Motion motion = trembling(body(52), kFrames, {10, 1});
+  const double clean = std::min(seconds_for(motion), seconds_for(motion));
   drop_out(motion, 20);
-  const double dropped = seconds_for(motion);
+  const double dropped = std::min(seconds_for(motion), seconds_for(motion));  // others take their share of the machine
   RecordProperty("times", std::to_string(dropped / clean));
   EXPECT_LT(dropped, 10 * clean) << clean << " s without";
   const std::vector<Defect> found = defects_of(motion);
   ASSERT_EQ(found.size(), kMostDefects);
   EXPECT_EQ(found[1].frames, (FrameRange{10, 20}));
   EXPECT_EQ(found.back().frames, (FrameRange{490, 500})) << "the first ones are told";
-  EXPECT_THAT(found.back().text, HasSubstr("3950 more of the kind"));
+  EXPECT_THAT(found.back().text, HasSubstr(fmt::format("{} more of the kind", kFrames / 10 - 50)));
 }
 
 TEST(DefectLimits, AValueThatComesBackIsARest) {
@@ -123,7 +129,8 @@ TEST(DefectLimits, ACombOfThousandsOfJointsIsJudgedAtOnce) {
   }
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(find_defects(motion, RigMap()).empty());
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+            8);  // more than 11 s, were it quadratic
 }
 
 TEST(DefectLimits, OneKindDoesNotCrowdOutAnother) {

@@ -12,7 +12,8 @@
 //       u8  bits: 1 something is known, 2 the left hand, 4 the right hand
 //       f32 × 2 distance between the hands at begin and end      only where something is known
 //       for each hand that is known, left first:
-//         begin and end, each: f32 × 3 position, velocity, palm, fingers; f32 openness; f32 × 15 handshape;
+//         begin and end, each: f32 × 3 position, velocity, acceleration, palm, fingers; f32 curvature,
+//                              openness; f32 × 15 handshape;
 //                              u8 height, across, reach, contact
 //         f32 path, displacement, mean speed, peak speed, peak time, mean acceleration, mean curvature
 //         f32 × 16 profile
@@ -23,9 +24,10 @@ namespace {
 // One list of members serves writing, reading and comparing.
 template <typename Hand, typename Number, typename Small>
 void each_of_end(Hand& at, Number number, Small small) {
-  for (auto* vector : {&at.position, &at.velocity, &at.palm, &at.fingers}) {
+  for (auto* vector : {&at.position, &at.velocity, &at.acceleration, &at.palm, &at.fingers}) {
     for (int axis = 0; axis < 3; ++axis) number((*vector)[axis]);
   }
+  number(at.curvature);
   number(at.openness);
   for (auto& value : at.handshape.values) number(value);
   small(at.zone.height, Height::above_head);

@@ -14,6 +14,8 @@ float seconds_of(FrameRange frames, FrameRate rate) {
 HandAt at(const HandFrame& frame, const SignerBody& body) {
   return {.position = frame.position,
           .velocity = frame.velocity,
+          .acceleration = frame.acceleration,
+          .curvature = frame.curvature,
           .palm = frame.palm,
           .fingers = frame.fingers,
           .openness = frame.openness,

@@ -16,10 +16,12 @@ namespace signweave {
 
 /// One hand at one end of a phase (the paper, section 4.2: position and direction at both ends).
 struct HandAt {
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< signer-centred, shoulder widths
-  Eigen::Vector3f velocity = Eigen::Vector3f::Zero();  ///< metres a second, signer's axes
-  Eigen::Vector3f palm = Eigen::Vector3f::Zero();      ///< unit; zero: no fingers
-  Eigen::Vector3f fingers = Eigen::Vector3f::Zero();   ///< unit; zero: no fingers
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();      ///< signer-centred, shoulder widths
+  Eigen::Vector3f velocity = Eigen::Vector3f::Zero();      ///< metres a second, signer's axes
+  Eigen::Vector3f acceleration = Eigen::Vector3f::Zero();  ///< metres a second squared, signer's axes
+  float curvature = 0;                                     ///< of the path, 1/metre; 0 where the hand hardly moves
+  Eigen::Vector3f palm = Eigen::Vector3f::Zero();          ///< unit; zero: no fingers
+  Eigen::Vector3f fingers = Eigen::Vector3f::Zero();       ///< unit; zero: no fingers
   float openness = 0;
   Handshape handshape;
   Zone zone;

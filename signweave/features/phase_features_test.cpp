@@ -59,6 +59,8 @@ TEST(PhaseFeatures, APartIsMeasuredAtItsOwnEnds) {
   const PhaseFeatures features = features_over(measured, {12, 14}, kRate, kBody);
   EXPECT_FLOAT_EQ(features.hands[1].begin.velocity.x(), 3);
   EXPECT_FLOAT_EQ(features.hands[1].end.velocity.x(), 4);
+  EXPECT_FLOAT_EQ(features.hands[1].begin.acceleration.y(), 2);
+  EXPECT_FLOAT_EQ(features.hands[1].end.curvature, 3);
 }
 
 TEST(PhaseFeatures, OneFrameHasOneValueThroughout) {

@@ -223,11 +223,18 @@ TEST(Defects, AMotionOfOneFrameOrNoneIsNoFault) {
 }
 
 TEST(Defects, AreFoundFarFasterThanTheMotionRuns) {
-  const auto start = std::chrono::steady_clock::now();
-  defects_of(clean());
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  Seconds taken(1e9);
+  for (int run = 0; run < 5; ++run) {  // the best of some: others take their share of the machine
+    const auto start = std::chrono::steady_clock::now();
+    defects_of(clean());
+    taken = std::min<Seconds>(taken, std::chrono::steady_clock::now() - start);
+  }
   RecordProperty("times_real_time", static_cast<int>(clean().duration() / taken));
-  EXPECT_GT(clean().duration() / taken, 20.0);  // 1,800 and more, where nothing else runs and nothing is checked
+#ifdef NDEBUG
+  EXPECT_GT(clean().duration() / taken, 500.0);
+#else  // unoptimised, and with sanitizers
+  EXPECT_GT(clean().duration() / taken, 20.0);
+#endif
 }
 
 }  // namespace

@@ -164,8 +164,7 @@ void info_of_recording(const std::string& folder, const std::string& name, Io& i
   }
   if (io.json) {
     fields["notices"] = json_of(info.notices);
-    if (model)
-      if (model) fields["rig"] = json_of_rig(*database.skeleton(name), model->rig);
+    if (model) fields["rig"] = json_of_rig(*database.skeleton(name), model->rig);
     if (model) fields["defects"] = json_of(info.defects, *database.skeleton(name));
     io.out << fields.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
     return;

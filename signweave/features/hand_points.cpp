@@ -45,6 +45,22 @@ float bend_beyond(const HandPoints::OneFinger& finger) {
   return std::min(sum / static_cast<float>(finger.count - 2) / kRight, 1.0f);
 }
 
+/// The first and the last finger beside the thumb that there are; null where there is none.
+struct OuterFingers {
+  const HandPoints::OneFinger* first = nullptr;
+  const HandPoints::OneFinger* last = nullptr;
+};
+
+OuterFingers outer_fingers(const HandPoints& hand) noexcept {
+  OuterFingers outer;
+  for (std::size_t i = 1; i < hand.fingers.size(); ++i) {
+    if (hand.fingers[i].count == 0) continue;
+    if (outer.first == nullptr) outer.first = &hand.fingers[i];
+    outer.last = &hand.fingers[i];
+  }
+  return outer;
+}
+
 }  // namespace
 
 HandPlaces::HandPlaces(const RigMap& rig, Side side) : wrist_(rig[of(side, Part::left_hand)]) {
@@ -92,13 +108,7 @@ HandAxes axes_of(const HandPoints& hand, Side side) noexcept {
   HandAxes axes{};
   axes.fingers = unit(middle_knuckle(hand) - hand.wrist);
   // From the last knuckle on the little finger's side to the first on the thumb's.
-  const HandPoints::OneFinger* first = nullptr;
-  const HandPoints::OneFinger* last = nullptr;
-  for (std::size_t i = 1; i < hand.fingers.size(); ++i) {
-    if (hand.fingers[i].count == 0) continue;
-    if (first == nullptr) first = &hand.fingers[i];
-    last = &hand.fingers[i];
-  }
+  auto [first, last] = outer_fingers(hand);
   if (first == last) first = &hand.fingers[0];
   const Vector3f across = first->points[0] - last->points[0];
   const Vector3f out = side == Side::left ? axes.fingers.cross(across) : across.cross(axes.fingers);
@@ -135,13 +145,7 @@ Handshape handshape_of(const HandPoints& hand, const HandAxes& axes) noexcept {
   }
   // How far the thumb's end lies across the palm.
   const HandPoints::OneFinger& thumb = hand.fingers[0];
-  const HandPoints::OneFinger* first = nullptr;
-  const HandPoints::OneFinger* last = nullptr;
-  for (std::size_t i = 1; i < hand.fingers.size(); ++i) {
-    if (hand.fingers[i].count == 0) continue;
-    if (first == nullptr) first = &hand.fingers[i];
-    last = &hand.fingers[i];
-  }
+  const auto [first, last] = outer_fingers(hand);
   if (thumb.count > 0 && first != nullptr && first != last) {
     const float begin = first->points[0].dot(axes.thumb);
     const float end = last->points[0].dot(axes.thumb);

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+
+#include "signweave/transition/method.h"
+
+/// How methods describe the ways that joints take: inside this module only.
+///
+/// A joint's rotations on both sides of a gap are looked at as rotation vectors from the rotation midway between the
+/// two borders (radians), a translation as metres from the place midway. There every method is a sum of functions of
+/// time, the same for all joints, each times a vector of the joint's own. What turns the axes turns the vectors: a
+/// method that makes them by adding what it sees works on every rig.
+namespace signweave {
+
+/// One joint's (or translation's) way on both sides: [k] is k frames from the border, which is [0].
+struct Sides {
+  std::span<const Eigen::Vector3f> before;
+  std::span<const Eigen::Vector3f> after;
+  double hertz = 30;
+  double seconds = 0;  ///< of the curve, from border to border: see GapTime
+  JointRole role = JointRole::other;
+  JointGroup group = JointGroup::body;
+  std::size_t joint = 0;
+  bool rotation = true;  ///< false: a translation
+
+  const Eigen::Vector3f& left() const noexcept { return before[0]; }
+  const Eigen::Vector3f& right() const noexcept { return after[0]; }
+};
+
+/// First and second derivative at a border, per second: of the quadratic that fits the border and what lies within
+/// kVelocityWindow of it best, two more frames at least. Of two frames it is their difference, of one it is 0.
+struct BorderMotion {
+  Eigen::Vector3f velocity = Eigen::Vector3f::Zero();
+  Eigen::Vector3f acceleration = Eigen::Vector3f::Zero();
+};
+inline constexpr double kVelocityWindow = 0.067;
+/// `path[k]` is k frames back in time.
+BorderMotion motion_before(std::span<const Eigen::Vector3f> path, double hertz) noexcept;
+/// `path[k]` is k frames on in time.
+BorderMotion motion_after(std::span<const Eigen::Vector3f> path, double hertz) noexcept;
+
+/// When what happens in a gap, as curves see it. How far a curve swings out grows with its time: over a minute, a hand
+/// that goes on as it came turns about itself. So a gap that is longer than kLongestWay is filled as one of that length
+/// whose middle is slowed down; at the borders time goes by as it does, with its first two derivatives. (ours)
+class GapTime {
+ public:
+  explicit GapTime(const Gap& gap) noexcept;
+  /// The gap as long as it is, at one speed: for ways that do not swing.
+  static GapTime even(const Gap& gap) noexcept;
+
+  /// Of the curve, from border to border.
+  double seconds() const noexcept { return way_; }
+  /// Where on the curve a frame of the gap is, in (0, 1).
+  double at(std::int64_t frame) const noexcept;
+
+ private:
+  double count_;    ///< steps from border to border
+  double seconds_;  ///< that the gap has
+  double way_;
+  bool pauses_ = false;
+};
+inline constexpr double kLongestWay = 1.5;  ///< seconds
+/// In which a way comes to rest where the gap holds a pause, and leaves it again. Seconds. (ours)
+inline constexpr double kPauseEase = 0.2;
+
+/// The rotation vector of a unit quaternion as it is signed: its angle is in [0, 2π).
+Eigen::Vector3f rotation_vector(const Eigen::Quaternionf& q) noexcept;
+Eigen::Quaternionf rotation_of(const Eigen::Vector3f& vector) noexcept;
+
+/// The rotation midway between the borders of a gap, in the left one's hemisphere.
+Eigen::Quaternionf middle_of(const Eigen::Quaternionf& left, const Eigen::Quaternionf& right) noexcept;
+
+/// What curves look at of either side.
+inline constexpr double kSeen = 0.1;  ///< seconds
+/// Frames of either side that are looked at: kSeen, or four where these reach farther.
+std::int64_t context_frames(const PosesView& side, FrameRate rate) noexcept;
+
+/// Fills `scratch.before` and `scratch.after` with one joint's way and gives the rotation that they are seen from.
+Eigen::Quaternionf see_joint(const Gap& gap, std::size_t joint, GapScratch& scratch);
+/// The same for a translation, seen from the place midway.
+Eigen::Vector3f see_translation(const Gap& gap, std::size_t translation, GapScratch& scratch);
+
+/// Of a joint whose sides are seen.
+JointReach reach_of(const Sides& sides) noexcept;
+
+/// Fills a job from a family of curves, which has
+///   std::size_t terms() const                                  how many functions of time
+///   void row(double t, std::int64_t frame, float* out) const   their values at a frame, at t in (0, 1) of the curve
+///   void coefficients(const Sides&, Eigen::Vector3f* out)      a joint's vectors, one a term
+/// and, where it has seen more than the sides and so may bend joints farther than JointReach lets it,
+///   static constexpr bool kBeyondSides = true
+template <class Family>
+void fill_curves(const GapJob& job, MutablePoses out, Family&& family, const GapTime& time) {
+  constexpr bool kBeyondSides = requires {
+    std::remove_cvref_t<Family>::kBeyondSides;
+  };
+  const Gap& gap = job.gap;
+  GapScratch& scratch = job.scratch;
+  const std::size_t joints = gap.before.joints();
+  const std::size_t moved = gap.before.moved();
+  const std::size_t terms = family.terms();
+  scratch.taken.clear();
+  for (std::size_t joint = 0; joint < joints; ++joint) {
+    if (job.groups.has(gap.groups->of[joint])) scratch.taken.push_back(joint);
+  }
+  const std::size_t turned = scratch.taken.size();
+  for (std::size_t i = 0; i < moved; ++i) {
+    if (job.groups.has(gap.groups->of_translation[i])) scratch.taken.push_back(i);
+  }
+  const std::size_t taken = scratch.taken.size();
+  // One number after the other over all that is made, so that a frame is a few vector additions.
+  const std::size_t width = 3 * taken;
+  scratch.ways.resize((terms + 1) * width);
+  scratch.coefficients.resize(terms);
+  scratch.middles.resize(turned);
+  scratch.row.resize(terms);
+  scratch.reaches.resize(turned);
+  Sides sides;
+  sides.hertz = gap.rate.hertz();
+  sides.seconds = time.seconds();
+  for (std::size_t i = 0; i < taken; ++i) {
+    sides.joint = scratch.taken[i];
+    sides.rotation = i < turned;
+    if (sides.rotation) {
+      scratch.middles[i] = see_joint(gap, sides.joint, scratch);
+      sides.role = gap.groups->roles[sides.joint];
+      sides.group = gap.groups->of[sides.joint];
+    } else {
+      see_translation(gap, sides.joint, scratch);
+      sides.role = JointRole::other;
+      sides.group = gap.groups->of_translation[sides.joint];
+    }
+    sides.before = scratch.before;
+    sides.after = scratch.after;
+    if (sides.rotation) scratch.reaches[i] = kBeyondSides ? JointReach{} : reach_of(sides);
+    family.coefficients(sides, scratch.coefficients.data());
+    for (std::size_t term = 0; term < terms; ++term) {
+      Eigen::Map<Eigen::Vector3f>(scratch.ways.data() + term * width + 3 * i) = scratch.coefficients[term];
+    }
+  }
+  using Numbers = Eigen::Map<Eigen::ArrayXf>;
+  const auto size = static_cast<Eigen::Index>(width);
+  Numbers sum(scratch.ways.data() + terms * width, size);
+  for (std::int64_t frame = 0; frame < gap.count; ++frame) {
+    const auto base = static_cast<std::size_t>(frame);
+    family.row(time.at(frame), frame, scratch.row.data());
+    sum.setZero();
+    for (std::size_t term = 0; term < terms; ++term) {
+      sum += scratch.row[term] * Numbers(scratch.ways.data() + term * width, size);
+    }
+    for (std::size_t i = 0; i < turned; ++i) {
+      const Eigen::Vector3f way = Eigen::Map<const Eigen::Vector3f>(sum.data() + 3 * i);
+      out.rotations[base * joints + scratch.taken[i]] = scratch.middles[i] * rotation_of(scratch.reaches[i](way));
+    }
+    for (std::size_t i = turned; i < taken; ++i) {
+      const std::size_t at = scratch.taken[i];
+      const Eigen::Vector3f middle = 0.5f * (gap.left().translations[at] + gap.right().translations[at]);
+      out.translations[base * moved + at] = middle + Eigen::Map<const Eigen::Vector3f>(sum.data() + 3 * i);
+    }
+  }
+}
+
+}  // namespace signweave

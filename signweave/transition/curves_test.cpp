@@ -1,0 +1,179 @@
+#include "signweave/transition/curves.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <numbers>
+
+#include "signweave/transition/kriging.h"
+#include "signweave/transition/test_way.h"
+
+namespace signweave {
+namespace {
+
+using namespace testing_way;
+
+TEST(Curves, RotationVectorsComeBack) {
+  for (const double angle : {0.0, 1e-9, 1e-4, 1.0, std::numbers::pi - 1e-4, std::numbers::pi, 5.0, 6.2}) {
+    const Eigen::Quaternionf q = about({1, 2, -1}, angle);  // as signed: beyond half a turn w is below 0
+    EXPECT_NEAR(rotation_vector(q).norm(), angle, 2e-5) << angle;
+    EXPECT_LT((rotation_of(rotation_vector(q)).coeffs() - q.coeffs()).norm(), 2e-6f) << angle;
+  }
+}
+
+TEST(Curves, AQuadraticHasItsDerivatives) {
+  for (const double hertz : {5.0, 30.0, 120.0, 2000.0}) {
+    std::vector<Eigen::Vector3f> path;
+    for (int k = 0; k < 200; ++k) {
+      const auto t = static_cast<float>(k / hertz);
+      path.emplace_back(1 + 2 * t - 3 * t * t, 0, 0.5f * t * t);
+    }
+    const BorderMotion after = motion_after(path, hertz);
+    EXPECT_LT((after.velocity - Eigen::Vector3f(2, 0, 0)).norm(), 2e-3f) << hertz;
+    EXPECT_LT((after.acceleration - Eigen::Vector3f(-6, 0, 1)).norm(), 0.1f) << hertz;
+    const BorderMotion before = motion_before(path, hertz);  // the same path, seen as going backwards
+    EXPECT_LT((before.velocity - Eigen::Vector3f(-2, 0, 0)).norm(), 2e-3f) << hertz;
+    EXPECT_LT((before.acceleration - Eigen::Vector3f(-6, 0, 1)).norm(), 0.1f) << hertz;
+  }
+}
+
+TEST(Curves, OfFewFramesAsMuchAsTheyTell) {
+  const std::vector<Eigen::Vector3f> path = {{0, 0, 0}, {0.1f, 0, 0}};
+  EXPECT_EQ(motion_after(std::span(path).first(1), 100).velocity, Eigen::Vector3f::Zero());
+  EXPECT_NEAR(motion_after(path, 100).velocity.x(), 10, 1e-5f);
+  EXPECT_NEAR(motion_before(path, 100).velocity.x(), -10, 1e-5f);
+  EXPECT_EQ(motion_after(path, 100).acceleration, Eigen::Vector3f::Zero());
+}
+
+Gap gap_of(std::int64_t count, double hertz) {
+  Gap gap;
+  gap.rate = {static_cast<std::uint32_t>(hertz), 1};
+  gap.count = count;
+  return gap;
+}
+
+TEST(GapTime, GoesByAsItIsInWhatIsNotLong) {
+  const Gap gap = gap_of(149, 100);
+  const GapTime time(gap);
+  EXPECT_EQ(time.seconds(), gap.duration().count());
+  for (std::int64_t frame = 0; frame < 149; ++frame) EXPECT_EQ(time.at(frame), static_cast<double>(frame + 1) / 150);
+}
+
+TEST(GapTime, RisesEvenlyFromBorderToBorderAndAtTheBordersAsTimeDoes) {
+  for (const std::int64_t count : {150, 151, 299, 3000, 100'000}) {
+    const Gap gap = gap_of(count, 100);
+    const GapTime time(gap);
+    EXPECT_EQ(time.seconds(), kLongestWay);
+    double last = 0;
+    double speed = 1;
+    for (std::int64_t frame = 0; frame <= count; ++frame) {
+      const double at = frame < count ? time.at(frame) : 1.0;
+      const double step = (at - last) * kLongestWay * 100;  // curve time gone by in a frame's time
+      ASSERT_GT(step, 0);
+      ASSERT_LE(step, 1 + 1e-6);
+      ASSERT_NEAR(step, speed, 0.021) << count << ' ' << frame;
+      if (frame < count) {
+        ASSERT_NEAR(at, 1 - time.at(count - 1 - frame), 1e-12);
+      }
+      speed = step;
+      last = at;
+    }
+    EXPECT_NEAR(time.at(0) * kLongestWay, 0.01, 1e-5);
+    EXPECT_NEAR(speed, 1, 1e-3);
+    EXPECT_EQ(GapTime::even(gap).at(1), 2.0 / static_cast<double>(count + 1));
+  }
+}
+
+/// A gap's kriging weights at a moment.
+std::vector<float> weights(const Kriging& kriging, double t) {
+  std::vector<float> row(kriging.terms());
+  kriging.row(t, 0, row.data());
+  return row;
+}
+
+TEST(Kriging, WeightsSumToOneAndAreThoseOfTheBordersThere) {
+  const JointGroups of = groups();
+  std::vector<double> memory;
+  for (const FrameRate rate : {FrameRate{1, 1}, FrameRate{24, 1}, FrameRate{120, 1}, FrameRate{2000, 1}}) {
+    const Motion motion = lively(1, rate, 900);
+    for (const std::int64_t count : {1, 5, 60, 500}) {
+      for (const std::int64_t context : {1, 2, 1000}) {
+        const Gap gap = cut(motion, of, {200, 200 + count}, context);
+        const Kriging kriging(gap, GapTime(gap), memory);
+        ASSERT_LE(kriging.terms(), 20u);
+        std::size_t left = 0;  // how many of the samples are of the left side: its border's is the first
+        for (const double t : {0.0, 0.1, 0.5, 0.77, 1.0}) {
+          const std::vector<float> row = weights(kriging, t);
+          float sum = 0;
+          for (const float weight : row) sum += weight;
+          EXPECT_NEAR(sum, 1, 1e-3) << rate.hertz() << ' ' << count << ' ' << t;
+          if (count == 1) continue;  // a millisecond apart, each border is as good as the other
+          if (t == 0.0) {
+            EXPECT_NEAR(row[0], 1, 2e-2) << rate.hertz() << ' ' << count;
+          }
+          if (t == 1.0) {
+            while (left < row.size() && std::abs(row[left] - 1) > 2e-2f) ++left;
+            EXPECT_LT(left, row.size()) << rate.hertz() << ' ' << count;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Kriging, AtABorderIsWhatIsThere) {
+  const JointGroups of = groups();
+  std::vector<double> memory;
+  for (const FrameRate rate : {FrameRate{1, 1}, FrameRate{24, 1}, FrameRate{120, 1}, FrameRate{2000, 1}}) {
+    const Motion motion = lively(1, rate, 900);
+    const Gap gap = cut(motion, of, {200, 240});
+    Kriging kriging(gap, GapTime(gap), memory);
+    GapScratch scratch;
+    see_joint(gap, kUpper, scratch);
+    Sides sides;
+    sides.before = scratch.before;
+    sides.after = scratch.after;
+    sides.hertz = rate.hertz();
+    sides.seconds = gap.duration().count();
+    std::vector<Eigen::Vector3f> vectors(kriging.terms());
+    kriging.coefficients(sides, vectors.data());
+    for (const double t : {0.0, 1.0}) {
+      const std::vector<float> row = weights(kriging, t);
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      for (std::size_t i = 0; i < row.size(); ++i) sum += row[i] * vectors[i];
+      EXPECT_LT((sum - (t == 0.0 ? sides.left() : sides.right())).norm(), 2e-3f) << rate.hertz() << ' ' << t;
+    }
+  }
+}
+
+TEST(Kriging, GoesTheSameWayAtOtherRates) {
+  // What is captured twice as often is still the same movement.
+  const JointGroups of = groups();
+  const auto middle = [&](std::uint32_t hertz) {
+    const Motion motion = lively(2, {hertz, 1}, 3 * hertz);
+    const Filled made = fill(*find_gap_method("kriging"), cut(motion, of, {hertz, hertz + hertz / 2 - 1}), untaught());
+    return made.at(hertz / 4 - 1, kUpper);
+  };
+  for (const std::uint32_t hertz : {60u, 240u, 2000u}) EXPECT_LT(angle(middle(hertz), middle(120)), 0.04) << hertz;
+}
+
+TEST(Learned, BendsAreNothingAtTheBorders) {
+  for (const double t : {0.0, 1.0}) {
+    for (const double bend : bends_at(t)) EXPECT_EQ(bend, 0);
+  }
+  EXPECT_EQ(bends_at(0.5)[0], 1);
+}
+
+TEST(Learned, BetweenKnotsIsTheLogarithmAndBeyondThemTheNearest) {
+  EXPECT_EQ(between_knots(0.01).part, 0);
+  EXPECT_EQ(between_knots(0.01).lower, 0u);
+  EXPECT_EQ(between_knots(60).lower, kKnots.size() - 2);
+  EXPECT_EQ(between_knots(60).part, 1);
+  const BetweenKnots at = between_knots(std::sqrt(0.28 * 0.52));
+  EXPECT_EQ(at.lower, 1u);
+  EXPECT_NEAR(at.part, 0.5, 1e-9);
+  EXPECT_EQ(between_knots(std::nan("")).part, 0);
+}
+
+}  // namespace
+}  // namespace signweave

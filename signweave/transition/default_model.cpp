@@ -1,0 +1,12 @@
+#include "signweave/transition/learned.h"
+
+namespace signweave {
+
+const TransitionModel& default_transition_model() noexcept {
+  static const TransitionModel model{
+#include "signweave/transition/transition_weights.inc"
+  };
+  return model;
+}
+
+}  // namespace signweave

@@ -1,0 +1,52 @@
+#include <algorithm>
+
+#include "signweave/motion/blend.h"
+#include "signweave/transition/fill.h"
+
+namespace signweave {
+namespace {
+
+/// How far beyond a border so many frames are: as many as the side has, then it stands still.
+std::int64_t reached(std::int64_t frames, const PosesView& side) noexcept {
+  return std::min(frames, side.frames - 1);
+}
+
+/// A rotation reflected in a border's: as much beyond it as it was before it. Velocity goes on.
+Eigen::Quaternionf beyond(const Eigen::Quaternionf& border, const Eigen::Quaternionf& inside) noexcept {
+  return (border * (inside.conjugate() * border)).normalized();
+}
+
+}  // namespace
+
+/// What Performs does with two animations, with what there is here: each side goes on past its border, the first
+/// fades out while the other fades in, at one speed. Nothing is known of either side past its border, so it goes on as
+/// it came, reflected in the border (ours).
+void fill_crossfade(const GapJob& job, MutablePoses out) noexcept {
+  const Gap& gap = job.gap;
+  const PoseView a = gap.left();
+  const PoseView b = gap.right();
+  const std::size_t joints = a.rotations.size();
+  const std::size_t moved = a.translations.size();
+  for (std::int64_t frame = 0; frame < gap.count; ++frame) {
+    const auto at = static_cast<std::size_t>(frame);
+    const float t = static_cast<float>(frame + 1) / static_cast<float>(gap.count + 1);
+    const PoseView before = gap.before.pose(gap.before.frames - 1 - reached(frame + 1, gap.before));
+    const PoseView after = gap.after.pose(reached(gap.count - frame, gap.after));
+    for (std::size_t joint = 0; joint < joints; ++joint) {
+      if (!job.groups.has(gap.groups->of[joint])) continue;
+      const Eigen::Quaternionf from = beyond(a.rotations[joint], before.rotations[joint]);
+      Eigen::Quaternionf turn = slerp(from, beyond(b.rotations[joint], after.rotations[joint]), t);
+      const Eigen::Quaternionf& last = frame > 0 ? out.rotations[(at - 1) * joints + joint] : a.rotations[joint];
+      if (turn.dot(last) < 0) turn.coeffs() *= -1;
+      out.rotations[at * joints + joint] = turn;
+    }
+    for (std::size_t i = 0; i < moved; ++i) {
+      if (!job.groups.has(gap.groups->of_translation[i])) continue;
+      const Eigen::Vector3f from = 2 * a.translations[i] - before.translations[i];
+      const Eigen::Vector3f to = 2 * b.translations[i] - after.translations[i];
+      out.translations[at * moved + i] = from + t * (to - from);
+    }
+  }
+}
+
+}  // namespace signweave

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "signweave/transition/curves.h"
+
+/// Inside this module only.
+namespace signweave {
+
+/// The best linear guess of a joint's way from what lies within kKrigingContext of both borders, if ways are random
+/// functions with an unknown mean and a Matérn covariance of smoothness 5/2 (ordinary kriging; Stein, Interpolation of
+/// Spatial Data, 1999): it has place, velocity and acceleration at the borders as far as the samples can be trusted.
+class Kriging {
+ public:
+  /// Solves for a gap; O(samples³), once for all joints. `memory` is used for it and must outlive this.
+  Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memory);
+
+  std::size_t terms() const noexcept { return samples(); }
+  void row(double t, std::int64_t frame, float* out) const noexcept;
+  void coefficients(const Sides& sides, Eigen::Vector3f* out) const noexcept;
+
+ private:
+  static constexpr std::size_t kMostSamples = 10;  ///< a side
+
+  std::size_t samples() const noexcept { return left_ + right_; }
+  double time_of(std::size_t sample) const noexcept {
+    return sample < left_ ? -static_cast<double>(sample * stride_) / hertz_
+                          : seconds_ + static_cast<double>((sample - left_) * stride_) / hertz_;
+  }
+
+  double hertz_;
+  double seconds_;
+  double length_;
+  std::size_t left_ = 0;
+  std::size_t right_ = 0;
+  std::size_t stride_ = 1;
+  const double* inverse_ = nullptr;  ///< [sample][sample] of the covariance
+  const double* sums_ = nullptr;     ///< [sample] row sums of it
+  double* near_ = nullptr;           ///< [sample] covariance with the moment looked at
+  double total_ = 1;
+};
+
+inline constexpr double kKrigingContext = 0.1;  ///< seconds
+
+}  // namespace signweave

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "signweave/motion/blend.h"
+#include "signweave/transition/gap.h"
+#include "signweave/transition/model.h"
+
+namespace signweave {
+
+/// How far a joint's way may lie from the middle: as far as it is seen on both sides, and then ever less of what more
+/// is asked for, at most the role's margin. So no joint bends where nobody saw it bend. (ours)
+struct JointReach {
+  float seen = 0;
+  float margin = 0;  ///< 0: no limit
+
+  Eigen::Vector3f operator()(const Eigen::Vector3f& vector) const noexcept;
+};
+
+/// Memory that methods use; kept from gap to gap, so that nothing is allocated once it has grown. How far it grows
+/// depends on the joints, the frames within kContext and the spans of the model, never on how long a gap is.
+struct GapScratch {
+  std::vector<Eigen::Vector3f> before;        ///< one joint's way up to the left border, backwards from it
+  std::vector<Eigen::Vector3f> after;         ///< and from the right border on
+  std::vector<Eigen::Vector3f> coefficients;  ///< [term] of one joint or translation
+  std::vector<std::size_t> taken;             ///< the joints and then the translations that are made
+  std::vector<float> ways;                    ///< [term][taken][x y z], and a row of sums
+  std::vector<Eigen::Quaternionf> middles;    ///< [taken joint]
+  std::vector<float> row;                     ///< [term]
+  std::vector<JointReach> reaches;            ///< [taken joint]
+  std::vector<double> numbers;
+  std::vector<float> traits;                           ///< of the gap, as captured spans have them
+  std::vector<std::pair<float, std::size_t>> nearest;  ///< distance and index of captured spans
+  std::array<CoastingRotations, 4> coasting;
+};
+
+/// What a method fills: the joints and translations of some groups, in every frame of the gap.
+struct GapJob {
+  const Gap& gap;
+  const TransitionModel& model;
+  GroupSet groups = GroupSet::all();
+  GapScratch& scratch;
+};
+
+/// Who offers a method.
+enum class Offered : std::uint8_t {
+  signing,     ///< `sign` and `evaluate`
+  evaluation,  ///< a baseline: `evaluate` alone
+};
+
+/// One way to fill a gap. `name` is what a user types.
+struct GapMethod {
+  std::string_view name;
+  std::string_view description;  ///< one line
+  Offered offered = Offered::signing;
+  bool needs_spans = false;  ///< does nothing of its own where the model has no captured spans: see SpanCollector
+  /// Fills the job's groups in `out`, [frame of the gap], and leaves the others as they are. Frame 0 is the one after
+  /// the left border. Quaternions keep one hemisphere from frame to frame, beginning with the left border's. Cannot
+  /// fail: a joint whose numbers are not finite gets such, and the others are filled; where there is no memory left for
+  /// the scratch, the program ends. The same input gives the same bits.
+  void (*fill)(const GapJob& job, MutablePoses out) noexcept;
+};
+
+/// Every method, the default first. To add one, write its `fill` and a row in method.cpp.
+std::span<const GapMethod> gap_methods() noexcept;
+const GapMethod* find_gap_method(std::string_view name) noexcept;
+
+}  // namespace signweave

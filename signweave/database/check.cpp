@@ -33,6 +33,21 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
   if (!fault.empty()) listener.fault(fault);
 }
 
+/// The weights that were learned are those that the corpus teaches; where recordings are damaged it cannot be told.
+void check_weights(const Database& database, const kv::ReadTransaction& snapshot, CheckListener& listener) {
+  const char* mend = "signing learns them anew; import any file again to store them";
+  try {
+    const std::optional<semantic_db::StoredWeights> stored = semantic_db::read_weights(snapshot);
+    if (!stored || stored->changes != catalogue::read_head(snapshot).changes) return;
+    const Snapshot now = database.snapshot();
+    if (!now.contents().faults.empty() || nearly_same(stored->weights, learn_joins(now))) return;
+    listener.fault(fmt::format("weights of the selection: they are not what the recordings teach; {}", mend));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::corrupt) throw;
+    listener.fault(fmt::format("weights of the selection: the stored record is damaged; {}", mend));
+  }
+}
+
 class Collect : public CheckListener {
  public:
   explicit Collect(const Database::Progress& progress) : progress_(progress) {}
@@ -73,6 +88,7 @@ void check_slots(const Database& database, std::uint32_t first, CheckListener& l
       listener.fault(error.what());
     }
   }
+  check_weights(database, *snapshot, listener);
   try {
     catalogue::read_sweep_list(*snapshot);
   } catch (const Error&) {

@@ -120,6 +120,8 @@ std::shared_ptr<const Contents> Database::contents_of(const kv::ReadTransaction&
   if (contents_ && contents_at_ > head.changes) return made;  // another thread has seen a newer state: it stays
   contents_ = made;
   contents_at_ = head.changes;
+  joins_.clear();
+  join_weights_.reset();
   std::erase_if(known_, [&](const auto& entry) {
     return std::none_of(made->recordings.begin(), made->recordings.end(), [&](const RecordingInfo& info) {
       return info.motion && info.motion->generation == entry.first;

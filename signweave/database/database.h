@@ -14,6 +14,7 @@
 
 #include "signweave/annotation/document.h"
 #include "signweave/core/error.h"
+#include "signweave/database/joins.h"
 #include "signweave/database/recording.h"
 #include "signweave/features/phase_features.h"
 #include "signweave/features/transition_stats.h"
@@ -53,6 +54,14 @@ class Snapshot {
   /// The motion of one of `contents().recordings`. Throws Error{not_found} where it has none, Error{corrupt}.
   std::unique_ptr<MotionSource> motion(const RecordingInfo& recording) const;
 
+  /// What is known of the joins of the signs of `contents().recordings[recording]`, from its features; read once as
+  /// long as nothing in the database changes. Nothing is known where the features are damaged.
+  std::shared_ptr<const RecordingJoins> joins(std::size_t recording) const;
+
+  /// What weighs how much where signs are chosen by their joins: as learned and stored (see Database::learn); learned
+  /// now where what is stored is damaged, of another version or of another state of the database, or nothing is.
+  JoinWeights join_weights() const;
+
  private:
   friend class Database;
   const Database* database_ = nullptr;
@@ -62,8 +71,8 @@ class Snapshot {
 
 /// Entries of one kind.
 struct Usage {
-  std::string kind;  ///< "packets", "skeletons", "scalar tracks", "documents", "segments", "features", "catalogue";
-                     ///< "other": not ours
+  std::string kind;  ///< "packets", "skeletons", "scalar tracks", "documents", "segments", "features", "weights",
+                     ///< "catalogue"; "other": not ours
   std::uint64_t entries = 0;
   std::uint64_t bytes = 0;  ///< of keys and values, without what the engine spends beside them
 };
@@ -143,6 +152,11 @@ class Database {
   /// damaged, or nothing is; false where it is current. Whatever else changes a recording measures by itself.
   bool measure(std::string_view name);
 
+  /// Learns from the corpus as it is now what weighs how much where signs are chosen by their joins, and stores it;
+  /// false where what is stored is of this very state. Call it once after some changes: without it, whoever signs
+  /// learns again.
+  bool learn();
+
   /// How motions are stored that are put from now on.
   void set_storage(const Storage& storage);
 
@@ -211,6 +225,8 @@ class Database {
   mutable std::shared_ptr<const Contents> contents_;
   mutable std::uint64_t contents_at_ = 0;
   mutable std::map<std::uint64_t, std::shared_ptr<const motion_db::KnownMotion>> known_;  ///< by generation
+  mutable std::map<std::size_t, std::shared_ptr<const RecordingJoins>> joins_;  ///< of contents_, by recording
+  mutable std::optional<JoinWeights> join_weights_;                             ///< of contents_
 };
 
 }  // namespace signweave

@@ -19,8 +19,8 @@ constexpr float kPalmRadius = 0.030f;
 constexpr float kFingerRadius = 0.017f;
 constexpr float kHandLength = 0.32f;  // wrist to finger tips: 0.108 of the stature (Drillis and Contini 1966)
 
-/// Between the nearest points of two stretches of lines.
-float distance_between(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
+/// From the second to the first of two stretches of lines, where they are nearest.
+Vector3f between(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
   const Vector3f u = b - a;
   const Vector3f v = d - c;
   const Vector3f w = a - c;
@@ -45,13 +45,19 @@ float distance_between(const Vector3f& a, const Vector3f& b, const Vector3f& c, 
       s = std::clamp((uv * t - uw) / uu, 0.0f, 1.0f);
     }
   }
-  return (w + s * u - t * v).norm();
+  return w + s * u - t * v;
 }
 
 }  // namespace
 
 float clearance(const Capsule& a, const Capsule& b) noexcept {
-  return distance_between(a.from, a.to, b.from, b.to) - a.radius - b.radius;
+  return between(a.from, a.to, b.from, b.to).norm() - a.radius - b.radius;
+}
+
+Approach approach(const Capsule& a, const Capsule& b) noexcept {
+  const Vector3f way = between(a.from, a.to, b.from, b.to);
+  const float distance = way.norm();
+  return {distance - a.radius - b.radius, distance > 1e-6f ? Vector3f(way / distance) : Vector3f::Zero()};
 }
 
 HandShell shell_of(const HandPoints& hand, const std::optional<Vector3f>& elbow, const SignerBody& body) noexcept {

@@ -20,6 +20,13 @@ struct Capsule {
 /// From surface to surface, metres; below 0 where they overlap.
 float clearance(const Capsule& a, const Capsule& b) noexcept;
 
+/// The same, and which way leads `a` away from `b`: from axis to axis where they are nearest.
+struct Approach {
+  float clearance = 0;
+  Eigen::Vector3f away = Eigen::Vector3f::Zero();  ///< unit; zero where the axes cross
+};
+Approach approach(const Capsule& a, const Capsule& b) noexcept;
+
 // The sizes below are shares of the body's own, so that a tall and a small signer touch alike (docs/signing-space.md
 // has them in a drawing). All are ours, for a body of 1.70 m whose shoulders' joints are 0.35 m apart.
 

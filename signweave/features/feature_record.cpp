@@ -10,10 +10,12 @@
 //     u32  phases, then for each:
 //       f32 seconds
 //       u8  bits: 1 something is known, 2 the left hand, 4 the right hand
-//       f32 × 2 distance between the hands at begin and end      only where something is known
+//       only where something is known:
+//         f32 × 2 distance between the hands at begin and end
+//         f32 × 3 lean, f32 twist of the trunk at begin, the same at end
 //       for each hand that is known, left first:
-//         begin and end, each: f32 × 3 position, velocity, acceleration, palm, fingers; f32 curvature,
-//                              openness; f32 × 15 handshape;
+//         begin and end, each: f32 × 3 position, velocity, acceleration, palm, fingers, elbow;
+//                              f32 curvature, openness; f32 × 15 handshape;
 //                              u8 height, across, reach, contact
 //         f32 path, displacement, mean speed, peak speed, peak time, mean acceleration, mean curvature
 //         f32 × 16 profile
@@ -24,7 +26,7 @@ namespace {
 // One list of members serves writing, reading and comparing.
 template <typename Hand, typename Number, typename Small>
 void each_of_end(Hand& at, Number number, Small small) {
-  for (auto* vector : {&at.position, &at.velocity, &at.acceleration, &at.palm, &at.fingers}) {
+  for (auto* vector : {&at.position, &at.velocity, &at.acceleration, &at.palm, &at.fingers, &at.elbow}) {
     for (int axis = 0; axis < 3; ++axis) number((*vector)[axis]);
   }
   number(at.curvature);
@@ -34,6 +36,14 @@ void each_of_end(Hand& at, Number number, Small small) {
   small(at.zone.across, Across::right);
   small(at.zone.reach, Reach::far);
   small(at.contact, Contact::hands | Contact::head | Contact::torso);
+}
+
+template <typename Phase, typename Number>
+void each_of_trunk(Phase& phase, Number number) {
+  for (auto* trunk : {&phase.trunk_begin, &phase.trunk_end}) {
+    for (int axis = 0; axis < 3; ++axis) number(trunk->lean[axis]);
+    number(trunk->twist);
+  }
 }
 
 template <typename Hand, typename Number, typename Small>
@@ -67,6 +77,7 @@ void encode(const RecordingFeatures& features, ByteWriter& out) {
     if (!phase.known) continue;
     out.number(phase.hands_distance_begin);
     out.number(phase.hands_distance_end);
+    each_of_trunk(phase, [&](float value) { out.number(value); });
     for (const HandOver& hand : phase.hands) {
       if (!hand.known) continue;
       each_of(
@@ -97,6 +108,7 @@ std::optional<RecordingFeatures> decode_features(ByteReader& in) {
     if (!phase.known) continue;
     number(phase.hands_distance_begin);
     number(phase.hands_distance_end);
+    each_of_trunk(phase, number);
     for (std::size_t side = 0; side < 2; ++side) {
       HandOver& hand = phase.hands[side];
       hand.known = (bits & (side == 0 ? 2 : 4)) != 0;
@@ -109,6 +121,7 @@ std::optional<RecordingFeatures> decode_features(ByteReader& in) {
 
 bool finite(const PhaseFeatures& phase) noexcept {
   bool all = std::isfinite(phase.hands_distance_begin) && std::isfinite(phase.hands_distance_end);
+  each_of_trunk(phase, [&](float value) { all = all && std::isfinite(value); });
   for (const HandOver& hand : phase.hands) {
     each_of(
         hand, [&](float value) { all = all && std::isfinite(value); }, [](auto, auto) {});
@@ -137,8 +150,14 @@ bool nearly_same(const PhaseFeatures& a, const PhaseFeatures& b) noexcept {
         [&](auto value, auto) { all = all && numbers[count++] == static_cast<float>(value); });
     return all;
   };
-  return std::abs(a.seconds - b.seconds) <= kRounding && same(a.hands[0], b.hands[0]) && same(a.hands[1], b.hands[1]) &&
-         std::abs(a.hands_distance_begin - b.hands_distance_begin) <= kRounding &&
+  std::array<float, 8> trunk{};
+  std::size_t count = 0;
+  each_of_trunk(a, [&](float value) { trunk[count++] = value; });
+  bool same_trunk = true;
+  count = 0;
+  each_of_trunk(b, [&](float value) { same_trunk = same_trunk && std::abs(value - trunk[count++]) <= kRounding; });
+  return same_trunk && std::abs(a.seconds - b.seconds) <= kRounding && same(a.hands[0], b.hands[0]) &&
+         same(a.hands[1], b.hands[1]) && std::abs(a.hands_distance_begin - b.hands_distance_begin) <= kRounding &&
          std::abs(a.hands_distance_end - b.hands_distance_end) <= kRounding;
 }
 

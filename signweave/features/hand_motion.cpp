@@ -31,13 +31,29 @@ float curvature_of(const PathDerivatives& at) {
 /// The joints that are looked at: hands, shoulders and what the bodies' shells hang on.
 JointChains chains_of(const Motion& motion, const SignerModel& model, const std::array<Arm, 2>& arms) {
   std::vector<JointIndex> joints;
-  for (const Part part : {Part::pelvis, Part::neck, Part::head, Part::head_top, Part::left_eye, Part::right_eye,
-                          Part::left_upper_arm, Part::right_upper_arm, Part::left_forearm, Part::right_forearm}) {
+  for (const Part part :
+       {Part::pelvis, Part::neck, Part::head, Part::head_top, Part::left_eye, Part::right_eye, Part::left_upper_arm,
+        Part::right_upper_arm, Part::left_forearm, Part::right_forearm, Part::left_thigh, Part::right_thigh}) {
     if (model.rig.has(part)) joints.push_back(model.rig[part].joint);
   }
   joints.push_back(model.body->trunk);
   for (const Arm& arm : arms) arm.places.add_joints(joints);
   return JointChains(motion.skeleton(), joints);
+}
+
+TrunkFrame trunk_of(const RigMap& rig, const SignerSpace& space, const ModelPose& pose) {
+  TrunkFrame trunk;
+  if (rig.has(Part::pelvis)) {
+    const Vector3f lean = space.turn_to_signer(space.origin - position_of(rig[Part::pelvis], pose));
+    if (lean.norm() > 1e-6f) trunk.lean = lean.normalized();
+  }
+  if (rig.has(Part::left_thigh) && rig.has(Part::right_thigh)) {
+    Vector3f across =
+        space.turn_to_signer(position_of(rig[Part::left_thigh], pose) - position_of(rig[Part::right_thigh], pose));
+    across.y() = 0;
+    if (across.norm() > 1e-6f) trunk.twist = across.normalized().z();
+  }
+  return trunk;
 }
 
 /// All but what is told from the path.
@@ -110,6 +126,12 @@ HandMotion measure_hands(const Motion& motion, const SignerModel& model, FrameRa
       HandFrame& out = result.hands[i].frames[static_cast<std::size_t>(frame - result.range.begin)];
       measure_pose(arms[i], arms[1 - i], body_shell, space, body, out);
     }
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!arms[i].measured || !arms[i].elbow.known()) continue;
+      HandFrame& out = result.hands[i].frames[static_cast<std::size_t>(frame - result.range.begin)];
+      out.elbow = space.to_signer(position_of(arms[i].elbow, pose));
+    }
+    result.trunk.push_back(trunk_of(model.rig, space, pose));
     if (both) result.hands_distance.push_back((palms[0] - palms[1]).norm());
   }
   for (const Arm& arm : arms) {

@@ -47,9 +47,18 @@ struct HandFrame {
   float curvature = 0;                                     ///< of the path, 1/metre; 0 below kLeastSpeed
   Eigen::Vector3f palm = Eigen::Vector3f::Zero();          ///< unit, out of the palm, signer's axes; zero: no fingers
   Eigen::Vector3f fingers = Eigen::Vector3f::Zero();  ///< unit, wrist to middle knuckle, signer's axes; zero likewise
+  Eigen::Vector3f elbow = Eigen::Vector3f::Zero();    ///< signer-centred, shoulder widths; zero: no elbow
   float openness = 0;                                 ///< 0 a fist to 1 a flat hand; 0 without fingers
   Handshape handshape;                                ///< zero without fingers
   Contact contact = Contact::none;
+};
+
+/// How the trunk stands at one frame.
+struct TrunkFrame {
+  /// From the pelvis to between the shoulders, unit, signer's axes: (0, 1, 0) upright; zero: no pelvis.
+  Eigen::Vector3f lean = Eigen::Vector3f::Zero();
+  /// Sine of the angle about the vertical by which the hips turn against the shoulders; 0: no hips.
+  float twist = 0;
 };
 
 /// Both hands of a signer over some frames.
@@ -62,6 +71,7 @@ struct HandMotion {
   FrameRange range;
   std::array<OneHand, 2> hands;       ///< [Side]
   std::vector<float> hands_distance;  ///< [frame] metres between the palms; empty without both hands
+  std::vector<TrunkFrame> trunk;      ///< [frame - range.begin]; empty where no hand is measured
 };
 
 /// What is needed once per motion to measure any part of it.

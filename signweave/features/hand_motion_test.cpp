@@ -29,14 +29,15 @@ bool same_bits(const HandFrame& a, const HandFrame& b) {
   const auto same = [](const auto& one, const auto& other) { return std::memcmp(&one, &other, sizeof one) == 0; };
   return same(a.position, b.position) && same(a.velocity, b.velocity) && same(a.acceleration, b.acceleration) &&
          same(a.curvature, b.curvature) && same(a.palm, b.palm) && same(a.fingers, b.fingers) &&
-         same(a.openness, b.openness) && same(a.handshape.values, b.handshape.values) && a.contact == b.contact;
+         same(a.elbow, b.elbow) && same(a.openness, b.openness) && same(a.handshape.values, b.handshape.values) &&
+         a.contact == b.contact;
 }
 
 /// The greatest difference in signer space, `scale` that of velocities and accelerations.
 float difference(const HandFrame& a, const HandFrame& b, float scale = 1) {
   return std::max({(a.position - b.position).norm(), (a.velocity - b.velocity / scale).norm() / 10,
                    (a.acceleration - b.acceleration / scale).norm() / 1000, (a.palm - b.palm).norm(),
-                   (a.fingers - b.fingers).norm(), std::abs(a.openness - b.openness),
+                   (a.fingers - b.fingers).norm(), (a.elbow - b.elbow).norm(), std::abs(a.openness - b.openness),
                    distance(a.handshape, b.handshape)});
 }
 
@@ -70,6 +71,8 @@ RC_GTEST_PROP(MeasureHands, DoesNotCareWhereTheSignerStandsAndFaces, ()) {
     for (std::size_t i = 0; i < 20; ++i) {
       RC_ASSERT(difference(a.hands[side].frames[i], b.hands[side].frames[i]) < 1e-4f);
       RC_ASSERT(std::abs(a.hands_distance[i] - b.hands_distance[i]) < 1e-4f);
+      RC_ASSERT((a.trunk[i].lean - b.trunk[i].lean).norm() < 1e-4f);
+      RC_ASSERT(std::abs(a.trunk[i].twist - b.trunk[i].twist) < 1e-4f);
     }
   }
 }
@@ -95,7 +98,8 @@ RC_GTEST_PROP(MeasureHands, SwapsTheHandsInTheMirror, ()) {
   const HandMotion a = measured(motion);
   const HandMotion b = measured(in_mirror(motion));
   const auto mirrored = [](HandFrame frame) {
-    for (Vector3f* vector : {&frame.position, &frame.velocity, &frame.acceleration, &frame.palm, &frame.fingers}) {
+    for (Vector3f* vector :
+         {&frame.position, &frame.velocity, &frame.acceleration, &frame.palm, &frame.fingers, &frame.elbow}) {
       vector->x() = -vector->x();
     }
     return frame;
@@ -106,6 +110,31 @@ RC_GTEST_PROP(MeasureHands, SwapsTheHandsInTheMirror, ()) {
       RC_ASSERT(a.hands[side].frames[i].contact == b.hands[1 - side].frames[i].contact);
     }
   }
+}
+
+TEST(MeasureHands, TellsHowTheTrunkLeansAndTwists) {
+  Motion motion(whole_person(), {100, 1}, 3);
+  const auto spine = static_cast<std::size_t>(*motion.skeleton().find("Spine"));
+  motion.pose(1).rotations[spine] = AngleAxisf(0.3f, Vector3f::UnitX());  // forwards
+  motion.pose(2).rotations[spine] = AngleAxisf(0.4f, Vector3f::UnitY());  // to the left
+  const HandMotion hands = measured(motion);
+  ASSERT_EQ(hands.trunk.size(), 3U);
+  EXPECT_NEAR(hands.trunk[0].lean.norm(), 1, 1e-5f);
+  EXPECT_GT(hands.trunk[0].lean.y(), 0.95f);
+  EXPECT_NEAR(hands.trunk[0].twist, 0, 1e-3f);
+  EXPECT_GT(hands.trunk[1].lean.z(), hands.trunk[0].lean.z() + 0.15f);
+  EXPECT_NEAR(hands.trunk[1].twist, 0, 1e-3f);
+  EXPECT_NEAR(std::abs(hands.trunk[2].twist), std::sin(0.4f), 0.02f);
+  EXPECT_FALSE(hands.hands[0].frames[0].elbow.isZero());
+  EXPECT_GT(hands.hands[0].frames[0].elbow.x(), 0.4f);  // of the left arm, on the left
+  SignerModel model = model_of(motion);
+  model.rig[Part::pelvis] = {};
+  model.rig[Part::left_thigh] = {};
+  model.rig[Part::left_forearm] = {};
+  const HandMotion without = measure_hands(motion, model, {0, 3});
+  EXPECT_TRUE(without.trunk[1].lean.isZero());
+  EXPECT_EQ(without.trunk[2].twist, 0);
+  EXPECT_TRUE(without.hands[0].frames[0].elbow.isZero());
 }
 
 /// The rest pose with one forearm that turns evenly about the elbow, forwards: a circle whose sizes are known.

@@ -18,6 +18,7 @@ HandAt at(const HandFrame& frame, const SignerBody& body) {
           .curvature = frame.curvature,
           .palm = frame.palm,
           .fingers = frame.fingers,
+          .elbow = frame.elbow,
           .openness = frame.openness,
           .handshape = frame.handshape,
           .zone = zone_of(frame.position, body),
@@ -93,6 +94,10 @@ PhaseFeatures features_over(const HandMotion& measured, FrameRange frames, Frame
     if (all.empty()) continue;
     features.hands[index] = over(std::span(all).subspan(begin, count), rate, body);
     features.known = true;
+  }
+  if (!measured.trunk.empty()) {
+    features.trunk_begin = measured.trunk[begin];
+    features.trunk_end = measured.trunk[begin + count - 1];
   }
   if (!measured.hands_distance.empty()) {
     features.hands_distance_begin = measured.hands_distance[begin];

@@ -22,6 +22,7 @@ struct HandAt {
   float curvature = 0;                                     ///< of the path, 1/metre; 0 where the hand hardly moves
   Eigen::Vector3f palm = Eigen::Vector3f::Zero();          ///< unit; zero: no fingers
   Eigen::Vector3f fingers = Eigen::Vector3f::Zero();       ///< unit; zero: no fingers
+  Eigen::Vector3f elbow = Eigen::Vector3f::Zero();         ///< signer-centred, shoulder widths; zero: no elbow
   float openness = 0;
   Handshape handshape;
   Zone zone;
@@ -51,6 +52,8 @@ struct PhaseFeatures {
   std::array<HandOver, 2> hands;   ///< [Side]
   float hands_distance_begin = 0;  ///< metres between the palms; 0 unless both hands are known
   float hands_distance_end = 0;
+  TrunkFrame trunk_begin;  ///< at the first frame; zero: not known
+  TrunkFrame trunk_end;    ///< at the last frame
 };
 
 /// What is measured of the phases of one recording.
@@ -62,7 +65,7 @@ struct RecordingFeatures {
 
 /// The number of the way of measuring: features that were stored under another are measured anew. Count it up with any
 /// change that gives other numbers.
-inline constexpr std::uint16_t kFeatureVersion = 1;
+inline constexpr std::uint16_t kFeatureVersion = 2;
 
 /// The rig of a motion and the body that it moves.
 SignerModel model_of(const Motion& motion, const RigNames& names = {});

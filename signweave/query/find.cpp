@@ -93,7 +93,7 @@ class Search {
   /// Fills the places from `place` to the last, then those before the first one filled.
   void place_after(std::size_t place) {
     if (place == rows_.size()) return place_before(start_);
-    const Gap& gap = query_.gaps[place - 1];
+    const Interval& gap = query_.gaps[place - 1];
     const auto use = [&](RowId row) {
       if (row == kNoRow || !query_.elements[place].matcher.accepts(row)) return;
       rows_[place] = row;
@@ -106,7 +106,7 @@ class Search {
   /// Fills the places before `place`.
   void place_before(std::size_t place) {
     if (place == 0) return relate(0, 0);
-    const Gap& gap = query_.gaps[place - 1];
+    const Interval& gap = query_.gaps[place - 1];
     const auto use = [&](RowId row) {
       if (!query_.elements[place - 1].matcher.accepts(row)) return;
       rows_[place - 1] = row;

@@ -128,7 +128,7 @@ class Oracle {
     return a != b;
   }
 
-  bool may_follow(RowId a, RowId b, const Gap& gap) const {
+  bool may_follow(RowId a, RowId b, const Interval& gap) const {
     if (!same_group(a, b) || b < a) return false;
     if (!gap.direct()) {
       const Milliseconds between = row(b).span.begin - row(a).span.end;

@@ -81,7 +81,7 @@ std::vector<RowId> previous_rows(const SegmentTable& table, RowId row) {
   return result;
 }
 
-std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Gap& gap) {
+std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Interval& gap) {
   const RowRange group = group_of(table, row);
   const Milliseconds end = table.row(row).span.end;
   const Milliseconds first = end + gap.least.value_or(0ms);
@@ -96,7 +96,7 @@ std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Gap& g
   return result;
 }
 
-std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Gap& gap) {
+std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Interval& gap) {
   const SegmentTable::TierRows& tier = tier_of(table, row);
   const RowRange group = group_of(table, row);
   const Milliseconds begin = table.row(row).span.begin;

@@ -20,9 +20,9 @@ std::vector<RowId> previous_rows(const SegmentTable& table, RowId row);
 
 /// The rows of the same tier (inferred strokes among themselves) after `row` whose begin is `gap` away from its end,
 /// ascending. `gap` has a bound.
-std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Gap& gap);
+std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Interval& gap);
 /// The rows before `row` from which it is `gap` away, ascending.
-std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Gap& gap);
+std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Interval& gap);
 
 /// The first row of a range, in which no two overlap, that ends at `time` or later.
 RowId first_ending_at_or_after(std::span<const SegmentRow> rows, SegmentTable::RowRange range,

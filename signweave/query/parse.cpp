@@ -68,7 +68,7 @@ class Parser {
     result.elements.push_back(element());
     while (in_.next_is("->")) {
       const std::size_t arrow = in_.take().begin;
-      result.gaps.push_back(in_.next_is("[") ? gap() : Gap());
+      result.gaps.push_back(in_.next_is("[") ? gap() : Interval());
       last = in_.peek().begin;
       result.elements.push_back(element());
       check_neighbours(result.elements[result.elements.size() - 2], result.elements.back(), arrow);
@@ -107,7 +107,7 @@ class Parser {
     return result;
   }
 
-  Gap gap() {
+  Interval gap() {
     const std::string_view inside = in_.bracketed();
     const std::size_t dots = inside.find("..");
     if (dots == std::string_view::npos) {
@@ -121,7 +121,7 @@ class Parser {
         in_.fail(in_.offset_of(word), "a gap is never negative; use overlaps for segments that overlap");
       return result;
     };
-    const Gap result{bound(inside.substr(0, dots)), bound(inside.substr(dots + 2))};
+    const Interval result{bound(inside.substr(0, dots)), bound(inside.substr(dots + 2))};
     if (result.direct()) {
       in_.fail(in_.offset_of(inside), "a gap without bounds; write -> for neighbours, ->[0ms..] for any later segment");
     }

@@ -84,7 +84,7 @@ std::string to_string(const Expression& expression) {
   return {};
 }
 
-std::string to_string(const Gap& gap) {
+std::string to_string(const Interval& gap) {
   if (gap.direct()) return "->";
   const auto bound = [](std::optional<Milliseconds> time) {
     return time ? fmt::format("{}ms", time->count()) : std::string();

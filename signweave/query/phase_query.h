@@ -99,18 +99,18 @@ struct Element {
 
 /// What lies between two elements. Without bounds: they are neighbours on their tier. With a bound: the time from the
 /// end of the first to the begin of the second, on the same tier, lies in [least, most].
-struct Gap {
+struct Interval {
   std::optional<Milliseconds> least;
   std::optional<Milliseconds> most;
 
   bool direct() const noexcept { return !least && !most; }
-  friend bool operator==(const Gap&, const Gap&) = default;
+  friend bool operator==(const Interval&, const Interval&) = default;
 };
 
 /// A whole query: one element, or a sequence of them. At most one term is marked.
 struct PhaseQuery {
   std::vector<Element> elements;  ///< at least one
-  std::vector<Gap> gaps;          ///< one fewer
+  std::vector<Interval> gaps;     ///< one fewer
   friend bool operator==(const PhaseQuery&, const PhaseQuery&) = default;
 };
 
@@ -119,7 +119,7 @@ std::string to_string(const PhaseQuery& query);
 std::string to_string(const Expression& expression);
 std::string to_string(const Condition& condition);
 /// "->", "->[..500ms]", "->[100ms..500ms]".
-std::string to_string(const Gap& gap);
+std::string to_string(const Interval& gap);
 
 /// The words of the language. Each is the one place where its spelling stands.
 std::string_view word_of(Field field) noexcept;

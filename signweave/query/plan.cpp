@@ -189,7 +189,7 @@ std::size_t rows_of(std::span<const Access> accesses) noexcept {
 }
 
 std::string follow(const PhaseQuery& query, std::size_t from, std::size_t to) {
-  const Gap& gap = query.gaps[std::min(from, to)];
+  const Interval& gap = query.gaps[std::min(from, to)];
   const std::string_view where = to > from ? "after" : "before";
   const std::string how = gap.direct() ? fmt::format("the row directly {}", where)
                                        : fmt::format("the rows {} within {}", where, to_string(gap));

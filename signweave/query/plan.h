@@ -34,7 +34,7 @@ struct BoundQuery {
     std::vector<BoundRelation> relations;
   };
   std::vector<BoundElement> elements;
-  std::vector<Gap> gaps;
+  std::vector<Interval> gaps;
 };
 
 /// Borrows all three, which must outlive the result.

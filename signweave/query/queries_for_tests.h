@@ -60,8 +60,8 @@ class RandomQueries {
     return result;
   }
 
-  Gap gap() {
-    Gap result;
+  Interval gap() {
+    Interval result;
     if (one_in(2)) return result;
     if (!one_in(3)) result.least = Milliseconds(below(4));
     if (!result.least || one_in(2)) result.most = result.least.value_or(0ms) + Milliseconds(below(8));

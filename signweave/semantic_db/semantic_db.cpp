@@ -7,11 +7,18 @@
 namespace signweave::semantic_db {
 namespace {
 
-// Key: one letter for what the record is ('D' document, 'S' segments, 'F' features), then the generation.
+// Key: one letter for what the record is ('D' document, 'S' segments, 'F' features), then the generation. The weights
+// are of all documents, and their key is the letter 'W' alone.
 Bytes key_of(char what, std::uint64_t generation) {
   ByteWriter key;
   key.number(what);
   key.number(generation);
+  return key.take();
+}
+
+Bytes weights_key() {
+  ByteWriter key;
+  key.number('W');
   return key.take();
 }
 
@@ -44,7 +51,29 @@ void erase(kv::WriteTransaction& transaction, std::uint64_t generation) {
   transaction.erase(key_of('S', generation));
 }
 
+void put_weights(kv::WriteTransaction& transaction, const StoredWeights& weights) {
+  ByteWriter writer;
+  writer.number(kWeightsVersion);
+  writer.number(weights.changes);
+  encode(weights.weights, writer);
+  transaction.put(weights_key(), kv::sealed(writer.bytes()));
+}
+
+std::optional<StoredWeights> read_weights(const kv::ReadTransaction& snapshot) {
+  const std::string where = "weights of the selection";
+  const auto record = snapshot.get(weights_key());
+  if (!record) return std::nullopt;
+  ByteReader in(kv::unsealed(*record, where), where);
+  if (in.number<std::uint16_t>() != kWeightsVersion) return std::nullopt;
+  StoredWeights stored;
+  stored.changes = in.number<std::uint64_t>();
+  stored.weights = decode_join_weights(in);
+  in.finish();
+  return stored;
+}
+
 std::string_view kind_of(ByteSpan key) noexcept {
+  if (key.size() == 1 && key[0] == std::byte{'W'}) return "weights";
   if (key.size() != 1 + sizeof(std::uint64_t)) return {};
   if (key[0] == std::byte{'D'}) return "documents";
   if (key[0] == std::byte{'F'}) return "features";
@@ -52,7 +81,7 @@ std::string_view kind_of(ByteSpan key) noexcept {
 }
 
 std::optional<std::uint64_t> generation_of(ByteSpan key) noexcept {
-  if (kind_of(key).empty()) return std::nullopt;
+  if (kind_of(key).empty() || key.size() == 1) return std::nullopt;
   ByteReader in(key.subspan(1), "key");
   return in.number<std::uint64_t>();
 }

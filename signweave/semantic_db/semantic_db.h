@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "signweave/features/join.h"
 #include "signweave/features/phase_features.h"
 #include "signweave/kv/kv_store.h"
 #include "signweave/semantic_db/segment_table.h"
@@ -25,9 +26,22 @@ void put_features(kv::WriteTransaction& transaction, std::uint64_t generation, c
 /// Erases all three. Doing it twice is harmless.
 void erase(kv::WriteTransaction& transaction, std::uint64_t generation);
 
-/// What the record under a key is: "documents", "segments" or "features"; empty where it is none of this database's.
+/// The weights that were learned from all recordings together, and of which state of the database they are.
+struct StoredWeights {
+  std::uint64_t changes = 0;  ///< the caller's count of changes when they were learned
+  JoinWeights weights;
+};
+/// Stores them instead of what was.
+void put_weights(kv::WriteTransaction& transaction, const StoredWeights& weights);
+/// As they were put; none where there are none, or another version learned. Throws Error{corrupt}.
+std::optional<StoredWeights> read_weights(const kv::ReadTransaction& snapshot);
+/// The number of the way of learning: count it up with any change that gives other weights.
+inline constexpr std::uint16_t kWeightsVersion = 1;
+
+/// What the record under a key is: "documents", "segments", "features" or "weights"; empty where it is none of this
+/// database's.
 std::string_view kind_of(ByteSpan key) noexcept;
-/// The generation of the document whose record the key names; none where it is none of this database's.
+/// The generation of the document whose record the key names; none where it belongs to no document.
 std::optional<std::uint64_t> generation_of(ByteSpan key) noexcept;
 
 /// The bytes as they were put. Throws Error{corrupt} where the record is missing or its checksum is wrong; `where`

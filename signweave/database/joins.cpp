@@ -1,0 +1,271 @@
+#include "signweave/database/joins.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "signweave/database/catalogue.h"
+#include "signweave/database/database.h"
+#include "signweave/database/measure.h"
+#include "signweave/features/transition_stats.h"
+#include "signweave/semantic_db/semantic_db.h"
+
+namespace signweave {
+namespace {
+
+RecordingJoins joins_of(const SegmentTable& table, std::uint32_t recording, const RecordingFeatures& features) {
+  RecordingJoins joins;
+  joins.why_not = features.why_not;
+  const std::vector<std::vector<std::size_t>> places = phase_places_of(table, recording);
+  const SegmentTable::RowRange rows = table.recording_rows(recording);
+  for (RowId row = rows.begin; row < rows.end; ++row) {
+    if (table.row(row).kind != RowKind::sign) continue;
+    SignJoin join{.row = row};
+    const std::vector<std::size_t>& phases = places[joins.signs.size()];
+    const PhaseFeatures* first = nullptr;
+    const PhaseFeatures* last = nullptr;
+    TimeSpan strokes{};
+    std::size_t at = 0;
+    float path = 0;  // since the first stroke, of what lies between strokes too
+    for (const RowId child : table.children(row)) {
+      const SegmentRow& phase = table.row(child);
+      if (phase.kind != RowKind::phase) continue;
+      const std::size_t place = at < phases.size() ? phases[at++] : features.phases.size();
+      if (place >= features.phases.size()) continue;
+      const PhaseFeatures& measured = features.phases[place];
+      const bool stroke = phase.phase == PhaseKind::stroke;
+      if (first == nullptr && !stroke) continue;
+      for (const HandOver& hand : measured.hands) path += hand.path_length;
+      if (!stroke) continue;
+      if (first == nullptr) {
+        first = &measured;
+        strokes = phase.span;
+      }
+      last = &measured;
+      strokes.end = phase.span.end;
+      join.path = path;
+    }
+    if (first != nullptr) {
+      join.begin = join_point(*first, true);
+      join.end = join_point(*last, false);
+      join.stroke_seconds = static_cast<float>(Seconds(strokes.duration()).count());
+    }
+    joins.signs.push_back(join);
+  }
+  return joins;
+}
+
+// What learning looks at, at most.
+constexpr std::size_t kMostRecordings = 256;
+constexpr std::size_t kMostPairs = 1024;
+constexpr std::size_t kMostOthers = 4;     // on each side of a pair
+constexpr std::size_t kMostLookedAt = 64;  // tokens of one gloss, of which those are
+
+/// Every nth of some things, so that at most `most` of them are taken.
+std::size_t step_of(std::size_t count, std::size_t most) {
+  return std::max<std::size_t>(1, (count + most - 1) / most);
+}
+
+/// Two signs that follow each other in one recording.
+struct Pair {
+  std::uint32_t recording = 0;
+  const SignJoin* from = nullptr;
+  const SignJoin* to = nullptr;
+  Seconds seconds{0};
+};
+
+class Learner {
+ public:
+  explicit Learner(const Snapshot& snapshot) : table_(snapshot.contents().segments) {
+    const Contents& contents = snapshot.contents();
+    const std::size_t recordings = contents.recordings.size();
+    joins_.resize(recordings);
+    for (std::size_t i = 0; i < recordings; i += step_of(recordings, kMostRecordings)) {
+      if (!contents.recordings[i].motion || contents.recordings[i].document == 0) continue;
+      joins_[i] = snapshot.joins(i);
+      const auto recording = static_cast<std::uint32_t>(i);
+      for (const Transition& transition : transitions_in(signs_of(table_, recording))) {
+        const SignJoin& from = joins_[i]->signs[transition.from];
+        const SignJoin& to = joins_[i]->signs[transition.to];
+        if (from.end.known == 0 || to.begin.known == 0) continue;
+        pairs_.push_back({recording, &from, &to, Seconds(transition.span.duration())});
+      }
+      for (const SignJoin& sign : joins_[i]->signs) {
+        if (sign.begin.known != 0) signs_.push_back(&sign);
+      }
+    }
+    mean_ = contents.transitions.count > 0 ? Seconds(contents.transitions.mean) : Seconds(0.5);
+  }
+
+  JoinWeights learned() const {
+    if (pairs_.empty()) return {};
+    const float limit = speed_limit();
+    std::vector<JoinComparison> comparisons;
+    for (std::size_t i = 0; i < pairs_.size(); i += step_of(pairs_.size(), kMostPairs)) {
+      const Pair& pair = pairs_[i];
+      const JoinTerms recorded = join_terms(pair.from->end, pair.to->begin, mean_, limit);
+      const auto add = [&](const JoinPoint& a, const JoinPoint& b) {
+        comparisons.push_back(
+            {recorded, join_terms(a, b, mean_, limit), pair.recording, static_cast<std::uint32_t>(i)});
+      };
+      for (const SignJoin* other : others(*pair.to, i)) add(pair.from->end, other->begin);
+      for (const SignJoin* other : others(*pair.from, i)) add(other->end, pair.to->begin);
+    }
+    return learn_join_weights(comparisons, limit);
+  }
+
+ private:
+  /// What one in ten hands exceeds on the straight way between recorded neighbours, shoulder widths a second.
+  float speed_limit() const {
+    std::vector<float> speeds;
+    for (const Pair& pair : pairs_) {
+      const double seconds = std::max(pair.seconds, kShortestJoin).count();
+      for (std::size_t side = 0; side < 2; ++side) {
+        const unsigned hand = static_cast<unsigned>(JoinPoint::kHand) << (3 * side);
+        if ((pair.from->end.known & pair.to->begin.known & hand) == 0) continue;
+        double sum = 0;
+        for (std::size_t k = JoinPoint::kPlace + 3 * side; k < JoinPoint::kPlace + 3 * side + 3; ++k) {
+          const double way =
+              static_cast<double>(pair.to->begin.values[k]) - static_cast<double>(pair.from->end.values[k]);
+          sum += way * way;
+        }
+        speeds.push_back(static_cast<float>(std::sqrt(sum) / seconds));
+      }
+    }
+    if (speeds.empty()) return JoinWeights{}.speed_limit;
+    const auto at = speeds.begin() + static_cast<std::ptrdiff_t>(9 * (speeds.size() - 1) / 10);
+    std::nth_element(speeds.begin(), at, speeds.end());
+    return std::max(*at, 0.1f);
+  }
+
+  /// Other tokens of its gloss, evenly from all; of a gloss that has none, other signs.
+  std::vector<const SignJoin*> others(const SignJoin& sign, std::size_t seed) const {
+    const SegmentRow& own = table_.row(sign.row);
+    std::vector<const SignJoin*> all;
+    const std::span<const RowId> tokens = table_.with_label(RowKind::sign, own.label);
+    for (std::size_t i = 0; i < tokens.size(); i += step_of(tokens.size(), kMostLookedAt)) {
+      const RowId row = tokens[i];
+      const SegmentRow& other = table_.row(row);
+      if (!joins_[other.recording]) continue;
+      // The same sign on the other hand's tier is no other token.
+      const bool same =
+          other.recording == own.recording && other.span.begin < own.span.end && own.span.begin < other.span.end;
+      if (row == sign.row || same) continue;
+      const SignJoin* join = joins_[other.recording]->find(row);
+      if (join != nullptr && join->begin.known != 0) all.push_back(join);
+    }
+    std::vector<const SignJoin*> some;
+    for (std::size_t i = 0; i < all.size(); i += step_of(all.size(), kMostOthers)) some.push_back(all[i]);
+    // 7919 is prime: the steps meet different signs for different pairs.
+    for (std::size_t i = 1; all.empty() && i <= kMostOthers; ++i) {
+      const SignJoin* join = signs_[(seed * 7919 + i * (signs_.size() / 5 + 1)) % signs_.size()];
+      if (join->row != sign.row) some.push_back(join);
+    }
+    return some;
+  }
+
+  const SegmentTable& table_;
+  std::vector<std::shared_ptr<const RecordingJoins>> joins_;  ///< [recording], null: not looked at
+  std::vector<Pair> pairs_;
+  std::vector<const SignJoin*> signs_;  ///< that are known
+  Seconds mean_{0.5};                   ///< the time that a transition is given
+};
+
+}  // namespace
+
+JoinWeights learn_joins(const Snapshot& snapshot) {
+  return Learner(snapshot).learned();
+}
+
+const SignJoin* RecordingJoins::find(RowId row) const noexcept {
+  const auto at = std::ranges::lower_bound(signs, row, {}, &SignJoin::row);
+  return at != signs.end() && at->row == row ? &*at : nullptr;
+}
+
+RowId neighbour_before(const SegmentTable& table, RowId sign) noexcept {
+  const SegmentRow& own = table.row(sign);
+  const SegmentTable::RowRange rows = table.tier_rows(own.recording, own.tier);
+  for (RowId row = sign; row-- > rows.begin;) {
+    const SegmentRow& before = table.row(row);
+    if (before.kind != RowKind::sign) continue;
+    if (before.span.end > own.span.begin || before.span.duration() <= Milliseconds(0)) continue;
+    return own.span.begin - before.span.end < kRest ? row : kNoRow;
+  }
+  return kNoRow;
+}
+
+RowId neighbour_after(const SegmentTable& table, RowId sign) noexcept {
+  const SegmentRow& own = table.row(sign);
+  const SegmentTable::RowRange rows = table.tier_rows(own.recording, own.tier);
+  for (RowId row = sign + 1; row < rows.end; ++row) {
+    const SegmentRow& after = table.row(row);
+    if (after.kind != RowKind::sign) continue;
+    if (after.span.begin < own.span.end || after.span.duration() <= Milliseconds(0)) continue;
+    return after.span.begin - own.span.end < kRest ? row : kNoRow;
+  }
+  return kNoRow;
+}
+
+std::shared_ptr<const RecordingJoins> Snapshot::joins(std::size_t recording) const {
+  const Database& database = *database_;
+  {
+    const std::lock_guard guard(database.mutex_);
+    const auto at = database.joins_.find(recording);
+    if (database.contents_ == contents_ && at != database.joins_.end()) return at->second;
+  }
+  const RecordingInfo& info = contents_->recordings[recording];
+  RecordingFeatures features;
+  try {
+    if (info.document != 0) {
+      std::optional<RecordingFeatures> stored = semantic_db::read_features(*transaction_, info.document, info.name);
+      features = stored ? *std::move(stored)
+                        : measure_stored(*transaction_, info,
+                                         semantic_db::read_segments(*transaction_, info.document, info.name));
+    }
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::corrupt) throw;
+    features.why_not = error.what();
+  }
+  auto made = std::make_shared<const RecordingJoins>(
+      joins_of(contents_->segments, static_cast<std::uint32_t>(recording), features));
+  const std::lock_guard guard(database.mutex_);
+  if (database.contents_ == contents_) database.joins_[recording] = made;
+  return made;
+}
+
+JoinWeights Snapshot::join_weights() const {
+  const Database& database = *database_;
+  {
+    const std::lock_guard guard(database.mutex_);
+    if (database.contents_ == contents_ && database.join_weights_) return *database.join_weights_;
+  }
+  std::optional<semantic_db::StoredWeights> stored;
+  try {
+    stored = semantic_db::read_weights(*transaction_);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::corrupt) throw;
+  }
+  const bool current = stored && stored->changes == catalogue::read_head(*transaction_).changes;
+  const JoinWeights weights = current ? stored->weights : learn_joins(*this);
+  const std::lock_guard guard(database.mutex_);
+  if (database.contents_ == contents_) database.join_weights_ = weights;
+  return weights;
+}
+
+bool Database::learn() {
+  require_writable();
+  const Snapshot now = snapshot();
+  const std::uint64_t changes = catalogue::read_head(*now.transaction_).changes;
+  try {
+    const std::optional<semantic_db::StoredWeights> stored = semantic_db::read_weights(*now.transaction_);
+    if (stored && stored->changes == changes) return false;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::corrupt) throw;
+  }
+  const JoinWeights weights = learn_joins(now);
+  const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
+  semantic_db::put_weights(*transaction, {changes, weights});
+  transaction->commit();
+  return true;
+}
+
+}  // namespace signweave

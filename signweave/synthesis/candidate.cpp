@@ -29,9 +29,28 @@ FrameRange core_frames(TimeSpan span, const RecordingInfo& info) {
   return clamp(frames, info.motion->frames);
 }
 
-// An inferred stroke holds the whole sign, its own transitions too, so an annotated token is preferred; but a good join
-// may outweigh it. In the unit of the join cost: radians, mean over the joints.
-constexpr double kInferredCost = 0.15;
+/// The row of a sign of a recording; kNoRow where the table lacks it.
+RowId row_of(const SegmentTable& table, std::size_t recording, const Sign& sign) {
+  const std::uint32_t tier = table.find_tier(sign.tier);
+  if (tier == SegmentTable::kNone) return kNoRow;
+  const SegmentTable::RowRange rows = table.tier_rows(static_cast<std::uint32_t>(recording), tier);
+  const std::span<const SegmentRow> tier_rows = table.rows().subspan(rows.begin, rows.size());
+  const auto before = [](const SegmentRow& row, Milliseconds begin) { return row.span.begin < begin; };
+  for (auto at = std::lower_bound(tier_rows.begin(), tier_rows.end(), sign.span.begin, before);
+       at != tier_rows.end() && at->span.begin == sign.span.begin; ++at) {
+    if (at->kind == RowKind::sign && at->span == sign.span && table.labels()[at->text] == sign.gloss) {
+      return rows.begin + static_cast<RowId>(at - tier_rows.begin());
+    }
+  }
+  return kNoRow;
+}
+
+/// Fills in which rows its signs are.
+void find_rows(const Contents& contents, Candidate& candidate) {
+  if (candidate.signs.empty()) return;
+  candidate.first_row = row_of(contents.segments, candidate.recording, candidate.signs.front());
+  candidate.last_row = row_of(contents.segments, candidate.recording, candidate.signs.back());
+}
 
 std::vector<Candidate> gloss_candidates(const Contents& contents, const GlossRef& wanted) {
   const std::vector<RowId> tokens = tokens_of(contents, wanted.gloss);
@@ -53,12 +72,10 @@ std::vector<Candidate> gloss_candidates(const Contents& contents, const GlossRef
     Sign sign = sign_at(contents.segments, tokens[i]);
     std::string why = obstacle(info, sign);
     if (why.empty()) {
-      const double cost = sign.inferred ? kInferredCost : 0.0;
       std::vector<Sign> signs;
       signs.push_back(std::move(sign));
       if (auto candidate = candidate_of_run(contents, recording, std::move(signs))) {
         candidate->token = i + 1;
-        candidate->cost = cost;
         result.push_back(std::move(*candidate));
       }
     } else if (first_obstacle.empty()) {
@@ -89,6 +106,8 @@ Candidate piece_candidate(const Contents& contents, const Place& place) {
   for (Sign& sign : main_signs_of(contents.segments, static_cast<std::uint32_t>(piece.recording))) {
     if (place.span.contains(sign.span)) piece.signs.push_back(std::move(sign));
   }
+  piece.at_strokes = false;
+  find_rows(contents, piece);
   return piece;
 }
 
@@ -133,6 +152,7 @@ std::optional<Candidate> candidate_of_run(const Contents& contents, std::size_t 
   run.signs.assign(first, last + 1);
   run.left_out.assign(signs.begin(), first);
   run.left_out.insert(run.left_out.end(), last + 1, signs.end());
+  find_rows(contents, run);
   return run;
 }
 

@@ -19,7 +19,9 @@ struct Candidate {
   FrameRange whole;            ///< with preparation and retraction; within the motion
   FrameRange core;             ///< from the first stroke's begin to the last stroke's end: never changed. Not empty
   std::size_t token = 0;       ///< which token of its gloss it is, from 1; 0 for a run or a piece
-  double cost = 0;             ///< the target cost: what speaks against it by itself
+  RowId first_row = kNoRow;    ///< of signs.front() in Contents::segments; kNoRow where there are none
+  RowId last_row = kNoRow;     ///< of signs.back()
+  bool at_strokes = true;      ///< the core begins and ends with strokes of those signs; false for a piece
 
   const std::string& gloss() const noexcept { return signs.front().gloss; }
 };

@@ -10,9 +10,12 @@
 #include "signweave/annotation/sign.h"
 #include "signweave/core/error.h"
 #include "signweave/core/time.h"
+#include "signweave/features/hand_motion.h"
 #include "signweave/motion/motion.h"
 #include "signweave/motion/motion_source.h"
 #include "signweave/synthesis/transition.h"
+#include "signweave/transition/duration.h"
+#include "signweave/transition/joint_groups.h"
 
 namespace signweave {
 
@@ -27,7 +30,7 @@ struct Stretch {
   Milliseconds pause_before{0};
 };
 
-/// Where an output frame comes from.
+/// Where an output frame comes from: of a recording where every part of the body is as captured.
 struct FrameSource {
   static constexpr std::int32_t kNone = -1;
   std::int32_t stretch = kNone;   ///< index of the stretch whose recording it shows, or kNone
@@ -39,8 +42,9 @@ struct FrameSource {
 struct Junction {
   std::string from;  ///< gloss of the last sign before, or the recording's name
   std::string to;
-  FrameRange frames;  ///< output frames between the two strokes
-  TransitionCut cut;
+  FrameRange frames;    ///< output frames between the two strokes
+  TransitionCut cut;    ///< what is kept of all parts together
+  TransitionCuts cuts;  ///< [Timed] what is kept of each
   std::string method;
 };
 
@@ -80,19 +84,32 @@ enum class Alignment {
   none,       ///< all sources come from one session
 };
 
+/// Which joint of the result is what.
+struct SignerRig {
+  SignerModel signer;
+  JointGroups groups;
+};
+/// Told from at most kBodyFrames of a stretch's core. `names`: what a mapping file says.
+SignerRig signer_rig_of(const Stretch& stretch, const RigNames& names = {});
+
 struct ConcatenateOptions {
   const TransitionMethod* method = nullptr;  ///< null: the default
   Milliseconds duration{0};                  ///< of each transition at tempo 1, without pauses
-  double tempo = 1;                          ///< above 1 is faster; positive
-  FrameRate rate{0, 1};                      ///< of the output; 0: the highest of the sources
+  /// Where given, tells the duration of each transition from what the hands have to do. Borrowed.
+  const DurationFit* fit = nullptr;
+  /// What the method has learned, and the captured spans that it may need; null: the default. Borrowed.
+  const TransitionModel* model = nullptr;
+  const SignerRig* rig = nullptr;  ///< of the reference; null: told from its frames and names. Borrowed
+  double tempo = 1;                ///< above 1 is faster; positive
+  FrameRate rate{0, 1};            ///< of the output; 0: the highest of the sources
   Alignment alignment = Alignment::automatic;
   std::size_t reference = 0;  ///< the stretch that gives skeleton and standing: in an edit, one of the edited recording
 };
 
-/// Joins stretches (the paper's Algorithm 1 between each two of them). Every core is kept as captured: at the source's
-/// own rate and tempo 1 its rotations have the source's bits, up to the quaternion's sign and the root's alignment;
-/// else they are the source interpolated at the stated frame. Alignment always goes to where the reference's signer
-/// stands, so nothing drifts. The result has the reference's skeleton.
+/// Joins stretches (the paper's Algorithm 1 between each two of them, for each part of the body with a cut of its own).
+/// Every core is kept as captured: at the source's own rate and tempo 1 its rotations have the source's bits, up to the
+/// quaternion's sign and the root's alignment; else they are the source interpolated at the stated frame. Alignment
+/// always goes to where the reference's signer stands, so nothing drifts. The result has the reference's skeleton.
 ///
 /// Scalar tracks come along: a track that one of the sources has is in the result, at 0 where a source lacks it, and
 /// goes over in each transition from where it was to where it will be.

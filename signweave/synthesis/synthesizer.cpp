@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "signweave/core/error.h"
+#include "signweave/synthesis/captured_spans.h"
 
 namespace signweave {
 namespace {
@@ -63,6 +65,7 @@ std::vector<Candidate> merge_neighbours(const Contents& contents, const std::vec
       last.left_out.insert(last.left_out.end(), next.left_out.begin(), next.left_out.end());
       last.core.end = next.core.end;
       last.whole.end = next.whole.end;
+      last.last_row = next.last_row;
     } else {
       merged.push_back(next);
       pauses.push_back(pause);
@@ -72,21 +75,22 @@ std::vector<Candidate> merge_neighbours(const Contents& contents, const std::vec
 }
 
 /// `edited` names the recording that an edit starts from; empty for an utterance.
-Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::string_view edited,
-                const SynthesisOptions& options, Clock::time_point start, Synthesis used) {
+Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<Choice> choices,
+                std::string_view edited, const SynthesisOptions& options, Clock::time_point start, Synthesis used) {
   const Contents& contents = snapshot.contents();
   if (!(options.tempo >= 0.25 && options.tempo <= 4.0)) {
     throw Error(ErrorCode::bad_input, fmt::format("tempo {} is outside 0.25 to 4", options.tempo));
   }
-  const Milliseconds duration = transition_duration(options.duration, contents.transitions);
-  if (duration < Milliseconds(0) || duration > Milliseconds(60'000)) {
-    throw Error(ErrorCode::bad_input, fmt::format("a transition of {} ms is outside 0 to 60000", duration.count()));
+  const Milliseconds fixed = options.duration.fixed.value_or(Milliseconds(0));
+  if (fixed < Milliseconds(0) || fixed > Milliseconds(60'000)) {
+    throw Error(ErrorCode::bad_input, fmt::format("a transition of {} ms is outside 0 to 60000", fixed.count()));
   }
   Synthesized made;
   made.contents = snapshot.shared_contents();
   made.choices = std::move(choices);
   const auto queried = Clock::now();
-  made.selection = select(snapshot, made.choices);
+  if (made.choices.size() > 1) made.durations = durations_of(database, contents, options.duration);
+  made.selection = select(snapshot, made.choices, {.transition = made.durations.mean, .explain = options.explain});
   std::vector<Milliseconds> pauses;
   std::vector<Candidate> candidates = merge_neighbours(contents, made.choices, made.selection, pauses);
   const auto selected = Clock::now();
@@ -117,9 +121,24 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
   for (std::size_t i = stretches.size(); i-- > 0;) {
     if (stretches[i].recording == edited) reference = i;
   }
+  const SignerRig rig = signer_rig_of(stretches[reference], contents.at(stretches[reference].recording).rig);
+  const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
+  CapturedSpans captured;
+  if (method.fill->needs_spans && stretches.size() > 1) {
+    captured = captured_spans(snapshot, *stretches[reference].source->skeleton(), rig.groups);
+    made.captured_transitions = captured.transitions;
+    if (captured.transitions == 0) {
+      notices.push_back(
+          {"", fmt::format("no annotated transition of this skeleton in this database: '{}' goes by none, "
+                           "and makes the likeliest way",
+                           method.name)});
+    }
+  }
   made.result = concatenate(stretches,
-                            {.method = options.method,
-                             .duration = duration,
+                            {.method = &method,
+                             .fit = &made.durations,
+                             .model = captured.model.get(),
+                             .rig = &rig,
                              .tempo = options.tempo,
                              .rate = options.rate.value_or(FrameRate{0, 1}),
                              .alignment = options.alignment,
@@ -127,10 +146,10 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
                             std::move(used));
   made.result.notices = std::move(notices);
   made.layout_from = stretches[reference].recording;
-  if (!options.duration.fixed && contents.transitions.count == 0 && !made.result.junctions.empty()) {
+  if (!options.duration.fixed && made.durations.count == 0 && !made.result.junctions.empty()) {
     made.result.notices.push_back(
-        {"",
-         fmt::format("no transition in this database to measure: {} ms taken; --duration sets it", duration.count())});
+        {"", fmt::format("no transition in this database to measure: {} ms taken; --duration sets it",
+                         std::llround(1000.0 * made.durations.mean.count()))});
   }
   made.result.declarations = declarations_of(contents, stretches);
   const auto done = Clock::now();
@@ -152,14 +171,15 @@ Synthesized synthesize(const Database& database, const Utterance& utterance, con
   for (const Place& place : utterance.places) {
     choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});
   }
-  return run(snapshot, std::move(choices), {}, options, start, std::move(used));
+  return run(database, snapshot, std::move(choices), {}, options, start, std::move(used));
 }
 
 Synthesized synthesize(const Database& database, std::string_view recording, const Edit& edit,
                        const SynthesisOptions& options, Synthesis used) {
   const auto start = Clock::now();
   const Snapshot snapshot = database.snapshot();
-  return run(snapshot, choices_for(snapshot.contents(), recording, edit), recording, options, start, std::move(used));
+  return run(database, snapshot, choices_for(snapshot.contents(), recording, edit), recording, options, start,
+             std::move(used));
 }
 
 }  // namespace signweave

@@ -8,6 +8,7 @@
 #include "signweave/core/time.h"
 #include "signweave/database/database.h"
 #include "signweave/synthesis/concatenate.h"
+#include "signweave/synthesis/durations.h"
 #include "signweave/synthesis/edit.h"
 #include "signweave/synthesis/select.h"
 #include "signweave/synthesis/utterance.h"
@@ -20,6 +21,7 @@ struct SynthesisOptions {
   double tempo = 1;               ///< 0.25 to 4
   std::optional<FrameRate> rate;  ///< the highest of the sources where not given
   Alignment alignment = Alignment::automatic;
+  bool explain = false;  ///< fill Selection::explained
 };
 
 /// How long each step took: the columns of the paper's Table 1.
@@ -37,6 +39,9 @@ struct Synthesized {
   Synthesis result;
   std::vector<Choice> choices;  ///< what there was to choose from
   Selection selection;
+  DurationFit durations;  ///< that the transitions were timed with; of a fixed duration only its mean is known
+  /// Captured transitions that the method had to go by; none where it asks for none.
+  std::optional<std::size_t> captured_transitions;
   Timings timings;
   /// The recording that gave the skeleton: its file layout serves for writing BVH.
   std::string layout_from;

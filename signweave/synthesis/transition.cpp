@@ -1,11 +1,8 @@
 #include "signweave/synthesis/transition.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "signweave/motion/blend.h"
+#include <vector>
 
 namespace signweave {
 namespace {
@@ -35,12 +32,15 @@ std::int64_t third(const TransitionRoom& room) noexcept {
   return (room.length + 2) / 3;
 }
 
-/// Keeps at most two thirds of the transition; the rest is made as a gap, from pose and velocity at its borders.
+}  // namespace
+
 TransitionCut cut_with_gap(const TransitionRoom& room) noexcept {
   TransitionCut cut{.length = room.length, .blend_frames = context_frames(room.frames_per_second)};
   keep(room, room.length - third(room), cut);
   return cut;
 }
+
+namespace {
 
 /// Reading "overlap": the p frames of each side are cross-faded, length = m_i + m_j − p, with p a third of the length.
 /// Where the captured frames do not reach that far, or a pause lies between, the middle third is made as a gap.
@@ -68,41 +68,69 @@ TransitionCut cut_for_gap(const TransitionRoom& room) {
   return cut;
 }
 
-constexpr TransitionMethod kMethods[] = {
-    {"overlap", "cross-fades the end of one retraction with the begin of the next preparation", cut_for_overlap},
-    {"gap", "makes the middle anew from pose and velocity at both borders", cut_for_gap},
-};
-
-/// The rotation per frame at a border, as a rotation vector in the joint's own space, no longer than `most` radians.
-Eigen::Vector3f velocity(const Eigen::Quaternionf& earlier, const Eigen::Quaternionf& later, std::int64_t span,
-                         float most) noexcept {
-  Eigen::Quaternionf step = earlier.conjugate() * later;
-  if (step.w() < 0) step.coeffs() *= -1.0f;
-  const float sine = step.vec().norm();
-  if (sine < 1e-7f) return Eigen::Vector3f::Zero();
-  const float square = sine * sine;
-  // Mostly it is a small angle, for which the series of the arc sine is exact to 2e-6.
-  const float half = sine < 0.3f
-                         ? sine * (1.0f + square * (1.0f / 6.0f + square * (3.0f / 40.0f + square * (15.0f / 336.0f))))
-                         : std::atan2(sine, step.w());
-  const float speed = std::min(most, 2.0f * half / static_cast<float>(span));
-  return step.vec() * (speed / sine);
-}
-
-/// How far something has gone `frames` after it moved at 1 a frame, if it slows down evenly to rest within `ease`
-/// frames.
-float coasted(double frames, double ease) noexcept {
-  return static_cast<float>(frames >= ease ? ease / 2.0 : frames - frames * frames / (2.0 * ease));
+/// One row for a user: the paper's readings, then everything that fills gaps.
+std::vector<TransitionMethod> make_table() {
+  const GapMethod* const coasting = find_gap_method("gap");
+  std::vector<TransitionMethod> table;
+  for (const GapMethod& method : gap_methods()) {
+    if (method.offered == Offered::signing && &method != coasting) {
+      table.push_back({method.name, method.description, nullptr, &method});
+    }
+  }
+  const TransitionMethod overlap{
+      "overlap", "cross-fades the end of one retraction with the begin of the next preparation (the paper)",
+      cut_for_overlap, coasting};
+  const TransitionMethod gap{"gap", "makes the middle anew from pose and velocity at both borders (the paper)",
+                             cut_for_gap, coasting};
+  // The default stays first.
+  table.insert(table.begin() + (table.empty() ? 0 : 1), {overlap, gap});
+  return table;
 }
 
 }  // namespace
 
-std::span<const TransitionMethod> transition_methods() noexcept {
-  return kMethods;
+std::string_view name_of(Timed part) noexcept {
+  switch (part) {
+    case Timed::body:
+      return "body";
+    case Timed::left:
+      return "left";
+    case Timed::right:
+      return "right";
+  }
+  return "body";
 }
 
-const TransitionMethod* find_transition_method(std::string_view name) noexcept {
-  for (const TransitionMethod& method : kMethods) {
+GroupSet groups_of(Timed part) noexcept {
+  if (part == Timed::left) return {JointGroup::left_arm, JointGroup::left_fingers};
+  if (part == Timed::right) return {JointGroup::right_arm, JointGroup::right_fingers};
+  return {JointGroup::body};
+}
+
+Timed timed_of(JointGroup group) noexcept {
+  if (groups_of(Timed::left).has(group)) return Timed::left;
+  return groups_of(Timed::right).has(group) ? Timed::right : Timed::body;
+}
+
+TransitionCut common_to(const TransitionCuts& cuts) noexcept {
+  TransitionCut common = cuts.front();
+  for (const TransitionCut& cut : cuts) {
+    if (cut == cuts.front()) continue;
+    // Parts with different cuts never cross-fade.
+    common.retraction_frames = std::min(common.kept_after(), cut.kept_after());
+    common.preparation_frames = std::min(common.kept_before(), cut.kept_before());
+    common.waits = common.waits && cut.waits;
+  }
+  return common;
+}
+
+std::span<const TransitionMethod> transition_methods() {
+  static const std::vector<TransitionMethod> table = make_table();
+  return table;
+}
+
+const TransitionMethod* find_transition_method(std::string_view name) {
+  for (const TransitionMethod& method : transition_methods()) {
     if (method.name == name) return &method;
   }
   return nullptr;
@@ -111,66 +139,6 @@ const TransitionMethod* find_transition_method(std::string_view name) noexcept {
 float crossfade_weight(std::int64_t index, std::int64_t count) noexcept {
   const float t = static_cast<float>(index + 1) / static_cast<float>(count + 1);
   return t * t * (3.0f - 2.0f * t);
-}
-
-void GapFiller::between(const Border& from, const Border& to, std::int64_t count, double ease) {
-  count_ = count;
-  ease_ = std::max(1.0, std::min(ease, static_cast<double>(count + 1)));
-  // A joint that would turn farther than half a turn until it rests is no human one.
-  const float most = std::numbers::pi_v<float> / (static_cast<float>(ease_) / 2.0f);
-  const std::size_t joints = from.pose.rotations.size();
-  const std::size_t moved = from.pose.translations.size();
-  signed_to_.assign(to.pose.rotations.begin(), to.pose.rotations.end());
-  from_places_.assign(from.pose.translations.begin(), from.pose.translations.end());
-  to_places_.assign(to.pose.translations.begin(), to.pose.translations.end());
-  from_turns_.assign(joints, Eigen::Vector3f::Zero());
-  to_turns_.assign(joints, Eigen::Vector3f::Zero());
-  from_shifts_.assign(moved, Eigen::Vector3f::Zero());
-  to_shifts_.assign(moved, Eigen::Vector3f::Zero());
-  for (std::size_t i = 0; i < joints; ++i) {
-    // Chosen at the borders, so that it is the same for every frame.
-    if (from.pose.rotations[i].dot(signed_to_[i]) < 0) signed_to_[i].coeffs() *= -1.0f;
-    if (from.span > 0) from_turns_[i] = velocity(from.context.rotations[i], from.pose.rotations[i], from.span, most);
-    if (to.span > 0) to_turns_[i] = velocity(to.pose.rotations[i], to.context.rotations[i], to.span, most);
-  }
-  from_.assign(from.pose.rotations, from_turns_);
-  to_.assign(signed_to_, to_turns_);
-  from_rest_ = from_;
-  to_rest_ = to_;
-  const float whole = coasted(ease_, ease_);
-  from_rest_.coast(whole);
-  to_rest_.coast(-whole);
-  for (std::size_t i = 0; i < moved; ++i) {
-    const auto per_frame = [&](const Eigen::Vector3f& way, std::int64_t span) {
-      return way / static_cast<float>(span);
-    };
-    if (from.span > 0) {
-      from_shifts_[i] = per_frame(from.pose.translations[i] - from.context.translations[i], from.span);
-    }
-    if (to.span > 0) to_shifts_[i] = per_frame(to.context.translations[i] - to.pose.translations[i], to.span);
-  }
-}
-
-void GapFiller::fill(std::int64_t index, MutablePoseView out) const noexcept {
-  const auto intervals = static_cast<double>(count_ + 1);
-  const auto since = static_cast<double>(index + 1);  // frames from the left border
-  const float onward = coasted(since, ease_);
-  const float back = coasted(intervals - since, ease_);
-  const float weight = crossfade_weight(index, count_);
-  const bool from_rests = since >= ease_;
-  const bool to_rests = intervals - since >= ease_;
-  slerp_coasting(from_rests ? from_rest_ : from_, from_rests ? 0.0f : onward, to_rests ? to_rest_ : to_,
-                 to_rests ? 0.0f : -back, weight, out.rotations);
-  for (std::size_t i = 0; i < out.translations.size(); ++i) {
-    const Eigen::Vector3f a = from_places_[i] + onward * from_shifts_[i];
-    const Eigen::Vector3f b = to_places_[i] - back * to_shifts_[i];
-    out.translations[i] = a + weight * (b - a);
-  }
-}
-
-Milliseconds transition_duration(const DurationModel& model, const TransitionStats& corpus) noexcept {
-  if (model.fixed) return *model.fixed;
-  return corpus.count > 0 ? corpus.mean : kUnmeasuredTransition;
 }
 
 }  // namespace signweave

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "signweave/evaluation/measure.h"
+
+namespace signweave {
+
+/// A score with the cluster that it belongs to.
+struct ClusteredScore {
+  std::size_t cluster = 0;
+  Score score;
+};
+
+/// A figure, how sure it is and what it is from.
+struct Estimate {
+  double value = 0;  ///< not a number: nothing was measured
+  double low = 0;    ///< of an interval of kConfidence; not a number where there are fewer than two clusters
+  double high = 0;
+  std::size_t scores = 0;
+  std::size_t clusters = 0;
+};
+
+/// Intervals by the percentiles of figures from resampled clusters: whole clusters are drawn with replacement, as many
+/// as there are (Efron and Tibshirani 1993, An Introduction to the Bootstrap; for clusters Davison and Hinkley 1997).
+/// The same seed gives the same intervals.
+class Bootstrap {
+ public:
+  explicit Bootstrap(std::uint64_t seed, std::size_t resamples = 1000) : seed_(seed), resamples_(resamples) {}
+
+  /// Scores that are not known are left out.
+  Estimate estimate(std::span<const ClusteredScore> scores, Pooling pooling);
+
+ private:
+  const std::vector<std::uint32_t>& draws_of(std::size_t clusters);
+
+  std::uint64_t seed_;
+  std::size_t resamples_;
+  std::map<std::size_t, std::vector<std::uint32_t>> draws_;  ///< [clusters][resample][draw]
+};
+inline constexpr double kConfidence = 0.95;
+
+}  // namespace signweave

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+
+#include "signweave/evaluation/evaluation.h"
+#include "signweave/evaluation/spans.h"
+#include "signweave/transition/model.h"
+
+/// Inside this module only.
+namespace signweave {
+
+/// What is learned from every span; by recording, so that each can be left out.
+TransitionTrainer train(std::span<const EvaluatedMotion> recordings, std::span<const EvaluatedSpan> spans);
+
+}  // namespace signweave

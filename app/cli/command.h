@@ -68,6 +68,7 @@ Run edit(CLI::App& verb);
 Run export_recording(CLI::App& verb);
 Run segment(CLI::App& verb);
 Run stats(CLI::App& verb);
+Run evaluate(CLI::App& verb);
 Run formats(CLI::App& verb);
 
 }  // namespace signweave::cli

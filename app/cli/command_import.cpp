@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "app/cli/command.h"
+#include "app/cli/learning.h"
 #include "app/cli/motion_options.h"
 #include "app/cli/progress.h"
 #include "app/cli/table.h"
@@ -155,6 +156,8 @@ void run_import(const Options& given, Io& io) {
       ++done;
     }
   }
+  progress.reset();
+  learn(database, io);
   if (io.json)
     io.out << nlohmann::json{{"recordings", std::move(recordings)}}.dump(2, ' ', false,
                                                                          nlohmann::json::error_handler_t::replace)

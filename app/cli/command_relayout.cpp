@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "app/cli/command.h"
+#include "app/cli/learning.h"
 #include "app/cli/progress.h"
 #include "app/cli/storage_options.h"
 #include "app/cli/table.h"
@@ -62,6 +63,7 @@ Run relayout(CLI::App& verb) {
       }
     }
     if (names_given == 0 && io.status == 0) database.set_storage(storage);
+    learn(database, io);
     if (io.json) {
       io.out << nlohmann::json{{"recordings", names.size()}, {"changed", changed}}.dump(
                     2, ' ', false, nlohmann::json::error_handler_t::replace)

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "app/cli/command.h"
+#include "app/cli/learning.h"
 #include "signweave/database/database.h"
 
 namespace signweave::cli {
@@ -21,6 +22,7 @@ Run remove(CLI::App& verb) {
   return [options](Io& io) {
     Database database(options->folder, kv::Access::read_write);
     database.remove(options->recording);
+    learn(database, io);
     if (io.json)
       io.out << nlohmann::json{{"removed", options->recording}}.dump(2, ' ', false,
                                                                      nlohmann::json::error_handler_t::replace)

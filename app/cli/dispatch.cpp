@@ -33,6 +33,8 @@ constexpr Command kCommands[] = {
     {"segment", "propose phases of both hands, from motion alone", "signweave segment meteo.bvh -o meteo.phases.eaf",
      segment},
     {"stats", "durations of the recorded transitions", "signweave stats corpus.db --recording meteo", stats},
+    {"evaluate", "cut captured movements out, make them again by each method, compare",
+     "signweave evaluate recordings/ --plot errors.svg", evaluate},
     {"formats", "the file formats, and what each can hold", "signweave formats", formats},
 };
 

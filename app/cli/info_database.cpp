@@ -6,6 +6,7 @@
 
 #include "app/cli/defect_report.h"
 #include "app/cli/rig_report.h"
+#include "app/cli/selection_report.h"
 #include "app/cli/storage_options.h"
 #include "app/cli/table.h"
 #include "signweave/core/text.h"
@@ -92,6 +93,7 @@ void info_of_database(const std::string& folder, Io& io) {
                    {"usage", std::move(usage)},
                    {"access_mode", to_string(database.access_mode())},
                    {"compact_mm", millimetres(database.tolerance())},
+                   {"weights", json_of(database.snapshot().join_weights())},
                    {"recordings", std::move(recordings)}}
                   .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
            << '\n';
@@ -129,6 +131,7 @@ void info_of_database(const std::string& folder, Io& io) {
     kinds.push_back({one.kind, std::to_string(one.entries), fmt::format("{:.3f}", mebibytes(one.bytes))});
   }
   if (kinds.size() > 1) io.out << format_table(kinds);
+  io.out << fmt::format("weights of joins: {}\n", describe(database.snapshot().join_weights()));
   for (const std::string& fault : contents->faults) io.err << "signweave: " << fault << '\n';
   if (!contents->faults.empty()) io.status = 1;
 }

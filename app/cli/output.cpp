@@ -198,13 +198,21 @@ json describe(const Synthesis& synthesis) {
   }
   json junctions = json::array();
   for (const Junction& junction : synthesis.junctions) {
+    json parts = json::object();
+    for (const Timed part : kAllTimed) {
+      const TransitionCut& cut = junction.cuts[static_cast<std::size_t>(part)];
+      parts[std::string(name_of(part))] = {{"retraction_frames", cut.retraction_frames},
+                                           {"preparation_frames", cut.preparation_frames},
+                                           {"waits", cut.waits}};
+    }
     junctions.push_back({{"from", junction.from},
                          {"to", junction.to},
                          {"method", junction.method},
                          {"frames", frames_json(junction.frames)},
                          {"retraction_frames", junction.cut.retraction_frames},
                          {"preparation_frames", junction.cut.preparation_frames},
-                         {"blend_frames", junction.cut.blend_frames}});
+                         {"blend_frames", junction.cut.blend_frames},
+                         {"parts", std::move(parts)}});
   }
   return {{"frames", synthesis.motion.frame_count()},
           {"frames_per_second", synthesis.motion.rate().hertz()},

@@ -4,10 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 #include "app/cli/output.h"
+#include "app/cli/selection_report.h"
 #include "app/cli/table.h"
 #include "signweave/core/text.h"
 
@@ -17,7 +19,8 @@ namespace {
 std::optional<Milliseconds> parse_duration(const std::string& text) {
   int ms = 0;
   const char* end = text.data() + text.size();
-  if (std::from_chars(text.data(), end, ms).ptr != end || text.empty() || ms < 0 || ms > 60'000) return std::nullopt;
+  const auto [parsed, error] = std::from_chars(text.data(), end, ms);
+  if (error != std::errc{} || parsed != end || ms < 0 || ms > 60'000) return std::nullopt;
   return Milliseconds(ms);
 }
 
@@ -25,58 +28,46 @@ double ms_of(Seconds seconds) {
   return seconds.count() * 1000.0;
 }
 
-/// "-" for the first place, and where there was nothing to choose and so nothing was measured.
-std::string join_of(const Selection& selection, std::size_t place) {
-  if (place == 0 || !selection.measured) return "-";
-  return fmt::format("{:.3f}", selection.join_costs[place]);
+/// What a part of the body keeps of retraction and preparation.
+std::string part_of(const TransitionCut& cut) {
+  return fmt::format("{}+{}{}", cut.retraction_frames, cut.preparation_frames, cut.waits ? " waits" : "");
 }
 
-void explain(const Synthesized& made, Io& io) {
-  std::vector<std::vector<std::string>> rows = {
-      {"place", "", "gloss", "token", "recording", "at ms", "target", "join"}};
-  for (std::size_t place = 0; place < made.choices.size(); ++place) {
-    const Choice& choice = made.choices[place];
-    for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
-      const Candidate& candidate = choice.candidates[i];
-      const RecordingInfo& info = made.contents->recordings[candidate.recording];
-      const bool chosen = made.selection.chosen[place] == i;
-      std::string name = candidate.signs.empty() ? "(piece)" : candidate.gloss();
-      if (candidate.signs.size() > 1) name += ".." + candidate.signs.back().gloss;
-      rows.push_back({std::to_string(place + 1), chosen ? "*" : "", name,
-                      candidate.token > 0 ? std::to_string(candidate.token) : "", info.name,
-                      std::to_string(span_of(candidate.whole, info.clock).begin.count()),
-                      fmt::format("{:.3f}", candidate.cost), chosen ? join_of(made.selection, place) : ""});
-    }
+/// How the transitions were timed, where the corpus tells it.
+std::string timing_of(const DurationFit& fit) {
+  const auto ms = [](Seconds time) { return std::llround(ms_of(time)); };
+  if (fit.count == 0) return {};
+  if (fit.fitted_error == Seconds(0)) {
+    return fmt::format("timed by the {} of {} transitions, {} ms\n", fit.median ? "median" : "mean", fit.count,
+                       ms(fit.mean));
   }
-  io.out << format_table(rows);
-  rows = {{"junction", "from", "to", "method", "ms", "m_i", "m_j", "p"}};
+  return fmt::format("timed {} {} transitions: cross-validated, it errs by {} ms and {} by {} ms\n",
+                     fit.weights.empty() ? "by the mean of" : "by what the hands have to do, fitted on", fit.count,
+                     ms(fit.weights.empty() ? fit.mean_error : fit.fitted_error),
+                     fit.weights.empty() ? "a fit" : "the mean",
+                     ms(fit.weights.empty() ? fit.fitted_error : fit.mean_error));
+}
+
+/// What the method had to go by, where it asks for it.
+std::string captured_of(const Synthesized& made) {
+  if (!made.captured_transitions) return {};
+  return fmt::format("made after {}\n", counted(*made.captured_transitions, "captured transition"));
+}
+
+void print_junctions(const Synthesized& made, Io& io) {
+  std::vector<std::vector<std::string>> rows = {
+      {"junction", "from", "to", "method", "ms", "m_i", "m_j", "p", "body", "left", "right"}};
   const FrameClock clock{made.result.motion.rate().frame_time(), Seconds(0)};
   for (std::size_t i = 0; i < made.result.junctions.size(); ++i) {
     const Junction& junction = made.result.junctions[i];
     rows.push_back({std::to_string(i + 1), junction.from, junction.to, junction.method,
                     std::to_string(span_of(junction.frames, clock).duration().count()),
                     std::to_string(junction.cut.retraction_frames), std::to_string(junction.cut.preparation_frames),
-                    std::to_string(junction.cut.blend_frames)});
+                    std::to_string(junction.cut.blend_frames), part_of(junction.cuts[0]), part_of(junction.cuts[1]),
+                    part_of(junction.cuts[2])});
   }
-  if (rows.size() > 1) io.out << '\n' << format_table(rows);
-}
-
-nlohmann::json places_of(const Synthesized& made) {
-  nlohmann::json places = nlohmann::json::array();
-  for (std::size_t place = 0; place < made.choices.size(); ++place) {
-    nlohmann::json candidates = nlohmann::json::array();
-    for (const Candidate& candidate : made.choices[place].candidates) {
-      candidates.push_back({{"recording", made.contents->recordings[candidate.recording].name},
-                            {"token", candidate.token},
-                            {"frames", {{"begin", candidate.whole.begin}, {"end", candidate.whole.end}}},
-                            {"target_cost", candidate.cost}});
-    }
-    places.push_back(
-        {{"candidates", std::move(candidates)},
-         {"chosen", made.selection.chosen[place]},
-         {"join_cost", made.selection.measured ? nlohmann::json(made.selection.join_costs[place]) : nullptr}});
-  }
-  return places;
+  if (rows.size() == 1) return;
+  io.out << '\n' << format_table(rows) << timing_of(made.durations) << captured_of(made);
 }
 
 nlohmann::json timings_of(const Timings& timings) {
@@ -102,11 +93,13 @@ void add_synthesis_options(CLI::App& verb, SynthesisWords& words) {
       ->allow_extra_args(false)
       ->check([](const std::string& path) { return check_output(path); });
   verb.add_option("--transition", words.method, methods)->check(CLI::IsMember(names))->capture_default_str();
-  verb.add_option("--duration", words.duration, "of each transition: corpus (its mean) or milliseconds")
+  verb.add_option("--duration", words.duration,
+                  "of each transition: fitted (told from what the hands have to do, where that beats the mean), corpus "
+                  "(its mean), or milliseconds")
       ->check([](const std::string& text) {
-        return text == "corpus" || parse_duration(text)
+        return text == "corpus" || text == "fitted" || parse_duration(text)
                    ? std::string()
-                   : "'" + printable(text) + "' is neither corpus nor 0 to 60000 ms";
+                   : "'" + printable(text) + "' is neither corpus, nor fitted, nor 0 to 60000 ms";
       })
       ->capture_default_str();
   verb.add_option("--tempo", words.tempo, "0.25 to 4; above 1 is faster")
@@ -133,8 +126,9 @@ SynthesisOptions synthesis_options(const SynthesisWords& words) {
   check_signing_space(words.signing_space, words.outputs);
   SynthesisOptions options;
   options.method = find_transition_method(words.method);
-  options.duration.fixed = parse_duration(words.duration);
+  options.duration = {.fixed = parse_duration(words.duration), .fitted = words.duration == "fitted"};
   options.tempo = words.tempo;
+  options.explain = words.explain;
   if (!words.rate.empty()) options.rate = parse_frame_rate(words.rate);
   options.alignment = words.align == "ground" ? Alignment::ground
                       : words.align == "none" ? Alignment::none
@@ -162,11 +156,18 @@ void deliver(const Synthesized& made, const SynthesisWords& words, const std::st
     nlohmann::json report = describe(result);
     report["files"] = words.outputs;
     report["timings"] = timings_of(made.timings);
-    if (words.explain) report["places"] = places_of(made);
+    if (words.explain) {
+      report["places"] = places_of(made);
+      report["weights"] = json_of(made.selection.weights);
+      if (made.captured_transitions) report["captured_transitions"] = *made.captured_transitions;
+    }
     io.out << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return;
   }
-  if (words.explain) explain(made, io);
+  if (words.explain) {
+    print_selection(made, io);
+    print_junctions(made, io);
+  }
   io.out << fmt::format("{}, {}, {:.2f} s at {} frames a second\n", counted(result.signs.size(), "sign"),
                         counted(result.junctions.size(), "junction"), result.motion.duration().count(),
                         to_string(result.motion.rate()));

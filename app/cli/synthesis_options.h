@@ -14,7 +14,7 @@ struct SynthesisWords {
   std::vector<std::string> outputs;
   bool signing_space = false;
   std::string method;
-  std::string duration = "corpus";
+  std::string duration = "fitted";
   double tempo = 1;
   std::string rate;
   std::string align = "auto";

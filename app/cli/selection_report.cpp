@@ -1,0 +1,186 @@
+#include "app/cli/selection_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+#include <vector>
+
+#include "app/cli/table.h"
+#include "signweave/core/text.h"
+
+namespace signweave::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostRows = 5;  ///< of one place: the rest is counted
+
+std::string label_of(const Candidate& candidate) {
+  if (candidate.signs.empty() || !candidate.at_strokes) return "(piece)";
+  if (candidate.signs.size() == 1) return candidate.gloss();
+  return fmt::format("{}..{}", candidate.gloss(), candidate.signs.back().gloss);
+}
+
+/// Nothing for what costs nothing, so that what does stands out.
+std::string cost_text(float cost) {
+  return cost < 0.0005f ? "." : fmt::format("{:.3f}", cost);
+}
+
+/// The candidates of a place, the cheapest first; the chosen one is the first of those that cost the same.
+std::vector<std::size_t> cheapest_first(const std::vector<CandidateCosts>& costs, std::size_t chosen) {
+  std::vector<std::size_t> order(costs.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (a == chosen || b == chosen) return a == chosen && b != chosen;
+    return costs[a].cost < costs[b].cost;
+  });
+  return order;
+}
+
+std::vector<std::string> head_of() {
+  std::vector<std::string> head = {"place", "", "gloss", "token", "recording", "at ms", "cost", "join"};
+  for (std::size_t i = 0; i < kJoinTerms; ++i) head.emplace_back(name_of(static_cast<JoinTerm>(i)));
+  head.emplace_back("unknown");
+  head.emplace_back("target");
+  for (std::size_t i = 0; i < kTargetTerms; ++i) head.emplace_back(name_of(static_cast<TargetTerm>(i)));
+  return head;
+}
+
+std::vector<std::string> row_of(const Synthesized& made, std::size_t place, std::size_t index) {
+  const Candidate& candidate = made.choices[place].candidates[index];
+  const CandidateCosts& costs = made.selection.explained[place][index];
+  const RecordingInfo& info = made.contents->recordings[candidate.recording];
+  std::vector<std::string> row = {std::to_string(place + 1),
+                                  made.selection.chosen[place] == index ? "*" : "",
+                                  label_of(candidate),
+                                  candidate.token > 0 ? std::to_string(candidate.token) : "",
+                                  info.name,
+                                  std::to_string(span_of(candidate.whole, info.clock).begin.count()),
+                                  fmt::format("{:.3f}", costs.cost)};
+  if (place == 0) {
+    row.insert(row.end(), 2 + kJoinTerms, "-");
+  } else if (costs.kept) {
+    row.emplace_back("kept");
+    row.insert(row.end(), kJoinTerms + 1, "-");
+  } else {
+    row.push_back(fmt::format("{:.3f}", costs.join_cost));
+    for (const float term : costs.join) row.push_back(cost_text(term));
+    row.push_back(cost_text(costs.join_unknown));
+  }
+  row.push_back(fmt::format("{:.3f}", costs.target_cost));
+  for (const float term : costs.target) row.push_back(cost_text(term));
+  return row;
+}
+
+/// Leaves out the columns of terms that cost nothing anywhere.
+void drop_empty_columns(std::vector<std::vector<std::string>>& rows) {
+  constexpr std::size_t kFirstTerm = 8;
+  for (std::size_t column = rows.front().size(); column-- > kFirstTerm;) {
+    const bool used = std::any_of(rows.begin() + 1, rows.end(), [&](const std::vector<std::string>& row) {
+      return row.size() > column && row[column] != "." && row[column] != "-";
+    });
+    if (used || rows.front()[column] == "target") continue;
+    for (std::vector<std::string>& row : rows) {
+      if (row.size() > column) row.erase(row.begin() + static_cast<std::ptrdiff_t>(column));
+    }
+  }
+}
+
+}  // namespace
+
+std::string describe(const JoinWeights& weights) {
+  if (weights.pairs == 0) return "the defaults, for no two neighbours were measured";
+  if (weights.wins <= weights.default_wins) {
+    return fmt::format(
+        "the defaults, by which recorded neighbours win {:.0f} % of {} with other tokens ({}); nothing learned from "
+        "them "
+        "does better",
+        100 * weights.wins, counted(weights.comparisons, "comparison"), counted(weights.pairs, "pair"));
+  }
+  return fmt::format(
+      "learned from {} of recorded neighbours, which win {:.0f} % of {} with other tokens ({}; {:.0f} % with the "
+      "defaults)",
+      counted(weights.pairs, "pair"), 100 * weights.wins, counted(weights.comparisons, "comparison"),
+      weights.folds > 0 ? "cross-validated by recording" : "not cross-validated: one recording",
+      100 * weights.default_wins);
+}
+
+json json_of(const JoinWeights& weights) {
+  json terms;
+  for (std::size_t i = 0; i < kJoinTerms; ++i)
+    terms[std::string(name_of(static_cast<JoinTerm>(i)))] = weights.weights[i];
+  json target;
+  for (std::size_t i = 0; i < kTargetTerms; ++i) {
+    target[std::string(name_of(static_cast<TargetTerm>(i)))] = kTargetWeights[i];
+  }
+  return {{"join", std::move(terms)}, {"target", std::move(target)},         {"speed_limit", weights.speed_limit},
+          {"pairs", weights.pairs},   {"comparisons", weights.comparisons},  {"folds", weights.folds},
+          {"wins", weights.wins},     {"default_wins", weights.default_wins}};
+}
+
+json places_of(const Synthesized& made) {
+  json places = json::array();
+  for (std::size_t place = 0; place < made.choices.size(); ++place) {
+    json candidates = json::array();
+    for (std::size_t i = 0; i < made.choices[place].candidates.size(); ++i) {
+      const Candidate& candidate = made.choices[place].candidates[i];
+      const CandidateCosts& costs = made.selection.explained[place][i];
+      json target;
+      for (std::size_t k = 0; k < kTargetTerms; ++k) {
+        target[std::string(name_of(static_cast<TargetTerm>(k)))] = costs.target[k];
+      }
+      json one = {{"recording", made.contents->recordings[candidate.recording].name},
+                  {"token", candidate.token},
+                  {"frames", {{"begin", candidate.whole.begin}, {"end", candidate.whole.end}}},
+                  {"cost", costs.cost},
+                  {"target_cost", costs.target_cost},
+                  {"target", std::move(target)}};
+      if (place > 0) {
+        json join;
+        for (std::size_t k = 0; k < kJoinTerms; ++k) {
+          join[std::string(name_of(static_cast<JoinTerm>(k)))] = costs.join[k];
+        }
+        join["unknown"] = costs.join_unknown;
+        one["kept"] = costs.kept;
+        one["join_cost"] = costs.join_cost;
+        one["join"] = std::move(join);
+      }
+      candidates.push_back(std::move(one));
+    }
+    places.push_back({{"candidates", std::move(candidates)},
+                      {"chosen", made.selection.chosen[place]},
+                      {"join_cost", made.selection.join_costs[place]}});
+  }
+  return places;
+}
+
+void print_selection(const Synthesized& made, Io& io) {
+  const Selection& selection = made.selection;
+  std::vector<std::vector<std::string>> rows = {head_of()};
+  for (std::size_t place = 0; place < made.choices.size(); ++place) {
+    const std::vector<std::size_t> order = cheapest_first(selection.explained[place], selection.chosen[place]);
+    const std::size_t shown = order.size() > kMostRows + 1 ? kMostRows : order.size();
+    for (std::size_t i = 0; i < shown; ++i) rows.push_back(row_of(made, place, order[i]));
+    if (shown == order.size()) continue;
+    std::vector<std::string> rest = {std::to_string(place + 1), "", fmt::format("and {} more", order.size() - shown)};
+    rest.resize(rows.front().size());
+    rows.push_back(std::move(rest));
+  }
+  drop_empty_columns(rows);
+  io.out << format_table(rows);
+  std::vector<std::string> head = {"weight of"};
+  std::vector<std::string> weights = {""};
+  for (std::size_t i = 0; i < kJoinTerms; ++i) {
+    head.emplace_back(name_of(static_cast<JoinTerm>(i)));
+    weights.push_back(fmt::format("{:.3f}", selection.weights.weights[i]));
+  }
+  for (std::size_t i = 0; i < kTargetTerms; ++i) {
+    head.emplace_back(name_of(static_cast<TargetTerm>(i)));
+    weights.push_back(fmt::format("{:.3f}", kTargetWeights[i]));
+  }
+  io.out << '\n' << format_table({head, weights});
+  io.out << fmt::format("weights of joins: {}\n", describe(selection.weights));
+}
+
+}  // namespace signweave::cli

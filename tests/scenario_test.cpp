@@ -10,6 +10,7 @@
 #include "signweave/database/test_recording.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/motion/kinematics.h"
+#include "signweave/rig/rig_map.h"
 #include "signweave/synthesis/provenance.h"
 #include "signweave/synthesis/synthesizer.h"
 #include "tests/demo_database.h"
@@ -29,7 +30,8 @@ const Database& corpus() {
 class Scenario : public testing::TestWithParam<std::string> {
  protected:
   Synthesized edit(const Edit& what) const {
-    return synthesize(corpus(), "meteo", what, {.method = find_transition_method(GetParam())});
+    return synthesize(corpus(), "meteo", what,
+                      {.method = find_transition_method(GetParam()), .duration = {.fitted = false}});
   }
 };
 
@@ -179,6 +181,106 @@ std::vector<std::string> every_method() {
 
 INSTANTIATE_TEST_SUITE_P(EveryMethod, Scenario, testing::ValuesIn(every_method()),
                          [](const auto& tested) { return tested.param; });
+
+/// [Side][frame] where the wrists are, metres.
+std::array<std::vector<Eigen::Vector3f>, 2> wrists_of(const Motion& motion) {
+  const RigMap rig = map_rig(motion);
+  std::array<std::vector<Eigen::Vector3f>, 2> wrists;
+  ModelPose pose;
+  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+    to_model_space(motion.skeleton(), motion.pose(frame), pose);
+    for (const Side side : kSides) {
+      wrists[static_cast<std::size_t>(side)].push_back(position_of(rig[of(side, Part::left_hand)], pose));
+    }
+  }
+  return wrists;
+}
+
+/// How much a velocity changes at a frame, metres a frame.
+double change_at(const std::vector<Eigen::Vector3f>& path, std::int64_t frame) {
+  const auto at = static_cast<std::size_t>(frame);
+  return static_cast<double>((path[at + 1] - 2.0f * path[at] + path[at - 1]).norm());
+}
+
+/// How much the velocity just after a frame differs from that just before it, metres a frame: each is that of the
+/// parabola through three frames of its own side, so that an acceleration that sets in is no jump.
+double jump_at(const std::vector<Eigen::Vector3f>& path, std::int64_t frame) {
+  const auto at = static_cast<std::size_t>(frame);
+  const Eigen::Vector3f before = 1.5f * path[at] - 2.0f * path[at - 1] + 0.5f * path[at - 2];
+  const Eigen::Vector3f after = -1.5f * path[at] + 2.0f * path[at + 1] - 0.5f * path[at + 2];
+  return static_cast<double>((after - before).norm());
+}
+
+/// Where made frames meet captured ones, the velocity of a hand jumps by at most 1.5 times what it changed by from
+/// frame to frame in the recording, within a tenth of a second of there.
+TEST(Seams, VelocityGoesOnWhereMadeFramesMeetCapturedOnes) {
+  constexpr double kUnseen = 2e-4;  // a fifth of a millimetre from frame to frame
+  constexpr std::int64_t kNear = 10;
+  const Utterance utterance = parse_utterance("VANNES MATIN PLUIE FRANCE NUAGES SOLEIL-BRILLER DEMAIN BONJOUR RENNES");
+  std::map<std::string, std::array<std::vector<Eigen::Vector3f>, 2>> captured;
+  for (const RecordingInfo& info : corpus().contents()->recordings) {
+    captured.emplace(info.name, wrists_of(corpus().read(info.name)));
+  }
+  // Those that go on with the velocity at the border as it is, the default among them; others damp it, take it from
+  // farther back, or bend away from the border at once.
+  for (const char* name : {"learned", "kriging", "inertialize"}) {
+    const TransitionMethod method{name, "", nullptr, find_gap_method(name)};
+    const Synthesis made = synthesize(corpus(), utterance, {.method = &method}).result;
+    const auto wrists = wrists_of(made.motion);
+    double worst = 0;
+    std::size_t seams = 0;
+    for (std::size_t i = 0; i < made.junctions.size(); ++i) {
+      const Junction& junction = made.junctions[i];
+      for (const Side side : kSides) {
+        const auto hand = static_cast<std::size_t>(side);
+        const auto look = [&](const Placed& placed, std::int64_t seam) {
+          const auto& path = captured.at(placed.recording)[hand];
+          const std::int64_t there = static_cast<std::int64_t>(placed.first_frame) + seam - placed.core.begin;
+          double usual = kUnseen;
+          for (std::int64_t frame = std::max<std::int64_t>(1, there - kNear);
+               frame <= std::min(there + kNear, std::ssize(path) - 2); ++frame) {
+            usual = std::max(usual, change_at(path, frame));
+          }
+          worst = std::max(worst, jump_at(wrists[hand], seam) / usual);
+          ++seams;
+        };
+        // The trunk carries the hand: its seams are the hand's too.
+        for (const TransitionCut& cut : {junction.cuts[0], junction.cuts[1 + hand]}) {
+          look(made.stretches[i], junction.frames.begin + cut.kept_after() - 1);
+          look(made.stretches[i + 1], junction.frames.end - cut.kept_before());
+        }
+      }
+    }
+    EXPECT_EQ(seams, 8u * made.junctions.size());
+    EXPECT_LE(worst, 1.5) << method.name;
+  }
+}
+
+/// A full stop is stillness, not a slower way: each hand that does not go to rest and back stands still for most of it.
+TEST(Pauses, AreStillness) {
+  const Synthesis made = synthesize(corpus(), parse_utterance("RENNES . METEO . HIER . VANNES . MATIN . PLUIE")).result;
+  const auto wrists = wrists_of(made.motion);
+  const double hertz = made.motion.rate().hertz();
+  int looked_at = 0;
+  for (const Junction& junction : made.junctions) {
+    for (const Side side : kSides) {
+      const auto hand = static_cast<std::size_t>(side);
+      const TransitionCut& cut = junction.cuts[1 + hand];
+      if (cut.retraction_frames + cut.preparation_frames > 40) continue;  // on its way to rest, as captured
+      std::int64_t longest = 0;
+      std::int64_t still = 0;
+      for (std::int64_t frame = junction.frames.begin; frame < junction.frames.end; ++frame) {
+        const auto at = static_cast<std::size_t>(frame);
+        const double speed = static_cast<double>((wrists[hand][at] - wrists[hand][at - 1]).norm()) * hertz;
+        still = speed < 0.03 ? still + 1 : 0;  // metres a second
+        longest = std::max(longest, still);
+      }
+      EXPECT_GE(static_cast<double>(longest) / hertz, 0.4) << junction.from << " to " << junction.to;
+      ++looked_at;
+    }
+  }
+  EXPECT_GE(looked_at, 5);
+}
 
 TEST(Utterances, NeighboursKeepTheirRecordedTransition) {
   const Synthesized made = synthesize(corpus(), parse_utterance("NUAGES#1 APRES-MIDI PLUIE"));

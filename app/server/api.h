@@ -1,0 +1,64 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/server/served_database.h"
+
+namespace signweave::server {
+
+/// One call, free of the network: what a server's connection makes of an HTTP request.
+struct ApiRequest {
+  std::string method = "GET";
+  std::vector<std::string> path;             ///< decoded segments after /api: {"databases", "demo", "query"}
+  std::map<std::string, std::string> query;  ///< decoded; of a name that comes twice the last
+  std::string content_type;
+  std::string body;                 ///< whole, within the server's limit
+  std::filesystem::path body_file;  ///< of an upload: where the server has put the body instead; the call takes it away
+};
+
+struct ApiResponse {
+  int status = 200;
+  std::string content_type = "application/json";
+  std::vector<std::pair<std::string, std::string>> headers;
+  std::string body;
+};
+
+struct ApiLimits {
+  Milliseconds query_time{5'000};              ///< a query takes no longer
+  std::size_t answers = 100'000;               ///< a query gives no more
+  Milliseconds sign_time{30'000};              ///< nor any other call, as far as it can be stopped
+  std::size_t glosses = 10'000;                ///< of one utterance
+  std::uint64_t upload_bytes = 2'000'000'000;  ///< of all files of one upload
+  std::size_t uploads = 16;                    ///< open at once
+};
+
+/// Answers every call under /api/ but the WebSocket. Never throws: a fault is a JSON body {"error": …} with its status.
+/// Calls may come from several threads at once; each takes as long as its work does, so they must not run on a thread
+/// that streams. Imports run on a thread of the Api's own.
+class Api {
+ public:
+  /// `scratch`: a folder for uploads, which must exist; what is left there is removed at the end.
+  Api(ServedDatabases& databases, ApiLimits limits, std::filesystem::path scratch);
+  /// Waits for a running import, or stops it where it can be.
+  ~Api();
+  Api(const Api&) = delete;
+  Api& operator=(const Api&) = delete;
+
+  ApiResponse answer(ApiRequest request);
+  /// True where the body of such a request belongs in a file (`body_file`): the server need not hold it.
+  bool takes_file(const ApiRequest& request) const;
+  /// The OpenAPI 3.1 document, which `answer` gives at /api/openapi.json.
+  static std::string openapi();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace signweave::server

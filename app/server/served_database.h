@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signweave/database/database.h"
+#include "signweave/stream/player.h"
+
+namespace signweave::server {
+
+/// A database that is served, under a name that stands in its URLs. Threads share it.
+class ServedDatabase {
+ public:
+  /// Opened for reading; with `writable` also for changes, and then by no other process.
+  ServedDatabase(std::string name, const std::filesystem::path& folder, bool writable);
+
+  const std::string& name() const noexcept { return name_; }
+  const Database& database() const noexcept { return database_; }
+  SigningBase& signing() noexcept { return signing_; }
+  bool writable() const noexcept { return writable_; }
+
+  /// Runs one change at a time, beside all readers. Throws Error{unsupported} where it is not writable, and what
+  /// `change` throws.
+  void change(const std::function<void(Database&)>& change);
+
+ private:
+  std::string name_;
+  bool writable_;
+  Database database_;
+  SigningBase signing_;
+  std::mutex changing_;
+};
+
+/// Every database that is served.
+class ServedDatabases {
+ public:
+  /// The name is the folder's without its ending: "corpus/demo.db" is "demo". Throws Error{bad_input} where two have
+  /// one name or a name cannot stand in a URL.
+  void add(const std::filesystem::path& folder, bool writable);
+  const std::vector<std::unique_ptr<ServedDatabase>>& all() const noexcept { return all_; }
+  /// Throws Error{not_found} with near matches.
+  ServedDatabase& at(std::string_view name) const;
+
+ private:
+  std::vector<std::unique_ptr<ServedDatabase>> all_;
+};
+
+}  // namespace signweave::server

@@ -13,12 +13,18 @@ namespace CLI {
 class App;
 }
 
+namespace signweave::calls {
+struct Listener;
+}
+
 namespace signweave {
 class Database;
 }
 
 /// The command line. Results go to `out`, everything else to `err`; failure is thrown.
 namespace signweave::cli {
+
+using namespace calls;  // what is asked for, and how it is answered: app/calls
 
 /// Where a command speaks, and how.
 struct Io {
@@ -55,6 +61,9 @@ void print_notices(Io& io, const std::vector<Notice>& notices);
 
 /// Tells of recordings that are damaged and therefore left out, on `err`, and sets the exit status to 1.
 void report_damage(const Database& database, Io& io);
+
+/// What a call tells of itself: notices and faults in lines on `err`, a fault with exit status 1. Borrows `io`.
+calls::Listener listener_of(Io& io);
 
 Run create(CLI::App& verb);
 Run import(CLI::App& verb);

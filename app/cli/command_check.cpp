@@ -1,13 +1,11 @@
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "app/calls/info_call.h"
+#include "app/calls/table.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
-#include "app/cli/table.h"
 #include "signweave/database/check.h"
 
 namespace signweave::cli {
@@ -23,9 +21,7 @@ Run check(CLI::App& verb) {
     }
     const std::vector<std::string>& faults = result.faults;
     if (io.json) {
-      io.out << nlohmann::json{{"recordings", result.recordings}, {"faults", faults}}.dump(
-                    2, ' ', false, nlohmann::json::error_handler_t::replace)
-             << '\n';
+      io.out << text_of(calls::json_of(result));
     } else if (faults.empty()) {
       io.out << counted(result.recordings, "recording") << ", no fault found\n";
     }

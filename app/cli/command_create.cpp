@@ -1,10 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "app/calls/change_calls.h"
+#include "app/cli/bind.h"
 #include "app/cli/command.h"
-#include "app/cli/storage_options.h"
 #include "signweave/database/database.h"
 
 namespace signweave::cli {
@@ -21,20 +21,21 @@ Run create(CLI::App& verb) {
   verb.add_option("--engine", options->engine, "key-value engine")
       ->check(CLI::IsMember(kv::engines()))
       ->capture_default_str();
-  add_access_mode(verb, options->mode)->capture_default_str();
-  add_compact(verb, options->compact);
+  Binder binder(verb, {});
+  calls::Field access_mode = calls::access_mode_field();
+  access_mode.shows_default = true;
+  binder(access_mode, options->mode);
+  binder(calls::compact_field(), options->compact);
   return [options](Io& io) {
     const AccessMode mode = *parse_access_mode(options->mode);
     Database::create(options->folder, {.engine = options->engine,
                                        .access_mode = mode,
                                        .tolerance = static_cast<float>(options->compact.value_or(0) / 1e3)});
     if (io.json) {
-      io.out << nlohmann::json{{"database", options->folder},
-                               {"engine", options->engine},
-                               {"access_mode", to_string(mode)},
-                               {"compact_mm", options->compact.value_or(0)}}
-                    .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-             << '\n';
+      io.out << text_of(nlohmann::json{{"database", options->folder},
+                                       {"engine", options->engine},
+                                       {"access_mode", to_string(mode)},
+                                       {"compact_mm", options->compact.value_or(0)}});
     }
   };
 }

@@ -6,13 +6,15 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "app/calls/defect_report.h"
+#include "app/calls/json.h"
+#include "app/calls/motion_reading.h"
+#include "app/calls/table.h"
+#include "app/cli/bind.h"
 #include "app/cli/command.h"
-#include "app/cli/defect_report.h"
 #include "app/cli/info_database.h"
-#include "app/cli/motion_options.h"
 #include "app/cli/progress.h"
 #include "app/cli/rig_report.h"
-#include "app/cli/table.h"
 #include "signweave/annotation/sign.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/eaf.h"
@@ -31,7 +33,8 @@ std::string unit_name(double metres) {
   return fmt::format("{:.6g} m", metres);
 }
 
-void info_of_bvh(const std::string& path, const MotionOptions& motion_options, const std::string& rig_path, Io& io) {
+void info_of_bvh(const std::string& path, const calls::MotionReading& motion_options, const std::string& rig_path,
+                 Io& io) {
   bvh::ReadOptions options = read_options(motion_options);
   Progress progress(io, "reading");
   options.progress = [&](double fraction) { progress.show(fraction); };
@@ -56,9 +59,9 @@ void info_of_bvh(const std::string& path, const MotionOptions& motion_options, c
     for (const Joint& joint : skeleton.joints()) names.push_back(joint.name);
     fields["joint_names"] = std::move(names);
     fields["rig"] = json_of_rig(skeleton, rig);
-    fields["defects"] = cli::json_of(defects, skeleton);
+    fields["defects"] = calls::json_of(defects, skeleton);
     fields["notices"] = json_of(file.notices);
-    io.out << fields.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    io.out << text_of(fields);
     return;
   }
   fields["frames_per_second"] = to_string(file.motion.rate());
@@ -90,7 +93,7 @@ void info_of_face(const std::string& path, Io& io) {
   if (io.json) {
     fields["tracks"] = names;
     fields["notices"] = json_of(face.notices);
-    io.out << fields.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    io.out << text_of(fields);
     return;
   }
   fields["rows_per_second"] = fmt::format("{:.2f}", rows_per_second);
@@ -125,13 +128,11 @@ void info_of_eaf(const std::string& path, Io& io) {
                        {"annotations", tier.annotations.size()},
                        {"role", role_of(tier.id)}});
     }
-    io.out << json{{"file", path},
-                   {"format", "EAF " + document.format},
-                   {"tiers", std::move(tiers)},
-                   {"signs", found.signs.size()},
-                   {"notices", json_of(notices)}}
-                  .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-           << '\n';
+    io.out << text_of(json{{"file", path},
+                           {"format", "EAF " + document.format},
+                           {"tiers", std::move(tiers)},
+                           {"signs", found.signs.size()},
+                           {"notices", json_of(notices)}});
     return;
   }
   std::size_t annotations = 0;
@@ -153,7 +154,7 @@ Run info(CLI::App& verb) {
     std::string path;
     std::string recording;
     std::string rig;
-    MotionOptions motion;
+    calls::MotionReading motion;
   };
   auto options = std::make_shared<Options>();
   verb.add_option("PATH", options->path,
@@ -162,7 +163,7 @@ Run info(CLI::App& verb) {
   verb.add_option("RECORDING", options->recording, "of a database: all that is known of this one");
   verb.add_option("--rig", options->rig, "a mapping file (part = joint) that says which joint plays which part")
       ->type_name("FILE");
-  add_motion_options(verb, options->motion);
+  bind(verb, options->motion);
   return [options](Io& io) {
     const std::string ending = fold_case(std::filesystem::path(options->path).extension().string());
     if (!options->rig.empty() && ending != ".bvh") {

@@ -1,32 +1,26 @@
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "app/calls/change_calls.h"
+#include "app/cli/bind.h"
 #include "app/cli/command.h"
-#include "app/cli/learning.h"
-#include "signweave/database/database.h"
 
 namespace signweave::cli {
 
 Run remove(CLI::App& verb) {
   struct Options {
     std::string folder;
-    std::string recording;
+    calls::RemoveCall call;
   };
   auto options = std::make_shared<Options>();
   verb.add_option("DB", options->folder, "the database")->required();
-  verb.add_option("RECORDING", options->recording,
-                  "name of the recording, or 'catalogue entry N' for one that check finds damaged")
-      ->required();
+  bind(verb, options->call);
   return [options](Io& io) {
     Database database(options->folder, kv::Access::read_write);
-    database.remove(options->recording);
-    learn(database, io);
-    if (io.json)
-      io.out << nlohmann::json{{"removed", options->recording}}.dump(2, ' ', false,
-                                                                     nlohmann::json::error_handler_t::replace)
-             << '\n';
+    const nlohmann::json report = calls::run(database, options->call);
+    learn(database, listener_of(io));
+    if (io.json) io.out << text_of(report);
   };
 }
 

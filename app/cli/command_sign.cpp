@@ -1,30 +1,32 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/calls/synthesis_call.h"
+#include "app/cli/bind.h"
 #include "app/cli/command.h"
-#include "app/cli/synthesis_options.h"
+#include "app/cli/delivery.h"
 
 namespace signweave::cli {
 
 Run sign(CLI::App& verb) {
   struct Options {
-    SynthesisWords words;
-    std::string utterance;
+    std::string folder;
+    calls::SignCall call;
+    Delivery delivery;
   };
   auto options = std::make_shared<Options>();
-  verb.add_option("DB", options->words.folder, "the database")->required();
-  verb.add_option(
-          "UTTERANCE", options->utterance,
-          "glosses separated by blanks; \"LE MANS\" quoted, MATIN#3 one token, \"NAME\"@1200..3400 a piece of a "
-          "recording, , and . pauses")
-      ->required();
-  add_synthesis_options(verb, options->words);
+  verb.add_option("DB", options->folder, "the database")->required();
+  bind(verb, options->call, [&verb, options](std::string_view next) {
+    if (next == "transition") add_outputs(verb, options->delivery.outputs);
+  });
+  add_timings(verb, options->delivery);
   return [options](Io& io) {
-    const Utterance utterance = parse_utterance(options->utterance);
-    const Database database(options->words.folder, kv::Access::read_only);
+    const std::string title = title_of(options->call);  // also tells what is wrong with the words
+    const Database database(options->folder, kv::Access::read_only);
     report_damage(database, io);
-    const Synthesized made = synthesize(database, utterance, synthesis_options(options->words));
-    deliver(made, options->words, to_string(utterance), io);
+    check_signing_space(options->call.how.signing_space, options->delivery.outputs);
+    const Synthesized made = calls::run(database, options->call);
+    deliver(made, options->call.how, options->delivery, title, io);
   };
 }
 

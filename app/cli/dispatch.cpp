@@ -6,6 +6,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "app/calls/listener.h"
 #include "app/cli/command.h"
 #include "signweave/core/text.h"
 #include "signweave/database/database.h"
@@ -102,11 +103,19 @@ void print_notices(Io& io, const std::vector<Notice>& notices) {
   }
 }
 
+calls::Listener listener_of(Io& io) {
+  return {.notice = [&io](const Notice& notice) { print_notices(io, {notice}); },
+          .fault =
+              [&io](const std::string& line) {
+                io.err << "signweave: " << one_line(line) << '\n';
+                io.status = 1;
+              },
+          .stage = {},
+          .progress = {}};
+}
+
 void report_damage(const Database& database, Io& io) {
-  for (const std::string& fault : database.contents()->faults) {
-    io.err << "signweave: " << one_line(fault) << '\n';
-    io.status = 1;
-  }
+  tell_damage(database, listener_of(io));
 }
 
 int dispatch(const std::vector<std::string>& words, Io& io) {

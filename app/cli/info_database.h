@@ -2,10 +2,8 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "app/cli/command.h"
-#include "signweave/core/error.h"
 
 namespace signweave::cli {
 
@@ -14,8 +12,6 @@ void info_of_database(const std::string& folder, Io& io);
 /// All that is known of one of its recordings.
 void info_of_recording(const std::string& folder, const std::string& name, Io& io);
 
-/// What several kinds of `info` print.
-nlohmann::json json_of(const std::vector<Notice>& notices);
 /// A row for each field that is neither list nor object.
 void print_pairs(Io& io, const nlohmann::ordered_json& fields);
 

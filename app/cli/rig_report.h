@@ -1,8 +1,8 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "app/calls/rig_json.h"
 #include "app/cli/command.h"
 #include "signweave/motion/motion.h"
 #include "signweave/rig/rig_map.h"
@@ -14,8 +14,5 @@ RigMap rig_map_of(const Motion& motion, const std::string& path);
 
 /// A row for every part, a row for every finger; what is missing goes to `err`, told of `where`.
 void print_rig(const Skeleton& skeleton, const RigMap& map, const std::string& where, Io& io);
-
-/// Every part that is known, with joint, offset, evidence and confidence.
-nlohmann::ordered_json json_of_rig(const Skeleton& skeleton, const RigMap& map);
 
 }  // namespace signweave::cli

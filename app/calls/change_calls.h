@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/calls/field.h"
+#include "app/calls/json.h"
+#include "app/calls/listener.h"
+#include "signweave/database/database.h"
+
+namespace signweave::calls {
+
+/// Empty, or what is wrong with the value.
+std::string check_access_mode(const std::string& text);
+std::string check_compact(const std::string& text);
+
+/// The fields of `create` and `relayout` that say how motions are stored.
+Field access_mode_field();
+Field compact_field();
+
+/// Removes a recording.
+struct RemoveCall {
+  std::string recording;
+};
+
+template <class Visit>
+void fields(Visit& visit, RemoveCall& call) {
+  visit(Field{.name = "recording",
+              .help = "name of the recording, or 'catalogue entry N' for one that check finds damaged",
+              .words = "RECORDING",
+              .required = true},
+        call.recording);
+}
+
+/// Throws Error{not_found}. Call `learn` after it.
+nlohmann::json run(Database& database, const RemoveCall& call);
+
+/// Stores motions in another access mode.
+struct RelayoutCall {
+  std::string access_mode;
+  std::optional<double> compact;  ///< millimetres
+  std::vector<std::string> recordings;
+};
+
+template <class Visit>
+void fields(Visit& visit, RelayoutCall& call) {
+  visit(access_mode_field(), call.access_mode);
+  visit(compact_field(), call.compact);
+  visit(Field{.name = "recordings",
+              .help = "recordings to store anew; without any, all of them and those that are imported later",
+              .words = "RECORDING"},
+        call.recordings);
+}
+
+/// Empty, or why there is nothing to do.
+std::string nothing_to_change(const RelayoutCall& call);
+
+struct Relayouted {
+  std::size_t recordings = 0;        ///< that were to be stored anew
+  std::vector<std::string> changed;  ///< names
+};
+
+/// What a recording is at fault for is told, and the others go on. Throws Error{not_found} for a name that is not
+/// there, before anything is changed, and Error{bad_input} where nothing is to be changed. Call `learn` after it.
+Relayouted run(Database& database, const RelayoutCall& call, const Listener& listener);
+
+nlohmann::json json_of(const Relayouted& relayouted);
+
+}  // namespace signweave::calls

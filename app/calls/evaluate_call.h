@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/calls/evaluation_input.h"
+#include "app/calls/evaluation_report.h"
+#include "app/calls/field.h"
+#include "app/calls/json.h"
+#include "app/calls/listener.h"
+#include "signweave/transition/method.h"
+
+namespace signweave::calls {
+
+/// Cuts captured movements out, makes them again by each method and compares.
+struct EvaluateCall {
+  std::vector<std::string> methods;  ///< none: all; slerp, which others are told over, is always there
+  std::uint64_t seed = 1;
+};
+
+/// Empty, or that there is no such method, with near matches.
+std::string check_method(const std::string& name);
+
+template <class Visit>
+void fields(Visit& visit, EvaluateCall& call) {
+  visit(Field{.name = "method",
+              .help = "this method alone, beside slerp; may be given again",
+              .several_words = true,
+              .check = check_method},
+        call.methods);
+  visit(Field{.name = "seed",
+              .help = "of the resampling that intervals come from",
+              .shows_default = true,
+              .check =
+                  [](const std::string& text) {
+                    return text.starts_with('-') ? std::string("a seed is not negative") : std::string();
+                  }},
+        call.seed);
+}
+
+/// What came of it.
+struct Evaluated {
+  EvaluationInput input;
+  SpanChoice choice;
+  std::vector<EvaluatedTask> tasks;
+};
+
+/// Throws Error{not_found} where there is nothing to evaluate on; what `listener.progress` throws ends it.
+Evaluated run(const Database& database, const EvaluateCall& call, const Listener& listener);
+/// The same on any input and spans.
+Evaluated evaluate(EvaluationInput input, SpanChoice choice, const EvaluateCall& call, const Listener& listener);
+/// Throws Error{not_found} where there is none.
+void require_recordings(const EvaluationInput& input, const std::string& where);
+
+nlohmann::ordered_json json_of(const Evaluated& evaluated, const EvaluateCall& call, Bootstrap& bootstrap);
+/// The summary with intervals as an SVG document.
+std::string plot_of(const std::vector<EvaluatedTask>& tasks, Bootstrap& bootstrap);
+
+}  // namespace signweave::calls

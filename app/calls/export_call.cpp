@@ -1,0 +1,107 @@
+#include "app/calls/export_call.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "signweave/core/text.h"
+#include "signweave/database/import.h"
+
+namespace signweave::calls {
+namespace {
+
+/// The joints named in "LeftHand,RightHand", with near matches for one that does not exist.
+JointSet joints_named(const std::string& names, const Skeleton& skeleton) {
+  JointSet joints;
+  std::vector<std::string> known;
+  for (const Joint& joint : skeleton.joints()) known.push_back(joint.name);
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const std::size_t end = std::min(names.find(',', begin), names.size());
+    const std::string name(trimmed(names.substr(begin, end - begin)));
+    begin = end + 1;
+    if (name.empty()) continue;
+    const auto joint = skeleton.find(name);
+    if (!joint)
+      throw Error(ErrorCode::not_found, fmt::format("no joint '{}'{}", printable(name), did_you_mean(name, known)));
+    joints.push_back(*joint);
+  }
+  std::sort(joints.begin(), joints.end());
+  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+  return joints;
+}
+
+/// The part of a document inside a span, its times moved so that the span begins at 0. Annotations that reach over an
+/// end are cut; linked files keep their place in time. Everything else of the document is carried over.
+AnnotationDocument cut_document(const AnnotationDocument& document, TimeSpan span,
+                                const std::vector<std::string>& outputs) {
+  AnnotationDocument cut = document;
+  // A file that is written now with the part in it begins where the part does.
+  std::erase_if(cut.linked_files, [&](const LinkedFile& linked) {
+    return std::any_of(outputs.begin(), outputs.end(), [&](const std::string& path) {
+      const std::string name = std::filesystem::path(path).filename().string();
+      return linked_file_name(linked.url) == name || linked_file_name(linked.relative_url) == name;
+    });
+  });
+  for (LinkedFile& linked : cut.linked_files) linked.time_origin += span.begin;
+  for (Tier& tier : cut.tiers) {
+    std::erase_if(tier.annotations, [&](const Annotation& a) { return !a.span.overlaps(span); });
+    for (Annotation& annotation : tier.annotations) {
+      annotation.span = {std::max(annotation.span.begin, span.begin) - span.begin,
+                         std::min(annotation.span.end, span.end) - span.begin};
+    }
+  }
+  return cut;
+}
+
+}  // namespace
+
+Outgoing Exported::outgoing() const {
+  return {.motion = motion ? &*motion : nullptr,
+          .layout = info.layout,
+          .document = document ? &*document : nullptr,
+          .title = info.name,
+          .signing_space = signing_space,
+          .rig = info.rig,
+          .declarations = info.declarations};
+}
+
+Exported run(const Database& database, const ExportCall& call, const std::vector<std::string>& outputs) {
+  const std::shared_ptr<const Contents> contents = database.contents();
+  Exported made{.info = contents->at(call.recording), .signing_space = call.signing_space};
+  const RecordingInfo& info = made.info;
+  const bool part = call.from || call.to;
+  made.frames = {0, info.motion ? info.motion->frames : 0};
+  const TimeSpan all = info.motion ? span_of(made.frames, info.clock) : TimeSpan{Milliseconds(0), Milliseconds::max()};
+  const TimeSpan span{call.from ? Milliseconds(*call.from) : all.begin, call.to ? Milliseconds(*call.to) : all.end};
+  if (call.from && call.to && span.begin >= span.end) {
+    throw Error(ErrorCode::bad_input, "--from must be before --to");
+  }
+  const auto is_document = [](const std::string& path) { return fold_case(path).ends_with(".eaf"); };
+  if (info.motion && !std::ranges::all_of(outputs, is_document)) {
+    if (part)
+      made.frames = span.begin < span.end ? clamp(frames_of(span, info.clock), info.motion->frames) : FrameRange{};
+    if (made.frames.empty()) {
+      throw Error(ErrorCode::bad_input, fmt::format("nothing between --from and --to: the motion covers {}..{} ms",
+                                                    all.begin.count(), all.end.count()));
+    }
+    const JointSet joints = call.joints.empty() ? JointSet{} : joints_named(call.joints, *database.skeleton(info.name));
+    made.motion = database.read(info.name, made.frames, joints);
+  }
+  if (info.document != 0 && std::ranges::any_of(outputs, is_document)) made.document = database.document(info.name);
+  if (made.document && part) {
+    made.document = cut_document(*made.document, made.motion ? span_of(made.frames, info.clock) : span, outputs);
+  }
+  for (const std::string& path : outputs) {
+    if (!call.joints.empty() && ending_of(path) == ".face.csv") {
+      throw Error(ErrorCode::bad_input, path + ": --joints leaves scalar tracks out; export it without");
+    }
+  }
+  return made;
+}
+
+nlohmann::json json_of(const Exported& exported) {
+  return {{"recording", exported.info.name}, {"frames", exported.frames.size()}};
+}
+
+}  // namespace signweave::calls

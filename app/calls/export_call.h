@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/calls/field.h"
+#include "app/calls/files.h"
+#include "app/calls/json.h"
+#include "signweave/database/database.h"
+
+namespace signweave::calls {
+
+/// Writes a recording, or a part of it.
+struct ExportCall {
+  std::string recording;
+  std::optional<std::int64_t> from;
+  std::optional<std::int64_t> to;
+  std::string joints;
+  bool signing_space = false;
+};
+
+template <class Visit>
+void fields(Visit& visit, ExportCall& call) {
+  visit(Field{.name = "recording", .help = "name of the recording", .words = "RECORDING", .required = true},
+        call.recording);
+  visit(Field{.name = "from", .help = "annotation time in ms to begin at"}, call.from);
+  visit(Field{.name = "to", .help = "annotation time in ms to end at"}, call.to);
+  visit(Field{.name = "joints", .help = "joint names, separated by commas; the others are left at rest"}, call.joints);
+  visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, call.signing_space);
+}
+
+/// What is to be written.
+struct Exported {
+  RecordingInfo info;
+  FrameRange frames;  ///< of the recording's motion
+  std::optional<Motion> motion;
+  std::optional<AnnotationDocument> document;
+  bool signing_space = false;
+
+  Outgoing outgoing() const;
+};
+
+/// `outputs`: names of the files that it will be written to, which say by their endings what is needed. The annotation
+/// is cut where the frames are, so that both begin together. Throws Error{not_found} for a recording or joint that is
+/// not there (with near matches), Error{bad_input}.
+Exported run(const Database& database, const ExportCall& call, const std::vector<std::string>& outputs);
+
+/// Recording, and how many frames; the command line adds its files.
+nlohmann::json json_of(const Exported& exported);
+
+}  // namespace signweave::calls

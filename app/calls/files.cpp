@@ -1,0 +1,279 @@
+#include "app/calls/files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/calls/json.h"
+#include "app/calls/synthesis_report.h"
+#include "signweave/core/atomic_file.h"
+#include "signweave/core/text.h"
+#include "signweave/formats/contact_sheet.h"
+#include "signweave/formats/eaf.h"
+#include "signweave/formats/face_csv.h"
+#include "signweave/formats/gltf.h"
+#include "signweave/formats/positions_csv.h"
+#include "signweave/synthesis/provenance.h"
+
+namespace signweave::calls {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr const char* kFace = ".face.csv";
+constexpr const char* kEndings[] = {".bvh", ".glb", ".gltf", ".eaf", ".json", ".csv", kFace, ".svg"};
+
+void write_text(const std::string& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+json json_of(const Motion& motion) {
+  json joints = json::array();
+  for (const Joint& joint : motion.skeleton().joints()) {
+    joints.push_back({{"name", joint.name},
+                      {"parent", joint.parent},
+                      {"offset", {joint.offset.x(), joint.offset.y(), joint.offset.z()}},
+                      {"translated", joint.translated}});
+  }
+  json rotations = json::array();
+  json translations = json::array();
+  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+    const PoseView pose = motion.pose(frame);
+    json row = json::array();
+    for (const Eigen::Quaternionf& q : pose.rotations) row.insert(row.end(), {q.x(), q.y(), q.z(), q.w()});
+    rotations.push_back(std::move(row));
+    row = json::array();
+    for (const Eigen::Vector3f& t : pose.translations) row.insert(row.end(), {t.x(), t.y(), t.z()});
+    translations.push_back(std::move(row));
+  }
+  json tracks = json::object();
+  for (const ScalarTrack& track : motion.tracks()) tracks[track.name] = track.values;
+  return {{"frames_per_second", motion.rate().hertz()},
+          {"frames", motion.frame_count()},
+          {"joints", std::move(joints)},
+          {"rotations_xyzw", std::move(rotations)},
+          {"translations_m", std::move(translations)},
+          {"tracks", std::move(tracks)}};
+}
+
+std::string note_of(const std::vector<std::pair<std::string, std::string>>& declarations) {
+  std::string note;
+  for (const auto& [name, value] : declarations) note += (note.empty() ? "" : "; ") + value;
+  return note;
+}
+
+/// Before the first file is written: that each has a folder to go to.
+void check_folders(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    const fs::path folder = fs::path(path).parent_path();
+    std::error_code ignored;
+    if (!folder.empty() && !fs::is_directory(folder, ignored)) {
+      throw Error(ErrorCode::io, fmt::format("{}: there is no folder '{}'; make it first", path, folder.string()));
+    }
+  }
+}
+
+/// What a motion written without its own layout looks like.
+bvh::Layout layout_for(const std::optional<bvh::Layout>& layout, const Skeleton& skeleton) {
+  return layout && bvh::fits(*layout, skeleton) ? *layout : bvh::default_layout(skeleton);
+}
+
+/// One cell of a contact sheet per stroke and per junction: what a person wants to look at.
+ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string& title) {
+  ContactSheetOptions options;
+  options.title = title;
+  options.note = note_of(synthesis.declarations);
+  enum class Worth { side, middle, junction };  // in a long result the last go last
+  struct Cell {
+    std::int64_t frame;
+    std::string caption;
+    Worth worth;
+  };
+  std::vector<Cell> cells;
+  const double hertz = synthesis.motion.rate().hertz();
+  const auto frame_of = [&](Milliseconds time) {
+    return std::clamp<std::int64_t>(std::llround(Seconds(time).count() * hertz), 0, synthesis.motion.frame_count() - 1);
+  };
+  for (const PlacedSign& placed : synthesis.signs) {
+    const auto stroke = placed.sign.stroke_span();
+    if (!stroke) continue;
+    const auto add = [&](double part, const char* mark, Worth worth) {
+      const Milliseconds at =
+          stroke->begin + Milliseconds(std::llround(static_cast<double>(stroke->duration().count()) * part));
+      cells.push_back({frame_of(at), placed.sign.gloss + mark, worth});
+    };
+    add(0.1, " ·", Worth::side);
+    add(0.5, " ··", Worth::middle);
+    add(0.9, " ···", Worth::side);
+  }
+  for (std::size_t i = 0; i < synthesis.stretches.size(); ++i) {  // bare pieces have no sign to show
+    const Placed& placed = synthesis.stretches[i];
+    const bool bare = std::none_of(synthesis.signs.begin(), synthesis.signs.end(),
+                                   [&](const PlacedSign& sign) { return sign.stretch == i; });
+    for (const int part : {1, 5, 9}) {
+      const Worth worth = part == 5 ? Worth::middle : Worth::side;
+      if (bare) cells.push_back({placed.core.begin + placed.core.size() * part / 10, placed.recording, worth});
+    }
+  }
+  for (const Junction& junction : synthesis.junctions) {
+    const std::int64_t middle = (junction.frames.begin + junction.frames.end) / 2;
+    cells.push_back({middle, junction.from + " → " + junction.to, Worth::junction});
+  }
+  std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.frame < b.frame; });
+  options.most_cells = 96;  // what still can be looked at
+  for (const Cell& cell : cells) {
+    options.frames.push_back(cell.frame);
+    options.captions.push_back(cell.caption);
+    options.importance.push_back(static_cast<int>(cell.worth));
+  }
+  return options;
+}
+
+Outgoing outgoing(const Synthesized& made, const std::optional<bvh::Layout>& layout, const SheetWishes& sheet) {
+  return {.motion = &made.result.motion,
+          .layout = layout,
+          .title = sheet.title,
+          .rig = sheet.rig,
+          .declarations = made.result.declarations};
+}
+
+/// Throws where what the ending asks for is not there.
+void require_parts(std::string_view ending, const Outgoing& recording, const std::string& where) {
+  if (ending == ".eaf") {
+    if (recording.document != nullptr) return;
+    throw Error(ErrorCode::not_found, where + ": the recording has no annotation to write");
+  }
+  if (recording.motion == nullptr) throw Error(ErrorCode::not_found, where + ": the recording has no motion to write");
+  if (ending == kFace && recording.motion->tracks().empty()) {
+    throw Error(ErrorCode::not_found, where + ": the motion has no scalar tracks to write");
+  }
+}
+
+gltf::WriteOptions gltf_options(const Outgoing& recording) {
+  return {.name = recording.title,
+          .declarations = recording.declarations,
+          .head = {},
+          .rig = map_rig(*recording.motion, recording.rig)};
+}
+
+}  // namespace
+
+std::string ending_of(const std::string& path) {
+  const std::string name = fold_case(fs::path(path).filename().string());
+  return name.ends_with(kFace) ? kFace : fs::path(name).extension().string();
+}
+
+std::string writable_endings() {
+  std::string list;
+  for (const char* ending : kEndings) list += fmt::format("{}{}", list.empty() ? "" : " ", ending);
+  return list;
+}
+
+std::string check_output(const std::string& path) {
+  const std::string ending = ending_of(path);
+  for (const char* known : kEndings) {
+    if (ending == known) return {};
+  }
+  return fmt::format("'{}' ends in none of {}", printable(path), writable_endings());
+}
+
+void check_signing_space(bool wanted, const std::vector<std::string>& paths) {
+  const auto is_sheet = [](const std::string& path) { return ending_of(path) == ".svg"; };
+  if (!wanted || std::any_of(paths.begin(), paths.end(), is_sheet)) return;
+  throw Error(ErrorCode::bad_input, "--signing-space is drawn on contact sheets: add -o FILE.svg");
+}
+
+std::string synthesis_text(std::string_view ending, const Synthesized& made, const std::optional<bvh::Layout>& layout,
+                           const SheetWishes& sheet, const std::string& motion_file) {
+  const Synthesis& result = made.result;
+  if (ending == ".eaf") return eaf::write_text(annotation_of(result, motion_file));
+  if (ending == ".json") {
+    json document = describe(result);
+    json sources = json::array();
+    for (const FrameSource& source : result.sources) {
+      // Each output frame: its recording's stretch and frame, or the junction that made it.
+      if (source.stretch != FrameSource::kNone) {
+        sources.push_back({{"stretch", source.stretch}, {"frame", source.frame}});
+      } else {
+        sources.push_back({{"junction", source.junction}});
+      }
+    }
+    document["sources"] = std::move(sources);
+    document["declarations"] = declarations_json(result.declarations);
+    document["motion"] = json_of(result.motion);
+    return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+  }
+  if (ending == ".svg") {
+    ContactSheetOptions options = sheet_options(result, sheet.title);
+    options.signing_space = sheet.signing_space;
+    options.rig = map_rig(result.motion, sheet.rig);
+    return contact_sheet(result.motion, options);
+  }
+  return recording_text(ending, outgoing(made, layout, sheet), std::string(ending));
+}
+
+std::string recording_text(std::string_view ending, const Outgoing& recording, const std::string& where) {
+  require_parts(ending, recording, where);
+  if (ending == ".eaf") return eaf::write_text(*recording.document);
+  const Motion& motion = *recording.motion;
+  if (ending == ".bvh") return bvh::write_text(motion, layout_for(recording.layout, motion.skeleton()));
+  if (ending == ".glb" || ending == ".gltf") {
+    return gltf::to_bytes(motion, gltf_options(recording),
+                          ending == ".glb" ? gltf::Container::binary : gltf::Container::text);
+  }
+  if (ending == kFace) return face_csv::write_text(motion);
+  if (ending == ".csv") {
+    std::string text = positions_csv_heading(motion.skeleton());
+    for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) text += positions_csv_row(motion, frame);
+    return text;
+  }
+  if (ending == ".svg") {
+    ContactSheetOptions options;
+    options.title = recording.title;
+    options.note = note_of(recording.declarations);
+    options.signing_space = recording.signing_space;
+    options.rig = map_rig(motion, recording.rig);
+    return contact_sheet(motion, options);
+  }
+  json document = json_of(motion);
+  document["declarations"] = declarations_json(recording.declarations);
+  return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
+void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made,
+                     const std::optional<bvh::Layout>& layout, const SheetWishes& sheet) {
+  std::string motion_file;
+  check_folders(paths);
+  for (const std::string& path : paths) {
+    if (ending_of(path) == ".bvh") motion_file = fs::path(path).filename().string();
+  }
+  for (const std::string& path : paths) {
+    const std::string ending = ending_of(path);
+    if (ending == ".eaf" || ending == ".json" || ending == ".svg") {
+      write_text(path, synthesis_text(ending, made, layout, sheet, motion_file));
+    } else {
+      write_recording(path, outgoing(made, layout, sheet));
+    }
+  }
+}
+
+void write_recording(const std::string& path, const Outgoing& recording) {
+  const std::string ending = ending_of(path);
+  require_parts(ending, recording, path);
+  // The long ones go to the file piece by piece.
+  if (ending == ".bvh") {
+    bvh::write(path, *recording.motion, layout_for(recording.layout, recording.motion->skeleton()));
+  } else if (ending == ".glb" || ending == ".gltf") {
+    gltf::write(path, *recording.motion, gltf_options(recording));
+  } else if (ending == ".csv") {
+    write_positions_csv(path, *recording.motion);
+  } else {
+    write_text(path, recording_text(ending, recording, path));
+  }
+}
+
+}  // namespace signweave::calls

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "signweave/annotation/document.h"
+#include "signweave/formats/bvh.h"
+#include "signweave/motion/motion.h"
+#include "signweave/rig/rig_map.h"
+#include "signweave/synthesis/synthesizer.h"
+
+namespace signweave::calls {
+
+/// The endings that can be written, for help and errors: ".bvh .glb …".
+std::string writable_endings();
+
+/// ".bvh", ".face.csv", …: in small letters.
+std::string ending_of(const std::string& path);
+
+/// Empty where `path` has an ending that can be written; else what is wrong with it.
+std::string check_output(const std::string& path);
+
+/// The help of --signing-space.
+inline constexpr const char* kSigningSpaceHelp = "in .svg: the signer's heights and zones behind each figure";
+
+/// Throws Error{bad_input} where a signing space is to be drawn and no path is a contact sheet's.
+void check_signing_space(bool wanted, const std::vector<std::string>& paths);
+
+/// What heads a contact sheet and what else it shows.
+struct SheetWishes {
+  std::string title;
+  bool signing_space = false;
+  RigNames rig;  ///< what a mapping file said of the skeleton
+};
+
+/// Writes a synthesis to each path, by its ending. An annotation written beside a motion links it.
+void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made,
+                     const std::optional<bvh::Layout>& layout, const SheetWishes& sheet);
+
+/// The same as text or bytes, of one ending. `motion_file`: the name of the motion's own file, which an annotation
+/// links; empty for none.
+std::string synthesis_text(std::string_view ending, const Synthesized& made, const std::optional<bvh::Layout>& layout,
+                           const SheetWishes& sheet, const std::string& motion_file);
+
+/// What there is of a recording to write. Borrowed.
+struct Outgoing {
+  const Motion* motion = nullptr;
+  std::optional<bvh::Layout> layout;             ///< for .bvh
+  const AnnotationDocument* document = nullptr;  ///< for .eaf
+  std::string title;
+  bool signing_space = false;                                     ///< for .svg
+  RigNames rig;                                                   ///< what a mapping file said of the skeleton
+  std::vector<std::pair<std::string, std::string>> declarations;  ///< what its sources say of themselves
+};
+
+/// Writes a motion or, to .eaf, an annotation document. Throws Error{not_found} where what the ending asks for is not
+/// there.
+void write_recording(const std::string& path, const Outgoing& recording);
+/// The same as text or bytes; `where` stands before the text of an error.
+std::string recording_text(std::string_view ending, const Outgoing& recording, const std::string& where);
+
+}  // namespace signweave::calls

@@ -1,0 +1,127 @@
+#include "app/calls/import_call.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace signweave::calls {
+
+using nlohmann::json;
+
+namespace {
+
+/// "TIER", "TIER:right", "TIER:left:SIGNER". A tier whose name holds a colon is written with all three parts.
+TierNames::SignTier parse_sign_tier(const std::string& text) {
+  TierNames::SignTier tier;
+  const auto hand_of = [](const std::string& word) -> std::optional<Hand> {
+    for (const Hand hand : {Hand::both, Hand::right, Hand::left}) {
+      if (name_of(hand) == word) return hand;
+    }
+    return std::nullopt;
+  };
+  const std::size_t last = text.rfind(':');
+  if (last == std::string::npos) return {text, Hand::both, {}};
+  if (const auto hand = hand_of(text.substr(last + 1))) return {text.substr(0, last), *hand, {}};
+  const std::size_t middle = text.rfind(':', last == 0 ? 0 : last - 1);
+  if (middle != std::string::npos && middle < last) {
+    if (const auto hand = hand_of(text.substr(middle + 1, last - middle - 1))) {
+      return {text.substr(0, middle), *hand, text.substr(last + 1)};
+    }
+  }
+  return {text, Hand::both, {}};  // the colon belongs to the name
+}
+
+/// "120@4010.5": frame 120 is at 4010.5 ms.
+std::optional<SyncPoint> parse_sync(const std::string& text) {
+  const std::size_t at = text.find('@');
+  double frame = 0;
+  double ms = 0;
+  const char* end = text.data() + text.size();
+  if (at == std::string::npos || std::from_chars(text.data(), text.data() + at, frame).ptr != text.data() + at ||
+      std::from_chars(text.data() + at + 1, end, ms).ptr != end || at == 0 || at + 1 == text.size() ||
+      !std::isfinite(frame) || !std::isfinite(ms)) {
+    return std::nullopt;
+  }
+  return SyncPoint{frame, Seconds(ms / 1000.0)};
+}
+
+}  // namespace
+
+std::string check_sync(const std::string& text) {
+  return parse_sync(text) ? std::string() : "expected FRAME@MS, such as 120@4010";
+}
+
+std::string_view name_of(ImportOutcome outcome) {
+  switch (outcome) {
+    case ImportOutcome::added:
+      return "added";
+    case ImportOutcome::unchanged:
+      return "unchanged";
+    case ImportOutcome::clock_changed:
+      return "clock, signer or rig changed";
+    case ImportOutcome::measured:
+      return "measured anew";
+    case ImportOutcome::annotation_added:
+      return "annotation added";
+    case ImportOutcome::motion_added:
+      return "motion added";
+    case ImportOutcome::face_added:
+      return "face added";
+    case ImportOutcome::annotation_replaced:
+      return "annotation replaced";
+    case ImportOutcome::motion_replaced:
+      return "motion replaced";
+  }
+  return "";
+}
+
+ImportOptions options_of(const ImportCall& call) {
+  ImportOptions options;
+  options.motion = read_options(call.reading);
+  for (const std::string& tier : call.sign_tiers) options.sign_tiers.push_back(parse_sign_tier(tier));
+  options.phase_tiers = call.phase_tiers;
+  if (!call.phase_labels.empty()) options.phase_labels = read_phase_labels(call.phase_labels);
+  if (call.offset_ms) options.offset = Seconds(*call.offset_ms / 1000.0);
+  for (const std::string& sync : call.syncs) options.sync.push_back(*parse_sync(sync));
+  if (!call.rig.empty()) options.rig = read_rig_names(call.rig);
+  options.replace_motion = call.replace_motion;
+  return options;
+}
+
+Pairing pairing_of(const ImportCall& call, const std::vector<std::filesystem::path>& inputs) {
+  return pair_files(inputs, call.pairs.empty() ? std::nullopt : std::optional<std::filesystem::path>(call.pairs));
+}
+
+void run(Database& database, const Pairing& pairing, const ImportOptions& options, const Listener& listener,
+         const std::function<void(const Imported&)>& done) {
+  const std::vector<ImportJob>& jobs = pairing.jobs;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const auto advance = [&](double fraction) {
+      listener.advance((static_cast<double>(i) + fraction) / static_cast<double>(jobs.size()));
+    };
+    Imported imported{.name = jobs[i].name};
+    try {
+      advance(0);
+      imported.report = import_recording(database, jobs[i], options, advance);
+      imported.name = imported.report->name;
+    } catch (const Error& error) {  // a bad recording changes nothing of its own; the others are imported
+      if (error.code() == ErrorCode::cancelled) throw;
+      imported.error = error;
+    }
+    done(imported);
+  }
+}
+
+json json_of(const Imported& imported) {
+  if (imported.error) return {{"name", imported.name}, {"outcome", "failed"}, {"error", imported.error->what()}};
+  const ImportReport& report = *imported.report;
+  return {{"name", report.name},
+          {"outcome", name_of(report.outcome)},
+          {"frames", report.frames},
+          {"tracks", report.tracks},
+          {"signs", report.signs},
+          {"defects", report.defects},
+          {"not_measured", report.not_measured},
+          {"notices", json_of(report.notices)}};
+}
+
+}  // namespace signweave::calls

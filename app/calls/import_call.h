@@ -1,0 +1,76 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/calls/field.h"
+#include "app/calls/json.h"
+#include "app/calls/listener.h"
+#include "app/calls/motion_reading.h"
+#include "signweave/database/import.h"
+
+namespace signweave::calls {
+
+/// Stores recordings: motion files and their annotation.
+struct ImportCall {
+  std::string pairs;
+  std::vector<std::string> sign_tiers;
+  std::vector<std::string> phase_tiers;
+  std::string phase_labels;
+  MotionReading reading;
+  std::optional<double> offset_ms;
+  std::vector<std::string> syncs;
+  std::string rig;
+  bool replace_motion = false;
+};
+
+/// Empty, or why `text` is no FRAME@MS.
+std::string check_sync(const std::string& text);
+
+template <class Visit>
+void fields(Visit& visit, ImportCall& call) {
+  visit(Field{.name = "pairs", .help = "CSV: motion, annotation, signer, offset in ms", .is_file = true}, call.pairs);
+  visit(Field{.name = "sign_tier", .help = "tier of glosses, TIER[:right|left|both[:SIGNER]]; guessed where not given"},
+        call.sign_tiers);
+  visit(Field{.name = "phase_tier", .help = "tier of phases; guessed where not given"}, call.phase_tiers);
+  visit(Field{.name = "phase_labels", .help = "lines LABEL = preparation|stroke|retraction|hold", .is_file = true},
+        call.phase_labels);
+  fields(visit, call.reading);
+  visit(Field{.name = "offset_ms", .help = "annotation time of frame 0"}, call.offset_ms);
+  visit(Field{.name = "sync", .help = "FRAME@MS, given twice: sets offset and drift", .check = check_sync}, call.syncs);
+  visit(Field{.name = "rig",
+              .help = "mapping file: lines 'part = joint' for what the joints' names do not tell; remembered, an empty "
+                      "file forgets",
+              .is_file = true,
+              .type_name = "FILE"},
+        call.rig);
+  visit(Field{.name = "replace_motion",
+              .help = "take motion and face files again, changed or not: instead of what was imported, or over damage"},
+        call.replace_motion);
+}
+
+/// Of checked fields. Reads the call's own files, and throws as their readers do.
+ImportOptions options_of(const ImportCall& call);
+
+/// What belongs together of some files and folders. Throws as pair_files does.
+Pairing pairing_of(const ImportCall& call, const std::vector<std::filesystem::path>& inputs);
+
+/// What became of one recording.
+struct Imported {
+  std::string name;
+  std::optional<ImportReport> report;  ///< none where it failed
+  std::optional<Error> error;          ///< then
+};
+
+/// Imports one recording after the other; `done` is told of each when it is over. One that is at fault changes nothing
+/// of its own, and the others go on; Error{cancelled}, which progress may throw, ends it. Call `learn` after it.
+void run(Database& database, const Pairing& pairing, const ImportOptions& options, const Listener& listener,
+         const std::function<void(const Imported&)>& done);
+
+std::string_view name_of(ImportOutcome outcome);
+nlohmann::json json_of(const Imported& imported);
+
+}  // namespace signweave::calls

@@ -1,0 +1,147 @@
+#include "app/calls/info_call.h"
+
+#include <fmt/format.h>
+
+#include "app/calls/defect_report.h"
+#include "app/calls/rig_json.h"
+#include "app/calls/selection_report.h"
+
+namespace signweave::calls {
+
+using nlohmann::json;
+
+namespace {
+
+/// Of a tolerance in metres, without the noise of its last bits.
+double millimetres(float tolerance) {
+  return std::stod(fmt::format("{:.6g}", 1e3 * tolerance));
+}
+
+}  // namespace
+
+DatabaseInfo run_info(const Database& database, const std::function<std::vector<Usage>()>& usage,
+                      const Listener& listener) {
+  DatabaseInfo info{.contents = database.contents(),
+                    .engine = database.engine(),
+                    .layout = database.layout(),
+                    .usage = {},
+                    .access_mode = database.access_mode(),
+                    .tolerance = database.tolerance(),
+                    .weights = {}};
+  try {
+    info.usage = usage();
+  } catch (const Error& error) {
+    listener.blame(error.what());
+  }
+  info.weights = database.snapshot().join_weights();
+  return info;
+}
+
+json json_of(const DatabaseInfo& info) {
+  json recordings = json::array();
+  for (const RecordingInfo& recording : info.contents->recordings) {
+    json one = {{"name", recording.name},
+                {"signer", recording.signer},
+                {"motion_file", recording.motion_file},
+                {"annotation_file", recording.annotation_file},
+                {"defects", recording.defects.size()},
+                {"notices", json_of(recording.notices)}};
+    if (recording.motion) {
+      one["frames"] = recording.motion->frames;
+      one["frames_per_second"] = recording.motion->rate.hertz();
+      one["joints"] = recording.motion->joints;
+      one["tracks"] = recording.motion->tracks;
+      one["face_file"] = recording.face_file;
+      one["access_mode"] = to_string(recording.motion->mode);
+      one["compact_mm"] = millimetres(recording.motion->tolerance);
+      one["packets"] = motion_db::packet_count(*recording.motion);
+    }
+    recordings.push_back(std::move(one));
+  }
+  json usage = json::array();
+  for (const Usage& one : info.usage) {
+    usage.push_back({{"kind", one.kind}, {"entries", one.entries}, {"bytes", one.bytes}});
+  }
+  return {{"engine", info.engine.name},
+          {"engine_version", info.engine.version},
+          {"entries", info.engine.entries},
+          {"bytes_on_disk", info.engine.bytes_on_disk},
+          {"layout", info.layout},
+          {"usage", std::move(usage)},
+          {"access_mode", to_string(info.access_mode)},
+          {"compact_mm", millimetres(info.tolerance)},
+          {"weights", json_of(info.weights)},
+          {"recordings", std::move(recordings)}};
+}
+
+RecordingDetails run(const Database& database, const RecordingCall& call) {
+  const std::shared_ptr<const Contents> contents = database.contents();
+  RecordingDetails details{.info = contents->at(call.recording)};
+  const RecordingInfo& info = details.info;
+  details.figures = {{"recording", info.name},
+                     {"signer", info.signer},
+                     {"motion_file", info.motion_file},
+                     {"face_file", info.face_file},
+                     {"annotation_file", info.annotation_file}};
+  if (info.motion) {
+    const Motion motion = database.read(info.name);
+    details.model = model_of(motion, info.rig);
+    details.figures["frames"] = motion.frame_count();
+    details.figures["frames_per_second"] = motion.rate().hertz();
+    details.figures["seconds"] = std::stod(fmt::format("{:.3f}", motion.duration().count()));
+    details.figures["joints"] = motion.skeleton().joint_count();
+    details.figures["scalar_tracks"] = motion.tracks().size();
+    details.figures["clock_origin_ms"] = std::stod(fmt::format("{:.3f}", 1e3 * info.clock.origin.count() + 0.0));
+  }
+  const RecordingFeatures features = database.features(info.name);
+  std::size_t known = 0;
+  for (const PhaseFeatures& phase : features.phases) known += phase.known ? 1 : 0;
+  details.figures["phases"] = features.phases.size();
+  details.figures["phases_measured"] = known;
+  details.figures["not_measured"] = features.why_not;
+  if (details.model && details.model->body) {
+    details.figures["shoulder_width_m"] = std::stod(fmt::format("{:.3f}", details.model->body->shoulder_width));
+  }
+  if (details.model) details.skeleton = database.skeleton(info.name);
+  return details;
+}
+
+nlohmann::ordered_json json_of(const RecordingDetails& details) {
+  nlohmann::ordered_json report = details.figures;
+  report["notices"] = json_of(details.info.notices);
+  if (details.model) report["rig"] = json_of_rig(*details.skeleton, details.model->rig);
+  if (details.model) report["defects"] = json_of(details.info.defects, *details.skeleton);
+  return report;
+}
+
+json json_of(const CheckResult& result) {
+  return {{"recordings", result.recordings}, {"faults", result.faults}};
+}
+
+std::vector<std::vector<std::string>> format_rows() {
+  return {
+      {"ending", "reads", "writes", "holds", "is lost"},
+      {".bvh", "yes", "yes", "skeleton and motion", "annotation; rotations beyond 1e-4 degrees"},
+      {".glb .gltf", "no", "yes", "skeleton, motion, a simple body and face; for viewers", "annotation"},
+      {".eaf", "yes", "yes", "annotation", "motion"},
+      {".json", "no", "yes", "a synthesis: poses, signs, sources, junctions", "nothing"},
+      {".csv", "no", "yes", "joint positions per frame, metres", "rotations, annotation"},
+      {".face.csv", "yes", "yes", "scalar tracks, as Live Link Face writes them", "everything else"},
+      {".svg", "no", "yes", "contact sheet: frames as pictures", "everything but the picture"},
+  };
+}
+
+json formats_json() {
+  json list = json::array();
+  const std::vector<std::vector<std::string>> rows = format_rows();
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    list.push_back({{"ending", rows[i][0]},
+                    {"reads", rows[i][1] == "yes"},
+                    {"writes", rows[i][2] == "yes"},
+                    {"holds", rows[i][3]},
+                    {"lost", rows[i][4]}});
+  }
+  return list;
+}
+
+}  // namespace signweave::calls

@@ -1,0 +1,17 @@
+#include "app/calls/listener.h"
+
+namespace signweave::calls {
+
+void tell_damage(const Database& database, const Listener& listener) {
+  for (const std::string& fault : database.contents()->faults) listener.blame(fault);
+}
+
+void learn(Database& database, const Listener& listener) {
+  try {
+    database.learn();
+  } catch (const Error& error) {
+    listener.blame(std::string("weights of the selection: ").append(error.what()));
+  }
+}
+
+}  // namespace signweave::calls

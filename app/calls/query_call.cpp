@@ -1,0 +1,56 @@
+#include "app/calls/query_call.h"
+
+#include "signweave/query/find.h"
+#include "signweave/query/parse.h"
+#include "signweave/query/plan.h"
+
+namespace signweave::calls {
+
+using nlohmann::json;
+
+QueryReport run(const Database& database, const QueryCall& call) {
+  const PhaseQuery query = parse(call.text);
+  QueryReport report;
+  if (call.explain) {
+    report.plan = explain(query, database.contents()->segments);
+    return report;
+  }
+  FindLimits limits;
+  if (call.limit > 0) limits.limit = call.limit;
+  if (call.timeout_ms > 0) {
+    limits.deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(call.timeout_ms);
+  }
+  report.answers = database.find(query, limits);
+  if (report.answers.empty()) report.hints = hints(query, database.contents()->segments);
+  return report;
+}
+
+json json_of(const QueryReport& report) {
+  if (report.plan) return {{"plan", *report.plan}};
+  json list = json::array();
+  for (const Segment& segment : report.answers) {
+    json parts = json::array();
+    for (const SegmentPart& part : segment.parts) {
+      json one = span_json(part.span);
+      one["name"] = part.name;
+      parts.push_back(std::move(one));
+    }
+    json one = span_json(segment.span);
+    one["recording"] = segment.recording;
+    one["name"] = segment.name;
+    one["parts"] = std::move(parts);
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+std::vector<std::vector<std::string>> rows_of(const QueryReport& report) {
+  std::vector<std::vector<std::string>> rows = {{"recording", "name", "begin ms", "end ms"}};
+  for (const Segment& segment : report.answers) {
+    rows.push_back({segment.recording, segment.name, std::to_string(segment.span.begin.count()),
+                    std::to_string(segment.span.end.count())});
+  }
+  return rows;
+}
+
+}  // namespace signweave::calls

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/calls/field.h"
+#include "app/calls/json.h"
+#include "signweave/database/database.h"
+
+namespace signweave::calls {
+
+/// Finds signs, phases and annotations.
+struct QueryCall {
+  std::string text;
+  std::size_t limit = 0;        ///< 0: none
+  std::int64_t timeout_ms = 0;  ///< 0: none
+  bool explain = false;
+};
+
+template <class Visit>
+void fields(Visit& visit, QueryCall& call) {
+  visit(Field{.name = "text", .help = "the query; docs/query.md tells the language", .words = "TEXT", .required = true},
+        call.text);
+  visit(Field{.name = "limit",
+              .help = "at most so many answers",
+              .range = Range{std::int64_t{1}, std::int64_t{1'000'000'000}}},
+        call.limit);
+  visit(Field{.name = "timeout_ms",
+              .help = "give up after so many ms",
+              .words = "--timeout",
+              .range = Range{std::int64_t{1}, std::int64_t{1'000'000'000}}},
+        call.timeout_ms);
+  visit(Field{.name = "explain", .help = "show how the query would be answered"}, call.explain);
+}
+
+struct QueryReport {
+  std::vector<Segment> answers;
+  std::vector<Notice> hints;        ///< of an empty answer: what the database does not know
+  std::optional<std::string> plan;  ///< instead of answers, where it was asked for
+};
+
+/// Throws QueryError, Error{cancelled} when the time is over.
+QueryReport run(const Database& database, const QueryCall& call);
+
+nlohmann::json json_of(const QueryReport& report);
+/// As rows, the heading first.
+std::vector<std::vector<std::string>> rows_of(const QueryReport& report);
+
+}  // namespace signweave::calls

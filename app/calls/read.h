@@ -1,0 +1,66 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/calls/field.h"
+
+namespace signweave::calls {
+
+using Texts = std::map<std::string, std::string>;
+
+/// Reads a call's fields out of a JSON object or out of texts by name, such as a URL's query. What is wrong with a
+/// value, a field that is missing and one that there is not are Error{bad_input, "FIELD: …"} in one line, the last with
+/// near matches.
+class FieldReader {
+ public:
+  /// `given`: fields that are known already, such as names in a URL's path; the source must not hold them.
+  FieldReader(nlohmann::json object, const Texts& given);
+  /// Lists are separated by commas; a flag is true, false, 1, 0, or nothing, which is true.
+  FieldReader(const Texts& texts, const Texts& given);
+
+  template <class Member>
+  void operator()(const Field& field, Member& member) {
+    if (const std::optional<nlohmann::json> value = take(field)) read(field, *value, member);
+  }
+  /// Throws where something was given that no field took.
+  void finish() const;
+
+ private:
+  std::optional<nlohmann::json> take(const Field& field);
+  void read(const Field& field, const nlohmann::json& value, std::string& member) const;
+  void read(const Field& field, const nlohmann::json& value, std::vector<std::string>& member) const;
+  void read(const Field& field, const nlohmann::json& value, bool& member) const;
+  void read(const Field& field, const nlohmann::json& value, double& member) const;
+  void read(const Field& field, const nlohmann::json& value, std::int64_t& member) const;
+  void read(const Field& field, const nlohmann::json& value, std::size_t& member) const;
+  template <class Member>
+  void read(const Field& field, const nlohmann::json& value, std::optional<Member>& member) const {
+    read(field, value, member.emplace());
+  }
+
+  nlohmann::json object_;
+  const Texts* given_;
+  bool texts_ = false;  ///< every value is a text
+  bool from_given_ = false;
+  std::vector<std::string> known_;
+};
+
+/// The call that an object or texts stand for; what they do not say is as the call is by default.
+template <class Call, class Source>
+Call read_call(const Source& source, const Texts& given = {}) {
+  Call call;
+  FieldReader reader(source, given);
+  fields(reader, call);
+  reader.finish();
+  return call;
+}
+
+/// A JSON document, empty text being an empty object. Throws Error{bad_input, "body:LINE:COLUMN: …"}.
+nlohmann::json parse_body(std::string_view text);
+
+}  // namespace signweave::calls

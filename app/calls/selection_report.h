@@ -1,0 +1,18 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "signweave/synthesis/synthesizer.h"
+
+namespace signweave::calls {
+
+/// Every candidate of every place, what it costs and why. Of a synthesis that was to explain itself.
+nlohmann::json places_of(const Synthesized& made);
+
+/// What was learned of joins, and how well it tells recorded neighbours from others.
+nlohmann::json json_of(const JoinWeights& weights);
+/// The same as one line: "learned from 92 pairs of recorded neighbours, …".
+std::string describe(const JoinWeights& weights);
+
+}  // namespace signweave::calls

@@ -1,0 +1,125 @@
+#include "app/calls/synthesis_call.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "app/calls/selection_report.h"
+#include "app/calls/synthesis_report.h"
+#include "signweave/core/text.h"
+
+namespace signweave::calls {
+
+using nlohmann::json;
+
+namespace {
+
+std::optional<Milliseconds> parse_duration(const std::string& text) {
+  int ms = 0;
+  const char* end = text.data() + text.size();
+  const auto [parsed, error] = std::from_chars(text.data(), end, ms);
+  if (error != std::errc{} || parsed != end || ms < 0 || ms > 60'000) return std::nullopt;
+  return Milliseconds(ms);
+}
+
+json timings_of(const Timings& timings) {
+  const auto ms = [](Seconds seconds) { return seconds.count() * 1000.0; };
+  return {{"semantic_query_ms", ms(timings.semantic_query)},
+          {"selection_ms", ms(timings.selection)},
+          {"retrieval_ms", ms(timings.retrieval)},
+          {"concatenation_ms", ms(timings.concatenation)},
+          {"total_ms", ms(timings.total)}};
+}
+
+}  // namespace
+
+std::vector<std::string> transition_names() {
+  std::vector<std::string> names;
+  for (const TransitionMethod& method : transition_methods()) names.emplace_back(method.name);
+  return names;
+}
+
+std::string transition_help() {
+  std::string methods = "how transitions are made:";
+  for (const TransitionMethod& method : transition_methods()) {
+    methods += fmt::format("\n  {}: {}", method.name, method.description);
+  }
+  return methods;
+}
+
+std::string check_duration(const std::string& text) {
+  if (text == "corpus" || text == "fitted" || parse_duration(text)) return {};
+  return fmt::format("'{}' is neither corpus, nor fitted, nor 0 to 60000 ms", printable(text));
+}
+
+std::string check_rate(const std::string& text) {
+  const auto rate = parse_frame_rate(text);
+  if (rate && rate->hertz() >= 1 && rate->hertz() <= 2000) return {};
+  return fmt::format("'{}' is no rate of 1 to 2000 frames a second", printable(text));
+}
+
+SynthesisOptions options_of(const SynthesisChoices& choices) {
+  SynthesisOptions options;
+  options.method = find_transition_method(choices.transition);
+  options.duration = {.fixed = parse_duration(choices.duration), .fitted = choices.duration == "fitted"};
+  options.tempo = choices.tempo;
+  options.explain = choices.explain;
+  if (!choices.rate.empty()) options.rate = parse_frame_rate(choices.rate);
+  options.alignment = choices.align == "ground" ? Alignment::ground
+                      : choices.align == "none" ? Alignment::none
+                                                : Alignment::automatic;
+  return options;
+}
+
+Synthesized run(const Database& database, const SignCall& call) {
+  return synthesize(database, parse_utterance(call.utterance), options_of(call.how));
+}
+
+Synthesized run(const Database& database, const EditCall& call) {
+  Edit edit;
+  for (const std::string& text : call.replace) edit.replacements.push_back(parse_replacement(text));
+  if (!call.swap.empty()) edit.swap = parse_swap(call.swap);
+  if (edit.replacements.empty() && !edit.swap) {
+    throw Error(ErrorCode::bad_input, "what is to be changed? give replace or swap");
+  }
+  if (!edit.replacements.empty() && edit.swap) {
+    throw Error(ErrorCode::bad_input, "replace and swap exclude each other: make two edits");
+  }
+  return synthesize(database, call.recording, edit, options_of(call.how));
+}
+
+std::string title_of(const SignCall& call) {
+  return to_string(parse_utterance(call.utterance));
+}
+
+std::string title_of(const EditCall& call) {
+  return call.recording + ", edited";
+}
+
+json report_of(const Synthesized& made, const SynthesisChoices& choices) {
+  json report = describe(made.result);
+  report["timings"] = timings_of(made.timings);
+  if (choices.explain) {
+    report["places"] = places_of(made);
+    report["weights"] = json_of(made.selection.weights);
+    if (made.captured_transitions) report["captured_transitions"] = *made.captured_transitions;
+  }
+  return report;
+}
+
+SynthesisLook look_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title) {
+  SynthesisLook look;
+  look.sheet = {.title = title, .signing_space = choices.signing_space, .rig = {}};
+  if (const RecordingInfo* source = made.contents->find(made.layout_from)) {
+    look.layout = source->layout;
+    look.sheet.rig = source->rig;
+  }
+  if (look.layout) {  // of the source's file its axes, unit and orders, but not its oddities
+    look.layout->root_columns = bvh::RootColumns::declared;
+    look.layout->root_unit = look.layout->unit;
+    look.layout->frame_time.clear();
+  }
+  return look;
+}
+
+}  // namespace signweave::calls

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/calls/field.h"
+#include "app/calls/files.h"
+#include "app/calls/json.h"
+#include "signweave/synthesis/synthesizer.h"
+
+namespace signweave::calls {
+
+/// How signing is made: what `sign` and `edit` share.
+struct SynthesisChoices {
+  std::string transition = std::string(transition_methods().front().name);
+  std::string duration = "fitted";
+  double tempo = 1;
+  std::string rate;
+  std::string align = "auto";
+  bool signing_space = false;
+  bool explain = false;
+};
+
+/// The names of the transition methods, and all of them as a help text.
+std::vector<std::string> transition_names();
+std::string transition_help();
+/// Empty, or what is wrong with the value.
+std::string check_duration(const std::string& text);
+std::string check_rate(const std::string& text);
+
+template <class Visit>
+void fields(Visit& visit, SynthesisChoices& choices) {
+  visit(Field{.name = "transition", .help = transition_help(), .shows_default = true, .one_of = transition_names()},
+        choices.transition);
+  visit(Field{.name = "duration",
+              .help = "of each transition: fitted (told from what the hands have to do, where that beats the mean), "
+                      "corpus (its mean), or milliseconds",
+              .shows_default = true,
+              .or_number = true,
+              .check = check_duration},
+        choices.duration);
+  visit(
+      Field{.name = "tempo", .help = "0.25 to 4; above 1 is faster", .shows_default = true, .range = Range{0.25, 4.0}},
+      choices.tempo);
+  visit(Field{.name = "rate",
+              .help = "frames a second of the result; the highest of its sources where not given",
+              .or_number = true,
+              .check = check_rate},
+        choices.rate);
+  visit(Field{.name = "align",
+              .help = "bring signers to one place: auto (other recordings than the first or the edited one), ground "
+                      "(all), none",
+              .shows_default = true,
+              .one_of = {"auto", "ground", "none"}},
+        choices.align);
+  visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, choices.signing_space);
+  visit(Field{.name = "explain", .help = "show candidates, costs and junctions"}, choices.explain);
+}
+
+/// Makes new signing from glosses.
+struct SignCall {
+  std::string utterance;
+  SynthesisChoices how;
+};
+
+template <class Visit>
+void fields(Visit& visit, SignCall& call) {
+  visit(Field{.name = "utterance",
+              .help = "glosses separated by blanks; \"LE MANS\" quoted, MATIN#3 one token, \"NAME\"@1200..3400 a piece "
+                      "of a recording, , and . pauses",
+              .words = "UTTERANCE",
+              .required = true},
+        call.utterance);
+  fields(visit, call.how);
+}
+
+/// Changes a recording's words.
+struct EditCall {
+  std::string recording;
+  std::vector<std::string> replace;
+  std::string swap;
+  SynthesisChoices how;
+};
+
+template <class Visit>
+void fields(Visit& visit, EditCall& call) {
+  visit(Field{.name = "recording", .help = "the recording to start from", .words = "RECORDING", .required = true},
+        call.recording);
+  visit(Field{.name = "replace",
+              .help = "GLOSS[#N]=GLOSS[#M]: the N-th of this recording by the M-th of the database (or the best); may "
+                      "be given several times",
+              .several_words = true},
+        call.replace);
+  visit(Field{.name = "swap", .help = "FROM..TO,FROM..TO: two runs of signs change places"}, call.swap);
+  fields(visit, call.how);
+}
+
+/// Of checked fields.
+SynthesisOptions options_of(const SynthesisChoices& choices);
+
+/// Both throw what `synthesize` and the parsers of utterances and edits throw; an edit without a change is
+/// Error{bad_input}.
+Synthesized run(const Database& database, const SignCall& call);
+Synthesized run(const Database& database, const EditCall& call);
+std::string title_of(const SignCall& call);
+std::string title_of(const EditCall& call);
+
+/// Signs, stretches and junctions (describe), how long each step took and, where that was asked for, what there was to
+/// choose from.
+nlohmann::json report_of(const Synthesized& made, const SynthesisChoices& choices);
+
+/// How the result is written: the layout of its source's file without that file's oddities, and what heads a sheet.
+struct SynthesisLook {
+  std::optional<bvh::Layout> layout;
+  SheetWishes sheet;
+};
+SynthesisLook look_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title);
+
+}  // namespace signweave::calls

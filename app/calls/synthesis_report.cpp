@@ -1,0 +1,58 @@
+#include "app/calls/synthesis_report.h"
+
+#include "app/calls/json.h"
+
+namespace signweave::calls {
+
+using nlohmann::json;
+
+json describe(const Synthesis& synthesis) {
+  json signs = json::array();
+  for (const PlacedSign& placed : synthesis.signs) {
+    json phases = json::array();
+    for (const Phase& phase : placed.sign.phases) {
+      json one = span_json(phase.span);
+      one["kind"] = name_of(phase.kind);
+      phases.push_back(std::move(one));
+    }
+    json sign = span_json(placed.sign.span);
+    sign["gloss"] = placed.sign.gloss;
+    sign["recording"] = synthesis.stretches[placed.stretch].recording;
+    sign["recorded"] = span_json(placed.recorded);
+    sign["phases"] = std::move(phases);
+    signs.push_back(std::move(sign));
+  }
+  json stretches = json::array();
+  for (const Placed& placed : synthesis.stretches) {
+    stretches.push_back({{"recording", placed.recording},
+                         {"frames", frames_json(placed.output)},
+                         {"kept_frames", frames_json(placed.core)},
+                         {"kept_from_recorded_frame", placed.first_frame},
+                         {"recorded_frames_per_frame", placed.step}});
+  }
+  json junctions = json::array();
+  for (const Junction& junction : synthesis.junctions) {
+    json parts = json::object();
+    for (const Timed part : kAllTimed) {
+      const TransitionCut& cut = junction.cuts[static_cast<std::size_t>(part)];
+      parts[std::string(name_of(part))] = {{"retraction_frames", cut.retraction_frames},
+                                           {"preparation_frames", cut.preparation_frames},
+                                           {"waits", cut.waits}};
+    }
+    junctions.push_back({{"from", junction.from},
+                         {"to", junction.to},
+                         {"method", junction.method},
+                         {"frames", frames_json(junction.frames)},
+                         {"retraction_frames", junction.cut.retraction_frames},
+                         {"preparation_frames", junction.cut.preparation_frames},
+                         {"blend_frames", junction.cut.blend_frames},
+                         {"parts", std::move(parts)}});
+  }
+  return {{"frames", synthesis.motion.frame_count()},
+          {"frames_per_second", synthesis.motion.rate().hertz()},
+          {"signs", std::move(signs)},
+          {"stretches", std::move(stretches)},
+          {"junctions", std::move(junctions)}};
+}
+
+}  // namespace signweave::calls

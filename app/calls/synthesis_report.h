@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "signweave/synthesis/concatenate.h"
+
+namespace signweave::calls {
+
+/// Signs, stretches and junctions of a synthesis, without its poses.
+nlohmann::json describe(const Synthesis& synthesis);
+
+}  // namespace signweave::calls

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "app/calls/field.h"
+
+namespace signweave::cli {
+
+/// Makes an option of the command line of each field of a call.
+class Binder {
+ public:
+  /// `before` is called with the name of each field before its option is added: the place for options that the call
+  /// does not have, such as where the result is written.
+  Binder(CLI::App& verb, std::function<void(std::string_view)> before) : verb_(verb), before_(std::move(before)) {}
+
+  template <class Member>
+  void operator()(const calls::Field& field, Member& member) {
+    if (before_) before_(field.name);
+    const std::string words = words_of(field);
+    if constexpr (std::is_same_v<Member, bool>) {
+      verb_.add_flag(words, member, field.help);
+    } else {
+      CLI::Option* option = verb_.add_option(words, member, field.help);
+      option->required(field.required);
+      if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
+        if (words.starts_with('-') && !field.several_words) option->allow_extra_args(false);
+      }
+      if (field.range) add_range(*option, *field.range);
+      if (!field.one_of.empty()) option->check(CLI::IsMember(field.one_of));
+      if (field.check != nullptr) {
+        option->check([check = field.check](const std::string& text) { return check(text); });
+      }
+      if (!field.type_name.empty()) option->type_name(std::string(field.type_name));
+      if (field.shows_default) option->capture_default_str();
+    }
+  }
+
+  /// "--offset-ms", or what the field says.
+  static std::string words_of(const calls::Field& field) {
+    if (!field.words.empty()) return std::string(field.words);
+    std::string words = fmt::format("--{}", field.name);
+    std::replace(words.begin(), words.end(), '_', '-');
+    return words;
+  }
+
+ private:
+  static void add_range(CLI::Option& option, const calls::Range& range) {
+    std::visit([&](auto least) { option.check(CLI::Range(least, std::get<decltype(least)>(range.most))); },
+               range.least);
+  }
+
+  CLI::App& verb_;
+  std::function<void(std::string_view)> before_;
+};
+
+/// Every field of a call as an option of a verb; both must live until the words are parsed.
+template <class Call>
+void bind(CLI::App& verb, Call& call, std::function<void(std::string_view)> before = {}) {
+  Binder binder(verb, std::move(before));
+  fields(binder, call);
+}
+
+/// The option -o that `sign`, `edit` and `export` share.
+void add_outputs(CLI::App& verb, std::vector<std::string>& outputs);
+
+}  // namespace signweave::cli

@@ -1,0 +1,105 @@
+#include "app/cli/delivery.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <ostream>
+
+#include "app/calls/table.h"
+#include "app/cli/bind.h"
+#include "app/cli/selection_report.h"
+
+namespace signweave::cli {
+namespace {
+
+double ms_of(Seconds seconds) {
+  return seconds.count() * 1000.0;
+}
+
+/// What a part of the body keeps of retraction and preparation.
+std::string part_of(const TransitionCut& cut) {
+  return fmt::format("{}+{}{}", cut.retraction_frames, cut.preparation_frames, cut.waits ? " waits" : "");
+}
+
+/// How the transitions were timed, where the corpus tells it.
+std::string timing_of(const DurationFit& fit) {
+  const auto ms = [](Seconds time) { return std::llround(ms_of(time)); };
+  if (fit.count == 0) return {};
+  if (fit.fitted_error == Seconds(0)) {
+    return fmt::format("timed by the {} of {} transitions, {} ms\n", fit.median ? "median" : "mean", fit.count,
+                       ms(fit.mean));
+  }
+  return fmt::format("timed {} {} transitions: cross-validated, it errs by {} ms and {} by {} ms\n",
+                     fit.weights.empty() ? "by the mean of" : "by what the hands have to do, fitted on", fit.count,
+                     ms(fit.weights.empty() ? fit.mean_error : fit.fitted_error),
+                     fit.weights.empty() ? "a fit" : "the mean",
+                     ms(fit.weights.empty() ? fit.fitted_error : fit.mean_error));
+}
+
+/// What the method had to go by, where it asks for it.
+std::string captured_of(const Synthesized& made) {
+  if (!made.captured_transitions) return {};
+  return fmt::format("made after {}\n", counted(*made.captured_transitions, "captured transition"));
+}
+
+void print_junctions(const Synthesized& made, Io& io) {
+  std::vector<std::vector<std::string>> rows = {
+      {"junction", "from", "to", "method", "ms", "m_i", "m_j", "p", "body", "left", "right"}};
+  const FrameClock clock{made.result.motion.rate().frame_time(), Seconds(0)};
+  for (std::size_t i = 0; i < made.result.junctions.size(); ++i) {
+    const Junction& junction = made.result.junctions[i];
+    rows.push_back({std::to_string(i + 1), junction.from, junction.to, junction.method,
+                    std::to_string(span_of(junction.frames, clock).duration().count()),
+                    std::to_string(junction.cut.retraction_frames), std::to_string(junction.cut.preparation_frames),
+                    std::to_string(junction.cut.blend_frames), part_of(junction.cuts[0]), part_of(junction.cuts[1]),
+                    part_of(junction.cuts[2])});
+  }
+  if (rows.size() == 1) return;
+  io.out << '\n' << format_table(rows) << timing_of(made.durations) << captured_of(made);
+}
+
+}  // namespace
+
+void add_outputs(CLI::App& verb, std::vector<std::string>& outputs) {
+  verb.add_option("-o,--output", outputs, "file to write: " + writable_endings() + "; may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->check([](const std::string& path) { return check_output(path); });
+}
+
+void add_timings(CLI::App& verb, Delivery& delivery) {
+  verb.add_flag("--timings", delivery.timings, "show how long each step took");
+}
+
+void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, const Delivery& delivery,
+             const std::string& title, Io& io) {
+  const calls::SynthesisLook look = look_of(made, choices, title);
+  write_synthesis(delivery.outputs, made, look.layout, look.sheet);
+  print_notices(io, made.result.notices);
+  for (const auto& [name, value] : made.result.declarations) io.err << "signweave: " << value << '\n';
+  const Synthesis& result = made.result;
+  if (io.json) {
+    nlohmann::json report = report_of(made, choices);
+    report["files"] = delivery.outputs;
+    io.out << text_of(report);
+    return;
+  }
+  if (choices.explain) {
+    print_selection(made, io);
+    print_junctions(made, io);
+  }
+  io.out << fmt::format("{}, {}, {:.2f} s at {} frames a second\n", counted(result.signs.size(), "sign"),
+                        counted(result.junctions.size(), "junction"), result.motion.duration().count(),
+                        to_string(result.motion.rate()));
+  if (delivery.timings) {
+    const Timings& t = made.timings;
+    io.out << format_table(
+        {{"semantic query ms", "selection ms", "retrieval ms", "concatenation ms", "total ms", "frames"},
+         {fmt::format("{:.3f}", ms_of(t.semantic_query)), fmt::format("{:.3f}", ms_of(t.selection)),
+          fmt::format("{:.3f}", ms_of(t.retrieval)), fmt::format("{:.3f}", ms_of(t.concatenation)),
+          fmt::format("{:.3f}", ms_of(t.total)), std::to_string(result.motion.frame_count())}});
+  }
+}
+
+}  // namespace signweave::cli

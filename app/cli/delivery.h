@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/calls/synthesis_call.h"
+#include "app/cli/command.h"
+
+namespace signweave::cli {
+
+/// Where `sign` and `edit` put what they made.
+struct Delivery {
+  std::vector<std::string> outputs;
+  bool timings = false;
+};
+
+void add_timings(CLI::App& verb, Delivery& delivery);
+
+/// Writes the files that were asked for, and what was asked to be told. `title` heads a contact sheet.
+void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, const Delivery& delivery,
+             const std::string& title, Io& io);
+
+}  // namespace signweave::cli

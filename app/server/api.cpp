@@ -1,28 +1,153 @@
 #include "app/server/api.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+
+#include "app/server/routes.h"
+#include "signweave/core/text.h"
+
 namespace signweave::server {
+namespace {
 
-// The thinnest path: the list of databases.
-
-struct Api::State {
-  ServedDatabases& databases;
-};
-Api::Api(ServedDatabases& databases, ApiLimits, std::filesystem::path) : state_(new State{databases}) {}
-Api::~Api() = default;
-bool Api::takes_file(const ApiRequest&) const {
-  return false;
-}
-std::string Api::openapi() {
-  return "{}";
-}
-ApiResponse Api::answer(ApiRequest request) {
-  if (request.path == std::vector<std::string>{"databases"}) {
-    std::string names;
-    for (const auto& one : state_->databases.all()) names += (names.empty() ? "\"" : ", \"") + one->name() + "\"";
-    return {
-        .status = 200, .content_type = "application/json", .headers = {}, .body = "{\"databases\": [" + names + "]}\n"};
+/// What no client needs to know: where the server keeps things.
+std::string redacted(const ApiState& state, std::string text) {
+  const auto replace = [&](const std::string& folder, const std::string& with) {
+    if (folder.empty()) return;
+    for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos; at += with.size()) {
+      text.replace(at, folder.size(), with);
+    }
+  };
+  replace((state.scratch / "").string(), "");
+  replace(state.scratch.string(), "scratch");
+  for (const auto& one : state.databases.all()) {
+    replace((one->database().folder() / "").string(), "");
+    replace(one->database().folder().string(), one->name());
   }
-  return {.status = 404, .content_type = "application/json", .headers = {}, .body = "{\"error\": \"no such call\"}\n"};
+  return text;
+}
+
+std::string path_text(const std::vector<std::string>& path) {
+  return fmt::format("/api/{}", fmt::join(path, "/"));
+}
+
+/// For a wrong path: those of as many segments, with the names of the request in them.
+std::vector<std::string> paths_like(const std::vector<std::string>& path) {
+  std::vector<std::string> like;
+  for (const Route& route : routes()) {
+    std::vector<std::string> filled;
+    for (const std::string_view segment : segments_of(route.path)) {
+      const bool named = segment.starts_with('{') && filled.size() < path.size();
+      filled.push_back(named ? path[filled.size()] : std::string(segment));
+    }
+    if (filled.size() != path.size()) continue;
+    std::string text = path_text(filled);
+    if (std::ranges::find(like, text) == like.end()) like.push_back(std::move(text));
+  }
+  return like;
+}
+
+/// The route of a request. Throws StatusError 405 with what is allowed, Error{not_found} with near matches.
+const Route& route_of(const ApiRequest& request, std::string& allowed) {
+  for (const Route& route : routes()) {
+    if (!match(route, request.path)) continue;
+    if (route.method == request.method) return route;
+    allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", route.method);
+  }
+  if (!allowed.empty()) {
+    throw StatusError(
+        405, "method_not_allowed",
+        fmt::format("{} takes {}, not {}", printable(path_text(request.path)), allowed, printable(request.method)));
+  }
+  const std::string path = path_text(request.path);
+  throw Error(ErrorCode::not_found, fmt::format("there is nothing at {}{}; /api/openapi.json lists what there is",
+                                                printable(path), did_you_mean(path, paths_like(request.path))));
+}
+
+/// What the route says of every request of its kind.
+void check_request(const Call& call) {
+  const Route& route = call.route;
+  if (route.source != Source::query) calls::FieldReader(call.request.query, {}).finish();
+  const bool has_body = !call.request.body.empty() && !route.takes_file;
+  if (has_body && route.source != Source::body) {
+    throw Error(ErrorCode::bad_input, fmt::format("{} {} takes no body", route.method, route.path));
+  }
+  const std::string type = fold_case(trimmed(call.request.content_type.substr(0, call.request.content_type.find(';'))));
+  if (has_body && type != "application/json") {
+    throw StatusError(
+        415, "unsupported_media_type",
+        fmt::format("the body must be JSON: send Content-Type: application/json, not '{}'", printable(type)));
+  }
+  if (route.changes && !call.database().writable()) {
+    throw StatusError(403, "read_only",
+                      fmt::format("'{}' is served for reading only; serve it with --writable", call.database().name()));
+  }
+}
+
+ApiResponse answer_call(ApiState& state, const ApiRequest& request, std::string& allowed) {
+  const Route& route = route_of(request, allowed);
+  Call call{.state = state, .request = request, .route = route, .names = *match(route, request.path)};
+  check_request(call);
+  ApiResponse response = route.handle(call);
+  if (response.status == 200 && route.status != 200) response.status = route.status;
+  // In headers, for files and lists have no place for them. Long lists would be refused by clients.
+  if (!call.declarations.empty()) {
+    response.headers.emplace_back("Signweave-Declarations", header_json(call.declarations));
+  }
+  if (!call.notices.empty()) {
+    nlohmann::json notices = nlohmann::json::array();
+    for (const Notice& notice : call.notices) {
+      if (notices.size() == 10) break;
+      notices.push_back({{"where", redacted(state, notice.where)}, {"text", redacted(state, notice.text)}});
+    }
+    response.headers.emplace_back("Signweave-Notices", header_json(notices));
+  }
+  return response;
+}
+
+}  // namespace
+
+Api::Api(ServedDatabases& databases, ApiLimits limits, std::filesystem::path scratch) {
+  auto* state = new State{{.databases = databases,
+                           .limits = limits,
+                           .scratch = scratch,
+                           .uploads = {scratch / "uploads", limits.uploads, limits.upload_bytes, limits.upload_idle},
+                           .jobs = {[this](std::string text) { return redacted(*state_, std::move(text)); },
+                                    [this] { state_->uploads.sweep(); }}}};
+  state_.reset(state);
+  state_->jobs.begin();
+}
+
+Api::~Api() = default;
+
+bool Api::takes_file(const ApiRequest& request) const {
+  return std::ranges::any_of(routes(), [&](const Route& route) {
+    return route.takes_file && route.method == request.method && match(route, request.path);
+  });
+}
+
+ApiResponse Api::answer(ApiRequest request) {
+  const auto redact = [this](std::string text) { return redacted(*state_, std::move(text)); };
+  std::string allowed;
+  ApiResponse response;
+  try {
+    response = answer_call(*state_, request, allowed);
+  } catch (const StatusError& error) {
+    response = error_answer(error, redact);
+    if (error.status() == 405) response.headers.emplace_back("Allow", allowed);
+  } catch (const Error& error) {
+    response = error_answer(error, redact);
+  } catch (const std::bad_alloc&) {
+    response = error_answer(StatusError(503, "no_memory", "not enough memory for this; ask for less"), redact);
+  } catch (const std::exception& error) {
+    response = error_answer(Error(ErrorCode::io, error.what()), redact);
+  }
+  if (!request.body_file.empty()) {  // where it was not taken
+    std::error_code ignored;
+    std::filesystem::remove(request.body_file, ignored);
+  }
+  return response;
 }
 
 }  // namespace signweave::server

@@ -18,6 +18,7 @@ struct ApiRequest {
   std::vector<std::string> path;             ///< decoded segments after /api: {"databases", "demo", "query"}
   std::map<std::string, std::string> query;  ///< decoded; of a name that comes twice the last
   std::string content_type;
+  std::string accept;               ///< the Accept header: of sign, edit and exports it may name the file's type
   std::string body;                 ///< whole, within the server's limit
   std::filesystem::path body_file;  ///< of an upload: where the server has put the body instead; the call takes it away
 };
@@ -36,11 +37,12 @@ struct ApiLimits {
   std::size_t glosses = 10'000;                ///< of one utterance
   std::uint64_t upload_bytes = 2'000'000'000;  ///< of all files of one upload
   std::size_t uploads = 16;                    ///< open at once
+  Seconds upload_idle{3'600};                  ///< an upload that nobody touches goes away after so long
 };
 
-/// Answers every call under /api/ but the WebSocket. Never throws: a fault is a JSON body {"error": …} with its status.
-/// Calls may come from several threads at once; each takes as long as its work does, so they must not run on a thread
-/// that streams. Imports run on a thread of the Api's own.
+/// Answers every call under /api/ but the WebSocket: routes.h has the table, docs/http.md the description. Never
+/// throws: a fault is a JSON body {"error": …} with its status. Calls may come from several threads at once; each takes
+/// as long as its work does, so they must not run on a thread that streams. Imports run on a thread of the Api's own.
 class Api {
  public:
   /// `scratch`: a folder for uploads, which must exist; what is left there is removed at the end.

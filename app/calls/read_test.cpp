@@ -1,0 +1,105 @@
+#include "app/calls/read.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/calls/change_calls.h"
+#include "app/calls/import_call.h"
+#include "app/calls/query_call.h"
+#include "app/calls/schema.h"
+#include "app/calls/synthesis_call.h"
+#include "signweave/core/error.h"
+
+namespace signweave::calls {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+template <class Call, class Source>
+std::string fault_of(const Source& source) {
+  try {
+    read_call<Call>(source);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ReadCall, WhatIsNotGivenIsAsByDefault) {
+  const SignCall call = read_call<SignCall>(json{{"utterance", "VANNES"}});
+  EXPECT_EQ(call.utterance, "VANNES");
+  EXPECT_EQ(call.how.transition, transition_methods().front().name);
+  EXPECT_EQ(call.how.tempo, 1);
+}
+
+TEST(ReadCall, JsonAndTextsGiveTheSame) {
+  const ImportCall from_json = read_call<ImportCall>(
+      json{{"sign_tier", {"Gloss:right", "Gloss:left"}}, {"offset_ms", -12.5}, {"mirror", true}, {"unit", 0.01}});
+  const ImportCall from_texts = read_call<ImportCall>(
+      Texts{{"sign_tier", "Gloss:right,Gloss:left"}, {"offset_ms", "-12.5"}, {"mirror", ""}, {"unit", "0.01"}});
+  for (const ImportCall& call : {from_json, from_texts}) {
+    EXPECT_EQ(call.sign_tiers, (std::vector<std::string>{"Gloss:right", "Gloss:left"}));
+    EXPECT_EQ(call.offset_ms, -12.5);
+    EXPECT_TRUE(call.reading.mirror);
+    EXPECT_EQ(call.reading.unit, "0.01");
+  }
+}
+
+TEST(ReadCall, ANumberMayStandForATextOnlyWhereTheFieldSaysSo) {
+  EXPECT_EQ(read_call<SignCall>(json{{"utterance", "A"}, {"duration", 300}}).how.duration, "300");
+  EXPECT_EQ(read_call<SignCall>(json{{"utterance", "A"}, {"rate", 29.97}}).how.rate, "29.97");
+  EXPECT_EQ(fault_of<SignCall>(json{{"utterance", 3}}), "utterance: expected a text, not 3");
+}
+
+TEST(ReadCall, FaultsNameTheField) {
+  EXPECT_THAT(fault_of<QueryCall>(json{{"limit", 3}}), HasSubstr("text: missing"));
+  EXPECT_THAT(fault_of<QueryCall>(json{{"text", "x"}, {"limit", -1}}),
+              HasSubstr("limit: expected a whole number from 1"));
+  EXPECT_THAT(fault_of<QueryCall>(json{{"text", "x"}, {"limit", 1.5}}), HasSubstr("not 1.5"));
+  EXPECT_THAT(fault_of<QueryCall>(json{{"text", "x"}, {"timeout_ms", 18446744073709551615u}}),
+              HasSubstr("timeout_ms: expected"));
+  EXPECT_THAT(fault_of<QueryCall>(json{{"text", "x"}, {"explain", 1}}), HasSubstr("expected true or false, not 1"));
+  EXPECT_THAT(fault_of<QueryCall>(json{{"text", nullptr}}), HasSubstr("expected a text, not null"));
+  EXPECT_THAT(fault_of<SignCall>(json{{"utterance", "A"}, {"tempo", 5}}),
+              HasSubstr("tempo: expected a number from 0.25"));
+  EXPECT_THAT(fault_of<SignCall>(json{{"utterance", "A"}, {"duration", "soon"}}),
+              HasSubstr("duration: 'soon' is neither"));
+  EXPECT_THAT(fault_of<RelayoutCall>(json{{"recordings", "meteo"}}), HasSubstr("recordings: expected a list of texts"));
+  EXPECT_THAT(fault_of<RelayoutCall>(json{{"compact", 1000}}), HasSubstr("compact: '1000' is no distance"));
+  EXPECT_THAT(fault_of<RelayoutCall>(json{{"acces_mode", "full"}}), HasSubstr("did you mean access_mode?"));
+}
+
+TEST(ReadCall, WhatThePathSaysIsNotTakenFromElsewhere) {
+  EXPECT_EQ(read_call<RemoveCall>(Texts{}, Texts{{"recording", "meteo"}}).recording, "meteo");
+  EXPECT_THROW(read_call<RemoveCall>(Texts{{"recording", "x"}}, Texts{{"recording", "meteo"}}), Error);
+}
+
+TEST(ParseBody, FaultsHaveLineAndColumn) {
+  const auto fault = [](std::string_view text) -> std::string {
+    try {
+      parse_body(text);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(fault("{\"é\": 1,\n \"b\" 2}"), HasSubstr("body:2:6: this is no JSON"));
+  EXPECT_THAT(fault("{\"a\": "), HasSubstr("it ends too early"));
+  EXPECT_THAT(fault("{\"a\": 1e999}"), HasSubstr("out of range"));
+  EXPECT_EQ(parse_body(" \n"), json::object());
+}
+
+TEST(SchemaOfCall, TellsTypesBoundsAndDefaults) {
+  const SchemaWriter sign = schema_of_call<SignCall>();
+  EXPECT_EQ(sign.required, std::vector<std::string>{"utterance"});
+  EXPECT_EQ(sign.properties["tempo"]["type"], "number");
+  EXPECT_EQ(sign.properties["tempo"]["maximum"], 4.0);
+  EXPECT_EQ(sign.properties["tempo"]["default"], 1.0);
+  EXPECT_EQ(sign.properties["duration"]["type"], (json{"string", "number"}));
+  EXPECT_EQ(sign.properties["align"]["enum"], (json{"auto", "ground", "none"}));
+  EXPECT_EQ(schema_of_call<ImportCall>().properties["sign_tier"]["items"]["type"], "string");
+}
+
+}  // namespace
+}  // namespace signweave::calls

@@ -1,0 +1,139 @@
+#include "app/server/answer.h"
+
+#include <fmt/format.h>
+
+#include "signweave/core/text.h"
+#include "signweave/query/parse.h"
+
+namespace signweave::server {
+namespace {
+
+using nlohmann::json;
+
+constexpr FileFormat kFormats[] = {
+    {"bvh", ".bvh", "text/plain; charset=utf-8"},
+    {"glb", ".glb", "model/gltf-binary"},
+    {"gltf", ".gltf", "model/gltf+json"},
+    {"eaf", ".eaf", "application/xml"},
+    {"json", ".json", "application/json"},
+    {"csv", ".csv", "text/csv; charset=utf-8"},
+    {"face.csv", ".face.csv", "text/csv; charset=utf-8"},
+    {"svg", ".svg", "image/svg+xml"},
+};
+
+std::string_view name_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::bad_input:
+      return "bad_input";
+    case ErrorCode::not_found:
+      return "not_found";
+    case ErrorCode::already_exists:
+      return "already_exists";
+    case ErrorCode::conflict:
+      return "conflict";
+    case ErrorCode::corrupt:
+      return "corrupt";
+    case ErrorCode::unsupported:
+      return "unsupported";
+    case ErrorCode::io:
+      return "io";
+    case ErrorCode::cancelled:
+      return "cancelled";
+  }
+  return "io";
+}
+
+/// One line, its options named as the API's fields are: "--replace-motion" is "replace_motion".
+std::string message_of(const std::string& text) {
+  std::string line;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (static_cast<unsigned char>(c) < 0x20) {
+      line += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+      continue;
+    }
+    const bool option = text.compare(i, 2, "--") == 0 && (i == 0 || text[i - 1] == ' ' || text[i - 1] == '(') &&
+                        i + 2 < text.size() && text[i + 2] >= 'a' && text[i + 2] <= 'z';
+    if (!option) {
+      line += c;
+      continue;
+    }
+    for (i += 2; i < text.size() && ((text[i] >= 'a' && text[i] <= 'z') || text[i] == '-'); ++i) {
+      line += text[i] == '-' ? '_' : text[i];
+    }
+    --i;
+  }
+  return line;
+}
+
+}  // namespace
+
+StatusError too_large(const std::string& text) {
+  return {413, "too_large", text};
+}
+
+int status_of(const Error& error) {
+  if (const auto* own = dynamic_cast<const StatusError*>(&error)) return own->status();
+  switch (error.code()) {
+    case ErrorCode::bad_input:
+      return 400;
+    case ErrorCode::not_found:
+      return 404;
+    case ErrorCode::already_exists:
+    case ErrorCode::conflict:
+      return 409;
+    case ErrorCode::unsupported:
+      return 422;
+    case ErrorCode::cancelled:
+      return 503;
+    case ErrorCode::corrupt:
+    case ErrorCode::io:
+      return 500;
+  }
+  return 500;
+}
+
+json error_json(const Error& error, const std::function<std::string(std::string)>& redact) {
+  const auto* own = dynamic_cast<const StatusError*>(&error);
+  json one = {{"code", own != nullptr ? std::string_view(own->name()) : name_of(error.code())},
+              {"message", message_of(redact(error.what()))}};
+  if (const auto* query = dynamic_cast<const QueryError*>(&error)) {
+    one["line"] = query->line;
+    one["column"] = query->column;
+    one["caret"] = query->caret;
+  }
+  return one;
+}
+
+ApiResponse error_answer(const Error& error, const std::function<std::string(std::string)>& redact) {
+  return json_answer(json{{"error", error_json(error, redact)}}, status_of(error));
+}
+
+const FileFormat& file_format(std::string_view name) {
+  std::vector<std::string> known;
+  for (const FileFormat& format : kFormats) {
+    if (format.name == name) return format;
+    known.emplace_back(format.name);
+  }
+  throw Error(ErrorCode::bad_input, fmt::format("no format '{}'{}", printable(name), did_you_mean(name, known)));
+}
+
+ApiResponse file_answer(const FileFormat& format, const std::string& stem, std::string body) {
+  std::string name;
+  for (const char c : stem.substr(0, 100)) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') || (byte >= 'a' && byte <= 'z') ||
+                       byte == '-' || byte == '_' || byte == '.';
+    name += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return {.status = 200,
+          .content_type = std::string(format.media_type),
+          .headers = {{"Content-Disposition", fmt::format("attachment; filename*=UTF-8''{}{}", name, format.ending)}},
+          .body = std::move(body)};
+}
+
+std::string header_json(const json& document) {
+  return document.dump(-1, ' ', true, json::error_handler_t::replace);
+}
+
+}  // namespace signweave::server

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "app/server/api.h"
+#include "signweave/core/error.h"
+
+namespace signweave::server {
+
+/// A fault that has an HTTP status of its own: limits, methods, media types.
+class StatusError : public Error {
+ public:
+  StatusError(int status, std::string name, const std::string& text)
+      : Error(ErrorCode::bad_input, text), status_(status), name_(std::move(name)) {}
+  int status() const noexcept { return status_; }
+  const std::string& name() const noexcept { return name_; }
+
+ private:
+  int status_;
+  std::string name_;
+};
+
+StatusError too_large(const std::string& text);
+
+/// 400 bad_input, 404 not_found, 409 already_exists and conflict, 422 unsupported, 500 corrupt and io, 503 cancelled.
+int status_of(const Error& error);
+/// {"code", "message"} in one line; of a query also "line", "column", "caret". `redact` takes folders out of texts.
+nlohmann::json error_json(const Error& error, const std::function<std::string(std::string)>& redact);
+
+ApiResponse error_answer(const Error& error, const std::function<std::string(std::string)>& redact);
+
+template <class Json>
+ApiResponse json_answer(const Json& document, int status = 200) {
+  return {.status = status,
+          .content_type = "application/json",
+          .headers = {},
+          .body = document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n'};
+}
+
+/// What kind of file a format's name stands for: "bvh" -> ".bvh".
+struct FileFormat {
+  std::string_view name;
+  std::string_view ending;
+  std::string_view media_type;
+};
+/// Error{bad_input} where there is none of this name.
+const FileFormat& file_format(std::string_view name);
+
+/// A file, to be saved under `stem` with the format's ending.
+ApiResponse file_answer(const FileFormat& format, const std::string& stem, std::string body);
+
+/// A JSON text in ASCII, for a header.
+std::string header_json(const nlohmann::json& document);
+
+}  // namespace signweave::server

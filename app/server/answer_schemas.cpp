@@ -1,0 +1,191 @@
+#include "app/server/openapi.h"
+
+namespace signweave::server {
+namespace {
+
+// JSON Schema 2020-12, each answer by its name in the table of routes. What may be missing is not in `required`; more
+// properties than are told may come with a later version.
+constexpr const char* kDatabaseAnswers = R"json({
+  "Databases": {"type": "object", "required": ["databases"], "properties": {
+    "databases": {"type": "array", "items": {"type": "object", "required": ["name", "writable", "recordings"],
+      "properties": {"name": {"type": "string"}, "writable": {"type": "boolean"}, "recordings": {"type": "integer"}}}}}},
+  "Database": {"type": "object",
+    "required": ["engine", "engine_version", "entries", "bytes_on_disk", "layout", "usage", "access_mode", "compact_mm",
+                 "weights", "recordings"],
+    "properties": {
+      "engine": {"type": "string"}, "engine_version": {"type": "string"}, "entries": {"type": "integer"},
+      "bytes_on_disk": {"type": "integer"}, "layout": {"type": "integer"}, "access_mode": {"type": "string"},
+      "compact_mm": {"type": "number", "description": "0: motions are kept to the bit"},
+      "weights": {"$ref": "#/components/schemas/Weights"},
+      "usage": {"type": "array", "items": {"type": "object", "required": ["kind", "entries", "bytes"],
+        "properties": {"kind": {"type": "string"}, "entries": {"type": "integer"}, "bytes": {"type": "integer"}}}},
+      "recordings": {"type": "array", "items": {"type": "object",
+        "required": ["name", "signer", "motion_file", "annotation_file", "defects", "notices"],
+        "properties": {
+          "name": {"type": "string"}, "signer": {"type": "string"}, "motion_file": {"type": "string"},
+          "annotation_file": {"type": "string"}, "face_file": {"type": "string"}, "defects": {"type": "integer"},
+          "notices": {"$ref": "#/components/schemas/Notices"}, "frames": {"type": "integer"},
+          "frames_per_second": {"type": "number"}, "joints": {"type": "integer"},
+          "tracks": {"type": "array", "items": {"type": "string"}}, "access_mode": {"type": "string"},
+          "compact_mm": {"type": "number"}, "packets": {"type": "integer"}}}}}},
+  "Weights": {"type": "object", "required": ["join", "target", "speed_limit", "pairs", "comparisons", "folds", "wins",
+    "default_wins"], "properties": {
+      "join": {"type": "object", "additionalProperties": {"type": "number"}},
+      "target": {"type": "object", "additionalProperties": {"type": "number"}}, "speed_limit": {"type": "number"},
+      "pairs": {"type": "integer"}, "comparisons": {"type": "integer"}, "folds": {"type": "integer"},
+      "wins": {"type": "number"}, "default_wins": {"type": "number"}}},
+  "Recording": {"type": "object",
+    "required": ["recording", "signer", "motion_file", "face_file", "annotation_file", "phases", "phases_measured",
+                 "not_measured", "notices"],
+    "properties": {
+      "recording": {"type": "string"}, "signer": {"type": "string"}, "motion_file": {"type": "string"},
+      "face_file": {"type": "string"}, "annotation_file": {"type": "string"}, "frames": {"type": "integer"},
+      "frames_per_second": {"type": "number"}, "seconds": {"type": "number"}, "joints": {"type": "integer"},
+      "scalar_tracks": {"type": "integer"}, "clock_origin_ms": {"type": "number"}, "phases": {"type": "integer"},
+      "phases_measured": {"type": "integer"}, "not_measured": {"type": "string"},
+      "shoulder_width_m": {"type": "number"}, "notices": {"$ref": "#/components/schemas/Notices"},
+      "rig": {"type": "object", "required": ["convention", "sides_swapped", "parts", "notices"], "properties": {
+        "convention": {"type": "string"}, "sides_swapped": {"type": "boolean"},
+        "parts": {"type": "object", "additionalProperties": {"type": "object",
+          "required": ["joint", "index", "evidence", "confidence"], "properties": {
+            "joint": {"type": "string"}, "index": {"type": "integer"}, "evidence": {"type": "string"},
+            "confidence": {"type": "number"}, "offset": {"type": "array", "items": {"type": "number"}}}}},
+        "notices": {"type": "array", "items": {"type": "string"}}}},
+      "defects": {"type": "array", "items": {"type": "object", "required": ["kind", "joint", "value", "text"],
+        "properties": {"kind": {"type": "string"}, "joint": {"type": ["string", "null"]}, "value": {"type": "number"},
+          "text": {"type": "string"}, "first_frame": {"type": "integer"}, "end_frame": {"type": "integer"}}}}}},
+  "Check": {"type": "object", "required": ["recordings", "faults"], "properties": {
+    "recordings": {"type": "integer"}, "faults": {"type": "array", "items": {"type": "string"}}}},
+  "FileFormats": {"type": "array", "items": {"type": "object", "required": ["ending", "reads", "writes", "holds", "lost"],
+    "properties": {"ending": {"type": "string"}, "reads": {"type": "boolean"}, "writes": {"type": "boolean"},
+      "holds": {"type": "string"}, "lost": {"type": "string"}}}},
+  "OpenApi": {"type": "object", "required": ["openapi", "info", "paths"], "properties": {
+    "openapi": {"type": "string"}, "info": {"type": "object"}, "paths": {"type": "object"}}},
+  "Notices": {"type": "array", "items": {"type": "object", "required": ["where", "text"], "properties": {
+    "where": {"type": "string"}, "text": {"type": "string"}}}},
+  "Declarations": {"type": "object", "additionalProperties": {"type": "string"},
+    "description": "what the recordings say of themselves: whoever shows the answer must show this"},
+  "Fault": {"type": "object", "required": ["error"], "properties": {"error": {"type": "object",
+    "required": ["code", "message"], "properties": {"code": {"type": "string"},
+      "message": {"type": "string", "description": "one line: what is wrong, and what would mend it"},
+      "line": {"type": "integer"}, "column": {"type": "integer"},
+      "caret": {"type": "string", "description": "of a query: its line, and a caret under the place"}}}}}
+})json";
+
+constexpr const char* kSearchAnswers = R"json({
+  "Answers": {"oneOf": [
+    {"type": "array", "items": {"type": "object", "required": ["recording", "name", "begin_ms", "end_ms", "parts"],
+      "properties": {"recording": {"type": "string"}, "name": {"type": "string"}, "begin_ms": {"type": "integer"},
+        "end_ms": {"type": "integer"}, "parts": {"type": "array", "items": {"type": "object",
+          "required": ["name", "begin_ms", "end_ms"], "properties": {"name": {"type": "string"},
+            "begin_ms": {"type": "integer"}, "end_ms": {"type": "integer"}}}}}}},
+    {"type": "object", "required": ["plan"], "properties": {"plan": {"type": "string"}}}]},
+  "Distribution": {"type": "object", "required": ["count"], "properties": {
+    "count": {"type": "integer"}, "mean": {"type": "number"}, "sd": {"type": "number"},
+    "mean_95": {"type": ["array", "null"], "items": {"type": "number"}}, "least": {"type": "number"},
+    "most": {"type": "number"}, "quantiles": {"type": "object", "additionalProperties": {"type": "number"}},
+    "histogram": {"type": "object", "required": ["begin", "width", "counts"], "properties": {
+      "begin": {"type": "number"}, "width": {"type": "number"},
+      "counts": {"type": "array", "items": {"type": "integer"}}}}}},
+  "TransitionPart": {"type": "object", "required": ["duration_ms"], "properties": {
+    "duration_ms": {"$ref": "#/components/schemas/Distribution"},
+    "left_hand": {"type": "object"}, "right_hand": {"type": "object"}}},
+  "TransitionSummary": {"type": "object", "required": ["inferred", "whole"], "properties": {
+    "inferred": {"type": "boolean", "description": "gaps between signs, for no phases are annotated"},
+    "whole": {"$ref": "#/components/schemas/TransitionPart"},
+    "retraction": {"$ref": "#/components/schemas/TransitionPart"},
+    "preparation": {"$ref": "#/components/schemas/TransitionPart"}}},
+  "Statistics": {"type": "object", "required": ["all", "recordings"], "properties": {
+    "all": {"$ref": "#/components/schemas/TransitionSummary"},
+    "recordings": {"type": "array", "items": {"allOf": [{"$ref": "#/components/schemas/TransitionSummary"},
+      {"type": "object", "required": ["recording", "signs", "transitions"], "properties": {
+        "recording": {"type": "string"}, "signs": {"type": "integer"},
+        "transitions": {"type": "array", "items": {"type": "object",
+          "required": ["from", "to", "begin_ms", "end_ms", "inferred"], "properties": {
+            "from": {"type": "string"}, "to": {"type": "string"}, "begin_ms": {"type": "integer"},
+            "end_ms": {"type": "integer"}, "inferred": {"type": "boolean"}, "retraction_ms": {"type": "integer"},
+            "preparation_ms": {"type": "integer"}}}}}}]}},
+    "pairs": {"type": "array", "items": {"allOf": [{"$ref": "#/components/schemas/TransitionSummary"},
+      {"type": "object", "required": ["from", "to"]}]}},
+    "glosses": {"type": "array", "items": {"type": "object", "required": ["gloss", "sign_ms", "stroke_ms"],
+      "properties": {"gloss": {"type": "string"}, "sign_ms": {"$ref": "#/components/schemas/Distribution"},
+        "stroke_ms": {"$ref": "#/components/schemas/Distribution"}}}},
+    "ngrams": {"type": "array", "items": {"type": "object", "required": ["glosses", "count", "interval_ms"],
+      "properties": {"glosses": {"type": "array", "items": {"type": "string"}}, "count": {"type": "integer"},
+        "interval_ms": {"$ref": "#/components/schemas/Distribution"}}}}}},
+  "Proposals": {"type": "object", "required": ["recording", "proposed", "hands"], "properties": {
+    "recording": {"type": "string"},
+    "proposed": {"type": "string", "description": "that a person must check them: show it"},
+    "hands": {"type": "object", "required": ["left", "right"], "additionalProperties": {"type": "array",
+      "items": {"type": "object", "required": ["phase", "begin_ms", "end_ms", "confidence"], "properties": {
+        "phase": {"type": "string"}, "begin_ms": {"type": "integer"}, "end_ms": {"type": "integer"},
+        "confidence": {"type": "number"}}}}}}},
+  "Evaluation": {"type": "object",
+    "required": ["recordings", "recordings_left_out", "spans_left_out", "seed", "confidence", "tasks", "spans"],
+    "properties": {"recordings": {"type": "integer"}, "recordings_left_out": {"type": "integer"},
+      "spans_left_out": {"type": "integer"}, "seed": {"type": "integer"}, "confidence": {"type": "number"},
+      "tasks": {"type": "array", "items": {"type": "object", "required": ["task", "groups"], "properties": {
+        "task": {"type": "string"}, "groups": {"type": "array", "items": {"type": "object"}}}}},
+      "spans": {"type": "array", "items": {"type": "object"}}}}
+})json";
+
+constexpr const char* kMadeAnswers = R"json({
+  "Span": {"type": "object", "required": ["begin_ms", "end_ms"], "properties": {
+    "begin_ms": {"type": "integer"}, "end_ms": {"type": "integer"}}},
+  "Frames": {"type": "object", "required": ["begin", "end"], "properties": {
+    "begin": {"type": "integer"}, "end": {"type": "integer", "description": "the one after the last"}}},
+  "Synthesis": {"type": "object",
+    "required": ["frames", "frames_per_second", "signs", "stretches", "junctions", "timings", "declarations", "notices"],
+    "properties": {
+      "frames": {"type": "integer"}, "frames_per_second": {"type": "number"},
+      "signs": {"type": "array", "items": {"type": "object",
+        "required": ["gloss", "recording", "begin_ms", "end_ms", "recorded", "phases"], "properties": {
+          "gloss": {"type": "string"}, "recording": {"type": "string"}, "begin_ms": {"type": "integer"},
+          "end_ms": {"type": "integer"}, "recorded": {"$ref": "#/components/schemas/Span"},
+          "phases": {"type": "array", "items": {"type": "object", "required": ["kind", "begin_ms", "end_ms"]}}}}},
+      "stretches": {"type": "array", "items": {"type": "object", "required": ["recording", "frames", "kept_frames",
+        "kept_from_recorded_frame", "recorded_frames_per_frame"], "properties": {
+          "recording": {"type": "string"}, "frames": {"$ref": "#/components/schemas/Frames"},
+          "kept_frames": {"$ref": "#/components/schemas/Frames"}, "kept_from_recorded_frame": {"type": "number"},
+          "recorded_frames_per_frame": {"type": "number"}}}},
+      "junctions": {"type": "array", "items": {"type": "object", "required": ["from", "to", "method", "frames",
+        "retraction_frames", "preparation_frames", "blend_frames", "parts"], "properties": {
+          "from": {"type": "string"}, "to": {"type": "string"}, "method": {"type": "string"},
+          "frames": {"$ref": "#/components/schemas/Frames"}, "retraction_frames": {"type": "integer"},
+          "preparation_frames": {"type": "integer"}, "blend_frames": {"type": "integer"},
+          "parts": {"type": "object"}}}},
+      "timings": {"type": "object", "additionalProperties": {"type": "number"}},
+      "places": {"type": "array", "items": {"type": "object", "required": ["candidates", "chosen", "join_cost"]}},
+      "weights": {"$ref": "#/components/schemas/Weights"}, "captured_transitions": {"type": "integer"},
+      "declarations": {"$ref": "#/components/schemas/Declarations"},
+      "notices": {"$ref": "#/components/schemas/Notices"}}},
+  "Removed": {"type": "object", "required": ["removed"], "properties": {"removed": {"type": "string"}}},
+  "Upload": {"type": "object", "required": ["upload", "files"], "properties": {"upload": {"type": "string"},
+    "files": {"type": "array", "items": {"type": "object", "required": ["file", "bytes"], "properties": {
+      "file": {"type": "string"}, "bytes": {"type": "integer"}}}}}},
+  "UploadedFile": {"type": "object", "required": ["file", "bytes", "upload_bytes"], "properties": {
+    "file": {"type": "string"}, "bytes": {"type": "integer"}, "upload_bytes": {"type": "integer"}}},
+  "Discarded": {"type": "object", "required": ["discarded"], "properties": {"discarded": {"type": "string"}}},
+  "JobBegun": {"type": "object", "required": ["job"], "properties": {"job": {"type": "string"}}},
+  "Job": {"type": "object", "required": ["job", "kind", "database", "state", "fraction"], "properties": {
+    "job": {"type": "string"}, "kind": {"enum": ["import", "relayout"]}, "database": {"type": "string"},
+    "state": {"enum": ["waiting", "running", "done", "failed", "cancelled"]},
+    "fraction": {"type": "number", "minimum": 0, "maximum": 1},
+    "result": {"type": "object", "description": "of an import recordings, notices and faults, as far as it is; of a relayout recordings, changed and faults"},
+    "error": {"type": "object", "required": ["code", "message"]}}},
+  "Jobs": {"type": "object", "required": ["jobs"], "properties": {
+    "jobs": {"type": "array", "items": {"$ref": "#/components/schemas/Job"}}}}
+})json";
+
+}  // namespace
+
+nlohmann::ordered_json answer_schemas() {
+  nlohmann::ordered_json schemas = nlohmann::ordered_json::object();
+  for (const char* text : {kDatabaseAnswers, kSearchAnswers, kMadeAnswers}) {
+    const nlohmann::ordered_json some = nlohmann::ordered_json::parse(text);
+    for (const auto& [name, schema] : some.items()) schemas[name] = schema;
+  }
+  return schemas;
+}
+
+}  // namespace signweave::server

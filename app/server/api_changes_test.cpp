@@ -1,0 +1,189 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "app/server/test_api.h"
+
+namespace signweave::server {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Path at(Path rest) {
+  Path path = {"databases", "demo"};
+  path.insert(path.end(), rest.begin(), rest.end());
+  return path;
+}
+
+/// A recording that the databases of the tests do not hold.
+const demo::SyntheticRecording& another() {
+  static const demo::SyntheticRecording made = demo::make_recording(demo::corpus_scripts(2).front(), {50, 1}, 7);
+  return made;
+}
+std::string another_bvh() {
+  return bvh::write_text(another().motion, bvh::default_layout(another().motion.skeleton()));
+}
+
+std::string upload_of(TestApi& api, const std::vector<std::pair<std::string, std::string>>& files) {
+  const std::string id = json_in(api.send("POST", at({"uploads"})))["upload"];
+  for (const auto& [name, body] : files) EXPECT_EQ(api.put(at({"uploads", id, "files", name}), body).status, 200);
+  return id;
+}
+
+/// Waits until a job is over.
+json wait_for(TestApi& api, const std::string& job) {
+  for (int i = 0; i < 6'000; ++i) {
+    json state = json_in(api.get({"jobs", job}));
+    if (state["state"] != "waiting" && state["state"] != "running") return state;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return "a job that does not end";
+}
+
+json import(TestApi& api, const std::string& upload, const json& parameters = json::object()) {
+  const ApiResponse begun = api.send("POST", at({"uploads", upload, "import"}), parameters);
+  EXPECT_EQ(begun.status, 202) << begun.body;
+  return wait_for(api, json_in(begun)["job"]);
+}
+
+TEST(ApiChanges, AnUploadIsImported) {
+  TestApi api(true);
+  const std::string id =
+      upload_of(api, {{"soir.bvh", another_bvh()}, {"soir.eaf", eaf::write_text(another().document)}});
+  EXPECT_EQ(json_in(api.get(at({"uploads", id})))["files"].size(), 2u);
+  const json job = import(api, id, {{"unit", "cm"}});
+  EXPECT_EQ(job["state"], "done") << job;
+  EXPECT_EQ(job["fraction"], 1);
+  const json& recording = job["result"]["recordings"][0];
+  EXPECT_EQ(recording["name"], "soir");
+  EXPECT_EQ(recording["outcome"], "added");
+  EXPECT_THAT(recording["declarations"].dump(), HasSubstr("placeholder"));
+  EXPECT_THAT(job.dump(), testing::Not(HasSubstr(api.scratch().string())));
+  EXPECT_EQ(json_in(api.get(at({})))["recordings"].size(), 3u);
+  EXPECT_THAT(fault_of(api.get(at({"uploads", id}))), StartsWith("404"));  // what was imported is not kept twice
+}
+
+TEST(ApiChanges, WhatIsWrongWithAFileIsToldWithoutTheServersFolders) {
+  TestApi api(true);
+  const json job = import(api, upload_of(api, {{"soir.bvh", "HIERARCHY\nROOT"}}));
+  EXPECT_EQ(job["state"], "done");
+  EXPECT_EQ(job["result"]["recordings"][0]["outcome"], "failed");
+  EXPECT_THAT(job["result"]["recordings"][0]["error"].get<std::string>(), StartsWith("soir.bvh:2: "));
+  EXPECT_EQ(api.database().contents()->recordings.size(), 2u);
+}
+
+TEST(ApiChanges, NamesThatAreNoPlainFileNameAreRefused) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {});
+  for (const std::string& name : {std::string(".."), std::string("."), std::string("../x.bvh"), std::string("/etc/x"),
+                                  std::string("a\\b"), std::string(".hidden"), std::string(""), std::string("a\0b", 3),
+                                  std::string("\xff.bvh"), std::string(300, 'a'), std::string("c:x")}) {
+    EXPECT_THAT(fault_of(api.put(at({"uploads", id, "files", name}), "x")), StartsWith("400 bad_input")) << name;
+  }
+  EXPECT_EQ(api.put(at({"uploads", id, "files", "été 天気.bvh"}), "x").status, 200);
+  EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"pairs", "../../x"}})), StartsWith("400"));
+  EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"rig", "none"}})), StartsWith("404"));
+  EXPECT_EQ(api.put(at({"uploads", id, "files", "pairs.csv"}), "/etc/passwd,,x,0\n").status, 200);
+  EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"pairs", "pairs.csv"}})),
+              HasSubstr("without folders"));
+  EXPECT_THAT(fault_of(api.put(at({"uploads", "0123", "files", "a"}), "x")), StartsWith("404"));
+}
+
+TEST(ApiChanges, ABodyInAFileIsTakenOrTakenAway) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {});
+  const auto body_in = [&](const char* name) {
+    std::ofstream(api.scratch() / name) << "x";
+    return api.scratch() / name;
+  };
+  ApiRequest request{.method = "PUT", .path = at({"uploads", id, "files", "a.bvh"})};
+  EXPECT_TRUE(api.api().takes_file(request));
+  request.body_file = body_in("one");
+  EXPECT_EQ(json_in(api.api().answer(request))["bytes"], 1);
+  request.path.back() = "..";
+  request.body_file = body_in("two");
+  EXPECT_EQ(api.api().answer(request).status, 400);
+  EXPECT_FALSE(std::filesystem::exists(api.scratch() / "one"));
+  EXPECT_FALSE(std::filesystem::exists(api.scratch() / "two"));
+}
+
+TEST(ApiChanges, AnImportThatIsCancelledMidwayChangesNothing) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {{"soir.bvh", another_bvh()}});
+  const std::string job = json_in(api.send("POST", at({"uploads", id, "import"})))["job"];
+  for (int i = 0; i < 1'000; ++i) {  // until it is under way
+    const json state = json_in(api.get({"jobs", job}));
+    if (state["fraction"] > 0.0 || state["state"] == "done") break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(api.send("DELETE", {"jobs", job}).status, 202);
+  EXPECT_EQ(wait_for(api, job)["state"], "cancelled");
+  EXPECT_EQ(api.database().contents()->recordings.size(), 2u);
+  EXPECT_EQ(json_in(api.get(at({"check"})))["faults"].size(), 0u);
+  EXPECT_EQ(import(api, id)["state"], "done");  // its files are still there
+  EXPECT_EQ(api.database().contents()->recordings.size(), 3u);
+}
+
+TEST(ApiChanges, ConcurrentReadsGoOnBesideAnImport) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {{"soir.bvh", another_bvh()}});
+  std::atomic<bool> over{false};
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> readers;
+  for (int i = 0; i < 2; ++i) {
+    readers.emplace_back([&] {
+      while (!over) {
+        const bool good = api.get(at({"query"}), {{"text", "gloss = \"VANNES\""}}).status == 200 &&
+                          api.send("POST", at({"sign"}), {{"utterance", "VANNES"}}).status == 200;
+        if (!good) ++wrong;
+      }
+    });
+  }
+  EXPECT_EQ(import(api, id)["state"], "done");
+  over = true;
+  for (std::thread& reader : readers) reader.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(ApiChanges, ARecordingIsRemovedButNotWhileAJobChangesTheDatabase) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {{"soir.bvh", another_bvh()}});
+  const std::string job = json_in(api.send("POST", at({"uploads", id, "import"})))["job"];
+  EXPECT_THAT(fault_of(api.send("DELETE", at({"recordings", "meteo"}))), StartsWith("409 conflict"));
+  EXPECT_THAT(fault_of(api.put(at({"uploads", id, "files", "b.bvh"}), "x")), StartsWith("409 conflict"));
+  wait_for(api, job);
+  EXPECT_EQ(json_in(api.send("DELETE", at({"recordings", "meteo"}))), (json{{"removed", "meteo"}}));
+  EXPECT_THAT(fault_of(api.send("DELETE", at({"recordings", "meteo"}))), StartsWith("404 not_found"));
+}
+
+TEST(ApiChanges, MotionsAreStoredAnew) {
+  TestApi api(true);
+  const ApiResponse begun = api.send("POST", at({"relayout"}), {{"access_mode", "by_joint"}});
+  ASSERT_EQ(begun.status, 202);
+  const json job = wait_for(api, json_in(begun)["job"]);
+  EXPECT_EQ(job["result"]["changed"], (json{"meteo", "villes"}));
+  EXPECT_THAT(fault_of(api.send("POST", at({"relayout"}))), StartsWith("400 bad_input: what is to be changed?"));
+  EXPECT_THAT(fault_of(api.send("POST", at({"relayout"}), {{"access_mode", "by_john"}})), StartsWith("400"));
+  EXPECT_EQ(json_in(api.get({"jobs"}))["jobs"].size(), 1u);
+  EXPECT_THAT(fault_of(api.get({"jobs", "9"})), StartsWith("404"));
+}
+
+TEST(ApiChanges, AnUploadThatIsNeverFinishedIsSwept) {
+  TestApi api(true, {.upload_idle = Seconds(0)});
+  const std::string id = upload_of(api, {});
+  upload_of(api, {});
+  EXPECT_THAT(fault_of(api.get(at({"uploads", id}))), StartsWith("404"));
+  TestApi slow(true);
+  const std::string given_up = upload_of(slow, {{"a.bvh", "x"}});
+  EXPECT_EQ(slow.send("DELETE", at({"uploads", given_up})).status, 200);
+  EXPECT_TRUE(std::filesystem::is_empty(slow.scratch() / "uploads"));
+}
+
+}  // namespace
+}  // namespace signweave::server

@@ -1,0 +1,198 @@
+#include "app/server/api.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/server/test_api.h"
+
+namespace signweave::server {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// One for all tests that change nothing.
+TestApi& reading() {
+  static TestApi api(false);
+  return api;
+}
+
+Path at(Path rest) {
+  Path path = {"databases", "demo"};
+  path.insert(path.end(), rest.begin(), rest.end());
+  return path;
+}
+
+TEST(Api, ListsTheDatabasesThatAreServed) {
+  const json list = json_in(reading().get({"databases"}))["databases"];
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0], (json{{"name", "demo"}, {"writable", false}, {"recordings", 2}}));
+}
+
+TEST(Api, AWrongPathIsNotFoundWithNearMatches) {
+  EXPECT_THAT(fault_of(reading().get({"databases", "dem"})), StartsWith("404 not_found: no database 'dem'"));
+  EXPECT_THAT(fault_of(reading().get({"databases", "dem"})), HasSubstr("did you mean demo?"));
+  EXPECT_THAT(fault_of(reading().get(at({"qery"}))), HasSubstr("did you mean /api/databases/demo/query"));
+  EXPECT_THAT(fault_of(reading().get({})), StartsWith("404"));
+}
+
+TEST(Api, AWrongMethodIsToldWhatIsAllowed) {
+  const ApiResponse response = reading().send("PATCH", at({"query"}));
+  EXPECT_THAT(fault_of(response), StartsWith("405 method_not_allowed"));
+  EXPECT_EQ(header_of(response, "Allow"), "GET, POST");
+}
+
+TEST(Api, QueriesAreAnsweredAsTheCommandLineDoes) {
+  const ApiResponse response = reading().get(at({"query"}), {{"text", "gloss = \"VANNES\""}, {"limit", "2"}});
+  ASSERT_EQ(response.status, 200);
+  const json answers = json_in(response);
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_EQ(answers[0]["name"], "VANNES");
+  EXPECT_EQ(answers[0]["recording"], "villes");
+  EXPECT_EQ(answers, json_in(reading().send("POST", at({"query"}), {{"text", "gloss = \"VANNES\""}, {"limit", 2}})));
+  const ApiResponse csv = reading().get(at({"query"}), {{"text", "gloss = \"VANNES\""}, {"format", "csv"}});
+  EXPECT_THAT(csv.body, StartsWith("recording,name,begin ms,end ms\nvilles,VANNES,"));
+  EXPECT_EQ(csv.content_type, "text/csv; charset=utf-8");
+  EXPECT_THAT(json_in(reading().get(at({"query"}), {{"text", "phase = stroke"}, {"explain", "true"}}))["plan"].dump(),
+              HasSubstr("stroke"));
+}
+
+TEST(Api, AFaultInAQueryHasItsPlace) {
+  const ApiResponse response = reading().get(at({"query"}), {{"text", "gloss = "}});
+  EXPECT_THAT(fault_of(response), StartsWith("400 bad_input: query:1:9"));
+  EXPECT_EQ(json_in(response)["error"]["caret"], "gloss = \n        ^");
+}
+
+TEST(Api, WhatIsMadeOfPlaceholdersSaysSo) {
+  for (const auto& [path, query] : std::vector<std::pair<Path, std::map<std::string, std::string>>>{
+           {{"databases"}, {}},
+           {{"databases", "demo"}, {}},
+           {at({"query"}), {{"text", "gloss = \"VANNES\""}}},
+           {at({"stats"}), {}},
+           {at({"recordings", "meteo"}), {}},
+           {at({"recordings", "meteo", "motion"}), {{"from", "1000"}, {"to", "1100"}}},
+           {at({"recordings", "meteo", "annotation"}), {}},
+           {at({"recordings", "meteo", "segment"}), {}}}) {
+    EXPECT_THAT(header_of(reading().get(path, query), "Signweave-Declarations"), HasSubstr("placeholder shapes"))
+        << testing::PrintToString(path);
+  }
+  const json report = json_in(reading().send("POST", at({"sign"}), {{"utterance", "VANNES"}}));
+  EXPECT_THAT(report["declarations"].dump(), HasSubstr("placeholder shapes"));
+}
+
+TEST(Api, UnknownFieldsAndWrongValuesAreNamed) {
+  const auto fault = [](std::map<std::string, std::string> query) {
+    return fault_of(reading().get(at({"query"}), std::move(query)));
+  };
+  EXPECT_EQ(fault({{"text", "phase = stroke"}, {"limt", "2"}}), "400 bad_input: no field 'limt'; did you mean limit?");
+  EXPECT_THAT(fault({}), StartsWith("400 bad_input: text: missing"));
+  EXPECT_THAT(fault({{"text", "phase = stroke"}, {"limit", "0"}}), HasSubstr("limit: expected a number from 1"));
+  EXPECT_THAT(fault({{"text", "phase = stroke"}, {"limit", "x"}}), HasSubstr("limit: expected a whole number"));
+  EXPECT_THAT(fault({{"text", "phase = stroke"}, {"explain", "perhaps"}}), HasSubstr("explain: expected true or"));
+  EXPECT_THAT(fault({{"text", "phase = stroke"}, {"format", "csw"}}), HasSubstr("did you mean csv?"));
+  EXPECT_THAT(fault_of(reading().get({"databases"}, {{"x", "1"}})), StartsWith("400 bad_input: no field 'x'"));
+}
+
+TEST(Api, ABodyIsJsonAndSaysSo) {
+  ApiRequest request{.method = "POST", .path = at({"sign"}), .body = "{\n  \"utterance\": VANNES}"};
+  request.content_type = "text/plain";
+  EXPECT_THAT(fault_of(reading().api().answer(request)), StartsWith("415 unsupported_media_type"));
+  request.content_type = "application/json; charset=utf-8";
+  EXPECT_THAT(fault_of(reading().api().answer(request)), StartsWith("400 bad_input: body:2:"));
+  request.body = "[1]";
+  EXPECT_THAT(fault_of(reading().api().answer(request)), StartsWith("400 bad_input: expected a JSON object"));
+  request.body = std::string(100'000, '[');
+  EXPECT_THAT(fault_of(reading().api().answer(request)), StartsWith("400 bad_input: body:1:100001"));
+}
+
+TEST(Api, SignsAReportOrAFile) {
+  const json report = json_in(reading().send("POST", at({"sign"}), {{"utterance", "VANNES MATIN"}, {"tempo", 1.5}}));
+  EXPECT_EQ(report["signs"].size(), 2u);
+  EXPECT_EQ(report["junctions"].size(), 1u);
+  const auto file = [&](const char* format) {
+    return reading().send("POST", at({"sign"}), {{"utterance", "VANNES MATIN"}, {"format", format}});
+  };
+  EXPECT_THAT(file("bvh").body, StartsWith("HIERARCHY"));
+  EXPECT_THAT(file("glb").body, StartsWith("glTF"));
+  EXPECT_THAT(file("eaf").body, HasSubstr("<ANNOTATION_DOCUMENT"));
+  EXPECT_THAT(file("svg").body, HasSubstr("placeholder shapes"));
+  EXPECT_THAT(file("csv").body, StartsWith("frame,time_s,"));
+  EXPECT_EQ(json_in(file("json"))["motion"]["frames"], json_in(file("json"))["frames"]);
+  EXPECT_EQ(header_of(file("glb"), "Content-Disposition"), "attachment; filename*=UTF-8''signing.glb");
+  ApiRequest accepting{.method = "POST", .path = at({"sign"}), .content_type = "application/json"};
+  accepting.accept = "model/gltf-binary";
+  accepting.body = R"({"utterance": "VANNES"})";
+  EXPECT_EQ(reading().api().answer(accepting).content_type, "model/gltf-binary");
+}
+
+TEST(Api, AGlossThatIsNotThereHasNearMatches) {
+  const std::string fault = fault_of(reading().send("POST", at({"sign"}), {{"utterance", "VANES"}}));
+  EXPECT_THAT(fault, StartsWith("404 not_found"));
+  EXPECT_THAT(fault, HasSubstr("VANNES"));
+  EXPECT_THAT(fault_of(reading().send("POST", at({"sign"}), {{"utterance", "VANNES"}, {"transition", "gop"}})),
+              HasSubstr("transition: 'gop' is none of"));
+  EXPECT_THAT(fault_of(reading().send("POST", at({"sign"}), {{"utterance", "VANNES"}, {"signing_space", true}})),
+              HasSubstr("svg"));
+}
+
+TEST(Api, EditsARecording) {
+  const json edit = {{"recording", "meteo"}, {"replace", {"BRETAGNE=VANNES"}}};
+  EXPECT_GT(json_in(reading().send("POST", at({"edit"}), edit))["signs"].size(), 10u);
+  EXPECT_THAT(fault_of(reading().send("POST", at({"edit"}), {{"recording", "meteo"}})), StartsWith("400 bad_input"));
+  EXPECT_THAT(fault_of(reading().send("POST", at({"edit"}), {{"recording", "met"}, {"replace", {"A=B"}}})),
+              StartsWith("404 not_found"));
+}
+
+TEST(Api, ExportsARecordingOrAPartOfIt) {
+  const ApiResponse part =
+      reading().get(at({"recordings", "meteo", "motion"}), {{"from", "1000"}, {"to", "2000"}, {"format", "csv"}});
+  EXPECT_EQ(std::count(part.body.begin(), part.body.end(), '\n'), 101);
+  EXPECT_THAT(reading().get(at({"recordings", "meteo", "annotation"})).body, HasSubstr("<ANNOTATION_DOCUMENT"));
+  EXPECT_THAT(fault_of(reading().get(at({"recordings", "meteo", "motion"}), {{"joints", "LeftHnad"}})),
+              HasSubstr("did you mean LeftHand"));
+  EXPECT_THAT(fault_of(reading().get(at({"recordings", "mteo", "motion"}))), StartsWith("404 not_found"));
+  // The words are those of the API, not of the command line.
+  EXPECT_THAT(fault_of(reading().get(at({"recordings", "meteo", "motion"}), {{"from", "2"}, {"to", "1"}})),
+              HasSubstr("from must be before to"));
+}
+
+TEST(Api, CountsChecksAndEvaluates) {
+  EXPECT_EQ(json_in(reading().get(at({"check"}))), (json{{"recordings", 2}, {"faults", json::array()}}));
+  EXPECT_THAT(reading().get(at({"stats"}), {{"format", "svg"}}).body, HasSubstr("<svg"));
+  EXPECT_THAT(fault_of(reading().get(at({"stats"}), {{"format", "csv"}, {"pairs", ""}, {"glosses", "true"}})),
+              HasSubstr("give one of pairs, glosses and ngrams"));
+  EXPECT_THAT(fault_of(reading().get(at({"stats"}), {{"recording", "x"}})), StartsWith("404"));
+  EXPECT_THAT(fault_of(reading().get(at({"evaluate"}), {{"method", "gap,slrp"}})), HasSubstr("no method"));
+  EXPECT_THAT(reading().get(at({"recordings", "meteo", "segment"}), {{"format", "eaf"}}).body, HasSubstr("proposed"));
+}
+
+TEST(Api, LimitsAreKept) {
+  TestApi small(true, {.query_time = Milliseconds(5'000),
+                       .answers = 3,
+                       .sign_time = Milliseconds(0),
+                       .glosses = 2,
+                       .upload_bytes = 10,
+                       .uploads = 1});
+  const ApiResponse bounded = small.get(at({"query"}), {{"text", "phase = stroke"}});
+  EXPECT_EQ(json_in(bounded).size(), 3u);
+  EXPECT_THAT(header_of(bounded, "Signweave-Notices"), HasSubstr("the first"));
+  EXPECT_THAT(fault_of(small.send("POST", at({"sign"}), {{"utterance", "VANNES VANNES VANNES"}})),
+              StartsWith("413 too_large"));
+  EXPECT_THAT(fault_of(small.get(at({"evaluate"}))), StartsWith("503 cancelled"));
+  const std::string id = json_in(small.send("POST", at({"uploads"})))["upload"];
+  EXPECT_THAT(fault_of(small.send("POST", at({"uploads"}))), StartsWith("503 busy"));
+  EXPECT_EQ(small.put(at({"uploads", id, "files", "a.bvh"}), "12345678").status, 200);
+  EXPECT_THAT(fault_of(small.put(at({"uploads", id, "files", "b.bvh"}), "123")), StartsWith("413 too_large"));
+  EXPECT_EQ(small.put(at({"uploads", id, "files", "a.bvh"}), "1234567890").status, 200);  // takes the first one's place
+}
+
+TEST(Api, ADatabaseServedForReadingIsNotChanged) {
+  for (const auto& [method, path] : std::vector<std::pair<std::string, Path>>{
+           {"DELETE", at({"recordings", "meteo"})}, {"POST", at({"relayout"})}, {"POST", at({"uploads"})}}) {
+    EXPECT_THAT(fault_of(reading().send(method, path)), StartsWith("403 read_only"));
+  }
+}
+
+}  // namespace
+}  // namespace signweave::server

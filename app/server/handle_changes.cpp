@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include "app/calls/change_calls.h"
+#include "app/server/routes.h"
+
+namespace signweave::server {
+
+using nlohmann::json;
+
+calls::SchemaWriter relayout_fields() {
+  return calls::schema_of_call<calls::RelayoutCall>();
+}
+
+ApiResponse relayout_database(Call& call) {
+  const auto parameters = read_parameters<calls::RelayoutCall>(call);
+  ServedDatabase& served = call.database();
+  if (const std::string fault = calls::nothing_to_change(parameters); !fault.empty()) {
+    throw Error(ErrorCode::bad_input, fault);
+  }
+  for (const std::string& name : parameters.recordings) served.database().contents()->at(name);
+  const std::string id = call.state.jobs.start("relayout", served.name(), [&served, parameters](JobContext& job) {
+    json report;
+    served.change([&](Database& database) {
+      json faults = json::array();
+      const calls::Listener listener{.notice = {},
+                                     .fault = [&](const std::string& line) { faults.push_back(line); },
+                                     .stage = {},
+                                     .progress = [&](double fraction) { job.advance(fraction); }};
+      const calls::Relayouted done = calls::run(database, parameters, listener);
+      calls::learn(database, listener);
+      report = calls::json_of(done);
+      report["faults"] = std::move(faults);
+    });
+    return report;
+  });
+  return json_answer(json{{"job", id}}, 202);
+}
+
+ApiResponse remove_recording(Call& call) {
+  const auto parameters = read_parameters<calls::RemoveCall>(call);
+  ServedDatabase& served = call.database();
+  if (const auto job = call.state.jobs.changing(served.name())) {
+    throw Error(ErrorCode::conflict,
+                fmt::format("job {} is changing '{}' now; try again when it is over", *job, served.name()));
+  }
+  json report;
+  served.change([&](Database& database) {
+    report = calls::run(database, parameters);
+    calls::learn(database, call.listener());
+  });
+  return json_answer(report);
+}
+
+}  // namespace signweave::server

@@ -1,0 +1,117 @@
+#include <algorithm>
+
+#include "app/calls/evaluate_call.h"
+#include "app/calls/query_call.h"
+#include "app/calls/segment_call.h"
+#include "app/calls/stats_call.h"
+#include "app/calls/table.h"
+#include "app/server/routes.h"
+#include "signweave/formats/eaf.h"
+
+namespace signweave::server {
+
+template <>
+struct Formats<calls::QueryCall> {
+  static std::vector<std::string> names() { return {"json", "csv"}; }
+  static std::string help() { return "of the answer; json where not given"; }
+};
+template <>
+struct Formats<calls::StatsCall> {
+  static std::vector<std::string> names() { return {"json", "csv", "svg"}; }
+  static std::string help() { return "of the answer: json where not given; svg draws the transitions"; }
+};
+template <>
+struct Formats<calls::EvaluateCall> {
+  static std::vector<std::string> names() { return {"json", "svg"}; }
+  static std::string help() { return "of the answer: json where not given; svg draws the summary"; }
+};
+template <>
+struct Formats<calls::SegmentCall> {
+  static std::vector<std::string> names() { return {"json", "eaf"}; }
+  static std::string help() { return "of the answer: json where not given; eaf is an annotation file for a person"; }
+};
+
+calls::SchemaWriter query_fields() {
+  return calls::schema_of_call<WithFormat<calls::QueryCall>>();
+}
+calls::SchemaWriter stats_fields() {
+  return calls::schema_of_call<WithFormat<calls::StatsCall>>();
+}
+calls::SchemaWriter evaluate_fields() {
+  return calls::schema_of_call<WithFormat<calls::EvaluateCall>>();
+}
+calls::SchemaWriter segment_fields() {
+  return calls::schema_of_call<WithFormat<calls::SegmentCall>>();
+}
+
+ApiResponse find_segments(Call& call) {
+  auto [query, format] = read_parameters<WithFormat<calls::QueryCall>>(call);
+  const ApiLimits& limits = call.state.limits;
+  const std::int64_t most_ms = limits.query_time.count();
+  if (query.timeout_ms == 0 || query.timeout_ms > most_ms) query.timeout_ms = most_ms;
+  const bool bounded = query.limit == 0 || query.limit > limits.answers;
+  if (bounded) query.limit = limits.answers;
+  const Database& database = call.database().database();
+  calls::tell_damage(database, call.listener());
+  const calls::QueryReport report = calls::run(database, query);
+  call.notices.insert(call.notices.end(), report.hints.begin(), report.hints.end());
+  if (bounded && report.answers.size() == limits.answers) {
+    call.notices.push_back({"", "there may be more answers than the server gives: these are the first"});
+  }
+  const std::shared_ptr<const Contents> contents = database.contents();
+  std::string last;
+  for (const Segment& segment : report.answers) {  // ordered by recording
+    if (segment.recording == last) continue;
+    last = segment.recording;
+    if (const RecordingInfo* info = contents->find(last)) call.declare(info->declarations);
+  }
+  if (format == "csv" && !report.plan)
+    return file_answer(file_format("csv"), "answers", calls::format_csv(rows_of(report)));
+  return json_answer(json_of(report));
+}
+
+ApiResponse count_transitions(Call& call) {
+  const auto [parameters, format] = read_parameters<WithFormat<calls::StatsCall>>(call);
+  if (const std::string fault = format == "csv" ? calls::csv_fault(parameters) : ""; !fault.empty()) {
+    throw Error(ErrorCode::bad_input, fault);
+  }
+  const Database& database = call.database().database();
+  calls::tell_damage(database, call.listener());
+  const calls::Counted counted = calls::run(database, parameters, call.listener());
+  const std::shared_ptr<const Contents> contents = database.contents();
+  for (const std::string& name : counted.names) {
+    if (const RecordingInfo* info = contents->find(name)) call.declare(info->declarations);
+  }
+  if (format == "svg")
+    return file_answer(file_format("svg"), "transitions", calls::plot_of(counted, "transitions.svg"));
+  if (format == "csv")
+    return file_answer(file_format("csv"), "statistics", calls::format_csv(csv_of(parameters, counted)));
+  return json_answer(json_of(parameters, counted));
+}
+
+ApiResponse propose_segments(Call& call) {
+  const auto [parameters, format] = read_parameters<WithFormat<calls::SegmentCall>>(call);
+  const Database& database = call.database().database();
+  const std::shared_ptr<const Contents> contents = database.contents();
+  const RecordingInfo& info = contents->at(parameters.recording);
+  const calls::Segmented made = calls::run(database, parameters);
+  call.declare(info.declarations);
+  call.notices = made.proposed.notices;
+  if (format == "eaf") {
+    return file_answer(file_format("eaf"), info.name + ".phases",
+                       eaf::write_text(proposals_document(made.proposed, made.length, info.motion_file)));
+  }
+  return json_answer(json_of(made, "recording", info.name));
+}
+
+ApiResponse evaluate_methods(Call& call) {
+  const auto [parameters, format] = read_parameters<WithFormat<calls::EvaluateCall>>(call);
+  const Database& database = call.database().database();
+  const calls::Evaluated made = calls::run(database, parameters, call.listener());
+  call.declare_all(*database.contents());
+  Bootstrap bootstrap(parameters.seed);
+  if (format == "svg") return file_answer(file_format("svg"), "evaluation", plot_of(made.tasks, bootstrap));
+  return json_answer(json_of(made, parameters, bootstrap));
+}
+
+}  // namespace signweave::server

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include "app/calls/export_call.h"
+#include "app/calls/synthesis_call.h"
+#include "app/server/routes.h"
+
+namespace signweave::server {
+
+namespace {
+
+std::vector<std::string> motion_formats() {
+  return {"bvh", "glb", "gltf", "json", "csv", "face.csv", "svg"};
+}
+std::vector<std::string> synthesis_formats() {
+  std::vector<std::string> names = motion_formats();
+  names.emplace_back("eaf");
+  return names;
+}
+constexpr const char* kSynthesisHelp =
+    "the file itself instead of the report: json with every pose, eaf with the annotation, svg as a contact sheet";
+
+}  // namespace
+
+template <>
+struct Formats<calls::SignCall> {
+  static std::vector<std::string> names() { return synthesis_formats(); }
+  static std::string help() { return kSynthesisHelp; }
+};
+template <>
+struct Formats<calls::EditCall> : Formats<calls::SignCall> {};
+template <>
+struct Formats<calls::ExportCall> {
+  static std::vector<std::string> names() { return motion_formats(); }
+  static std::string help() { return "of the file; bvh where not given"; }
+};
+
+namespace {
+
+/// The annotation of a recording, or a part of it.
+struct AnnotationCall {
+  calls::ExportCall call;
+};
+
+template <class Visit>
+void fields(Visit& visit, AnnotationCall& call) {
+  visit(calls::Field{.name = "recording", .help = "name of the recording", .required = true}, call.call.recording);
+  visit(calls::Field{.name = "from", .help = "annotation time in ms to begin at"}, call.call.from);
+  visit(calls::Field{.name = "to", .help = "annotation time in ms to end at"}, call.call.to);
+}
+
+/// The format that a request asks for: by its field, else by what it accepts; empty for the report.
+std::string wanted_format(const Call& call, const std::string& format, const std::vector<std::string>& known) {
+  if (!format.empty() || call.request.accept.empty()) return format;
+  for (const std::string& name : known) {
+    if (name != "json" && call.request.accept.find(file_format(name).media_type.substr(
+                              0, file_format(name).media_type.find(';'))) != std::string::npos) {
+      return name;
+    }
+  }
+  return {};
+}
+
+void require_sheet(bool signing_space, const std::string& format) {
+  if (!signing_space || format == "svg") return;
+  throw Error(ErrorCode::bad_input, "signing_space: is drawn on contact sheets: ask for format svg");
+}
+
+ApiResponse deliver(Call& call, const Synthesized& made, const calls::SynthesisChoices& how, const std::string& title,
+                    const std::string& format) {
+  call.declare(made.result.declarations);
+  call.notices.insert(call.notices.end(), made.result.notices.begin(), made.result.notices.end());
+  if (format.empty()) {
+    nlohmann::json report = calls::report_of(made, how);
+    report["declarations"] = call.declarations;
+    report["notices"] = calls::json_of(call.notices);
+    return json_answer(report);
+  }
+  const FileFormat& file = file_format(format);
+  const calls::SynthesisLook look = calls::look_of(made, how, title);
+  return file_answer(file, "signing", calls::synthesis_text(file.ending, made, look.layout, look.sheet, ""));
+}
+
+}  // namespace
+
+calls::SchemaWriter sign_fields() {
+  return calls::schema_of_call<WithFormat<calls::SignCall>>();
+}
+calls::SchemaWriter edit_fields() {
+  return calls::schema_of_call<WithFormat<calls::EditCall>>();
+}
+calls::SchemaWriter motion_fields() {
+  return calls::schema_of_call<WithFormat<calls::ExportCall>>();
+}
+calls::SchemaWriter annotation_fields() {
+  return calls::schema_of_call<AnnotationCall>();
+}
+
+ApiResponse sign_utterance(Call& call) {
+  const auto [sign, asked] = read_parameters<WithFormat<calls::SignCall>>(call);
+  const std::string format = wanted_format(call, asked, synthesis_formats());
+  require_sheet(sign.how.signing_space, format);
+  const std::size_t places = parse_utterance(sign.utterance).places.size();
+  if (places > call.state.limits.glosses) {
+    throw too_large(fmt::format("the utterance has {} places, and may have {}", places, call.state.limits.glosses));
+  }
+  const Database& database = call.database().database();
+  calls::tell_damage(database, call.listener());
+  return deliver(call, calls::run(database, sign), sign.how, calls::title_of(sign), format);
+}
+
+ApiResponse edit_recording(Call& call) {
+  const auto [edit, asked] = read_parameters<WithFormat<calls::EditCall>>(call);
+  const std::string format = wanted_format(call, asked, synthesis_formats());
+  require_sheet(edit.how.signing_space, format);
+  if (edit.replace.size() > call.state.limits.glosses) {
+    throw too_large(
+        fmt::format("there are {} replacements, and may be {}", edit.replace.size(), call.state.limits.glosses));
+  }
+  const Database& database = call.database().database();
+  calls::tell_damage(database, call.listener());
+  return deliver(call, calls::run(database, edit), edit.how, calls::title_of(edit), format);
+}
+
+ApiResponse export_motion(Call& call) {
+  const auto [parameters, asked] = read_parameters<WithFormat<calls::ExportCall>>(call);
+  std::string format = wanted_format(call, asked, motion_formats());
+  if (format.empty()) format = "bvh";
+  require_sheet(parameters.signing_space, format);
+  const FileFormat& file = file_format(format);
+  const calls::Exported made =
+      calls::run(call.database().database(), parameters, {parameters.recording + std::string(file.ending)});
+  call.declare(made.info.declarations);
+  return file_answer(file, made.info.name, calls::recording_text(file.ending, made.outgoing(), made.info.name));
+}
+
+ApiResponse export_annotation(Call& call) {
+  const auto parameters = read_parameters<AnnotationCall>(call);
+  const calls::Exported made =
+      calls::run(call.database().database(), parameters.call, {parameters.call.recording + ".eaf"});
+  call.declare(made.info.declarations);
+  return file_answer(file_format("eaf"), made.info.name,
+                     calls::recording_text(".eaf", made.outgoing(), made.info.name));
+}
+
+}  // namespace signweave::server

@@ -1,0 +1,172 @@
+#include "app/server/jobs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/server/answer.h"
+#include "signweave/core/text.h"
+
+namespace signweave::server {
+
+using nlohmann::json;
+
+struct Jobs::Job {
+  std::string id;
+  std::string kind;
+  std::string database;
+  Work work;
+  State state = State::waiting;
+  std::atomic<double> fraction{0};
+  std::atomic<bool> cancelled{false};
+  json result;
+  std::optional<json> error;
+
+  bool over() const { return state != State::waiting && state != State::running; }
+};
+
+class Jobs::Context : public JobContext {
+ public:
+  Context(Jobs& jobs, Job& job) : jobs_(jobs), job_(job) {}
+
+  void advance(double fraction) override {
+    job_.fraction.store(fraction, std::memory_order_relaxed);
+    if (job_.cancelled.load(std::memory_order_relaxed)) {
+      throw Error(ErrorCode::cancelled, "the job was cancelled; what was done until then stays");
+    }
+  }
+  void tell(const json& result) override {
+    const std::lock_guard lock(jobs_.mutex_);
+    job_.result = result;
+  }
+
+ private:
+  Jobs& jobs_;
+  Job& job_;
+};
+
+Jobs::Jobs(std::function<std::string(std::string)> redact, std::function<void()> tidy)
+    : redact_(std::move(redact)), tidy_(std::move(tidy)) {}
+
+void Jobs::begin() {
+  thread_ = std::thread([this] { run(); });
+}
+
+Jobs::~Jobs() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+    for (const std::shared_ptr<Job>& job : jobs_) job->cancelled = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+std::string Jobs::start(std::string kind, std::string database, Work work) {
+  const std::lock_guard lock(mutex_);
+  const auto waiting = std::ranges::count_if(jobs_, [](const auto& job) { return !job->over(); });
+  if (static_cast<std::size_t>(waiting) >= kMostWaiting) {
+    throw Error(ErrorCode::conflict, fmt::format("{} jobs are waiting already; try again when one is over", waiting));
+  }
+  auto job = std::make_shared<Job>();
+  job->id = std::to_string(next_++);
+  job->kind = std::move(kind);
+  job->database = std::move(database);
+  job->work = std::move(work);
+  std::string id = job->id;
+  jobs_.push_back(std::move(job));
+  for (auto over = static_cast<std::size_t>(std::ranges::count_if(jobs_, [](const auto& one) { return one->over(); }));
+       over > kMostKept; --over) {
+    jobs_.erase(std::ranges::find_if(jobs_, [](const auto& one) { return one->over(); }));
+  }
+  changed_.notify_all();
+  return id;
+}
+
+std::shared_ptr<Jobs::Job> Jobs::at(const std::string& id) const {
+  for (const std::shared_ptr<Job>& job : jobs_) {
+    if (job->id == id) return job;
+  }
+  throw Error(ErrorCode::not_found, fmt::format("no job '{}'; the last {} are kept", printable(id), kMostKept));
+}
+
+json Jobs::json_of(const Job& job) const {
+  constexpr const char* kNames[] = {"waiting", "running", "done", "failed", "cancelled"};
+  json one = {{"job", job.id},
+              {"kind", job.kind},
+              {"database", job.database},
+              {"state", kNames[static_cast<std::size_t>(job.state)]},
+              {"fraction", job.fraction.load(std::memory_order_relaxed)}};
+  if (!job.result.is_null()) one["result"] = job.result;
+  if (job.error) one["error"] = *job.error;
+  return one;
+}
+
+json Jobs::describe(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  return json_of(*at(id));
+}
+
+json Jobs::describe_all() const {
+  const std::lock_guard lock(mutex_);
+  json list = json::array();
+  for (const std::shared_ptr<Job>& job : jobs_) list.push_back(json_of(*job));
+  return {{"jobs", std::move(list)}};
+}
+
+void Jobs::cancel(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  at(id)->cancelled = true;  // one that waits begins all the same, and is stopped at its first step
+}
+
+std::optional<std::string> Jobs::changing(const std::string& database) const {
+  const std::lock_guard lock(mutex_);
+  for (const std::shared_ptr<Job>& job : jobs_) {
+    if (!job->over() && job->database == database) return job->id;
+  }
+  return std::nullopt;
+}
+
+void Jobs::finish(Job& job, State state, json result, const std::optional<Error>& error) {
+  const std::lock_guard lock(mutex_);
+  job.state = state;
+  if (!result.is_null()) job.result = std::move(result);
+  if (error) job.error = error_json(*error, redact_);
+  if (state == State::done) job.fraction = 1;
+  job.work = {};
+}
+
+void Jobs::run() {
+  using namespace std::chrono_literals;
+  for (;;) {
+    std::shared_ptr<Job> job;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait_for(lock, 30s, [&] {
+        return ending_ || std::ranges::any_of(jobs_, [](const auto& one) { return one->state == State::waiting; });
+      });
+      if (ending_) return;
+      const auto at = std::ranges::find_if(jobs_, [](const auto& one) { return one->state == State::waiting; });
+      if (at != jobs_.end()) {
+        job = *at;
+        job->state = State::running;
+      }
+    }
+    if (!job) {
+      tidy_();
+      continue;
+    }
+    try {
+      Context context(*this, *job);
+      json result = job->work(context);
+      finish(*job, State::done, std::move(result), {});
+    } catch (const Error& error) {
+      finish(*job, error.code() == ErrorCode::cancelled ? State::cancelled : State::failed, {}, error);
+    } catch (const std::exception& error) {
+      finish(*job, State::failed, {}, Error(ErrorCode::io, error.what()));
+    }
+  }
+}
+
+}  // namespace signweave::server

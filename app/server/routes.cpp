@@ -1,0 +1,112 @@
+#include "app/server/routes.h"
+
+#include <chrono>
+
+namespace signweave::server {
+namespace {
+
+constexpr Route kRoutes[] = {
+    {"GET", "databases", "listDatabases", "the databases that are served", list_databases, Source::none, nullptr,
+     "Databases"},
+    {"GET", "databases/{database}", "showDatabase", "what a database holds", show_database, Source::none, nullptr,
+     "Database"},
+    {"GET", "databases/{database}/recordings/{recording}", "showRecording", "all that is known of a recording",
+     show_recording, Source::none, nullptr, "Recording"},
+    {"GET", "databases/{database}/check", "checkDatabase", "verify every stored byte", check_database, Source::none,
+     nullptr, "Check"},
+    {"GET", "databases/{database}/query", "query", "find signs, phases and annotations", find_segments, Source::query,
+     query_fields, "Answers", 200, true},
+    {"POST", "databases/{database}/query", "postQuery", "the same, with the query in the body", find_segments,
+     Source::body, query_fields, "Answers", 200, true},
+    {"GET", "databases/{database}/stats", "stats", "durations of the recorded transitions", count_transitions,
+     Source::query, stats_fields, "Statistics", 200, true},
+    {"GET", "databases/{database}/evaluate", "evaluate",
+     "cut captured movements out, make them again by each method, compare", evaluate_methods, Source::query,
+     evaluate_fields, "Evaluation", 200, true},
+    {"POST", "databases/{database}/sign", "sign", "make new signing from glosses", sign_utterance, Source::body,
+     sign_fields, "Synthesis", 200, true},
+    {"POST", "databases/{database}/edit", "edit", "change a recording's words", edit_recording, Source::body,
+     edit_fields, "Synthesis", 200, true},
+    {"GET", "databases/{database}/recordings/{recording}/motion", "exportMotion",
+     "a recording's motion, or a part of it", export_motion, Source::query, motion_fields},
+    {"GET", "databases/{database}/recordings/{recording}/annotation", "exportAnnotation",
+     "a recording's annotation, or a part of it, as EAF", export_annotation, Source::query, annotation_fields},
+    {"GET", "databases/{database}/recordings/{recording}/segment", "segment",
+     "propose phases of both hands, from motion alone", propose_segments, Source::query, segment_fields, "Proposals",
+     200, true},
+    {"DELETE", "databases/{database}/recordings/{recording}", "removeRecording", "remove a recording", remove_recording,
+     Source::none, nullptr, "Removed", 200, false, true},
+    {"POST", "databases/{database}/relayout", "relayout", "store motions in another access mode: begins a job",
+     relayout_database, Source::body, relayout_fields, "JobBegun", 202, false, true},
+    {"POST", "databases/{database}/uploads", "openUpload", "begin to send files", open_upload, Source::none, nullptr,
+     "Upload", 201, false, true},
+    {"GET", "databases/{database}/uploads/{upload}", "showUpload", "what was sent so far", show_upload, Source::none,
+     nullptr, "Upload"},
+    {"DELETE", "databases/{database}/uploads/{upload}", "discardUpload", "give an upload up", discard_upload,
+     Source::none, nullptr, "Discarded", 200, false, true},
+    {"PUT", "databases/{database}/uploads/{upload}/files/{file}", "putFile", "send a file: the body is its bytes",
+     put_file, Source::none, nullptr, "UploadedFile", 200, false, true, true},
+    {"POST", "databases/{database}/uploads/{upload}/import", "import", "import what was sent: begins a job",
+     import_upload, Source::body, import_fields, "JobBegun", 202, false, true},
+    {"GET", "jobs", "listJobs", "the jobs that wait, run, or were the last", list_jobs, Source::none, nullptr, "Jobs"},
+    {"GET", "jobs/{job}", "showJob", "how far a job is, and what came of it", show_job, Source::none, nullptr, "Job"},
+    {"DELETE", "jobs/{job}", "cancelJob", "stop a job", cancel_job, Source::none, nullptr, "Job", 202},
+    {"GET", "formats", "formats", "the file formats, and what each can hold", list_formats, Source::none, nullptr,
+     "FileFormats"},
+    {"GET", "openapi.json", "openapi", "this document", show_openapi, Source::none, nullptr, "OpenApi"},
+};
+
+}  // namespace
+
+std::span<const Route> routes() {
+  return kRoutes;
+}
+
+std::vector<std::string_view> segments_of(std::string_view path) {
+  std::vector<std::string_view> segments;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    segments.push_back(path.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return segments;
+}
+
+std::optional<calls::Texts> match(const Route& route, const std::vector<std::string>& path) {
+  const std::vector<std::string_view> segments = segments_of(route.path);
+  if (segments.size() != path.size()) return std::nullopt;
+  calls::Texts names;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (segments[i].starts_with('{')) {
+      names.emplace(segments[i].substr(1, segments[i].size() - 2), path[i]);
+    } else if (segments[i] != path[i]) {
+      return std::nullopt;
+    }
+  }
+  return names;
+}
+
+calls::Listener Call::listener() {
+  const auto over = std::chrono::steady_clock::now() + state.limits.sign_time;
+  return {.notice = [this](const Notice& notice) { notices.push_back(notice); },
+          .fault =
+              [this](const std::string& line) {
+                notices.push_back({"", line});
+              },
+          .stage = {},
+          .progress =
+              [over](double) {
+                if (std::chrono::steady_clock::now() < over) return;
+                throw Error(ErrorCode::cancelled, "the call took longer than the server allows; ask for less");
+              }};
+}
+
+void Call::declare(const std::vector<std::pair<std::string, std::string>>& of) {
+  for (const auto& [name, value] : of) declarations[name] = value;
+}
+
+void Call::declare_all(const Contents& contents) {
+  for (const RecordingInfo& info : contents.recordings) declare(info.declarations);
+}
+
+}  // namespace signweave::server

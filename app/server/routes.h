@@ -1,0 +1,129 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/calls/listener.h"
+#include "app/calls/read.h"
+#include "app/calls/schema.h"
+#include "app/server/answer.h"
+#include "app/server/api_state.h"
+
+namespace signweave::server {
+
+struct Route;
+
+/// A request on its way to its answer; belongs to one thread.
+struct Call {
+  ApiState& state;
+  const ApiRequest& request;
+  const Route& route;
+  calls::Texts names;                                      ///< of the path: {"database": "demo"}
+  nlohmann::json declarations = nlohmann::json::object();  ///< of the recordings that the answer is made of
+  std::vector<Notice> notices;                             ///< what stopped nothing
+
+  ServedDatabase& database() const { return state.databases.at(names.at("database")); }
+  /// Collects notices and faults; progress ends the call when its time is over.
+  calls::Listener listener();
+  /// Takes up what a recording says of itself.
+  void declare(const std::vector<std::pair<std::string, std::string>>& of);
+  void declare_all(const Contents& contents);
+};
+
+/// Where a call's fields stand.
+enum class Source { none, query, body };
+
+/// One call of the API. The table of them is the only place that knows paths: answering, the OpenAPI document and the
+/// test of docs/http.md go by it.
+struct Route {
+  std::string_view method;
+  std::string_view path;     ///< below /api/, names in braces
+  std::string_view id;       ///< operationId
+  std::string_view summary;  ///< one line
+  ApiResponse (*handle)(Call&);
+  Source source = Source::none;
+  calls::SchemaWriter (*parameters)() = nullptr;
+  std::string_view answer = {};  ///< its schema in the document's components; empty: a file
+  int status = 200;
+  bool may_be_file = false;  ///< beside the JSON answer
+  bool changes = false;      ///< refused with 403 for a database that is served for reading only
+  bool takes_file = false;   ///< the request's body is a file
+};
+
+std::span<const Route> routes();
+
+/// The segments of a route's path: "databases", "{database}", ….
+std::vector<std::string_view> segments_of(std::string_view path);
+/// The names in the path where the route fits, none where it does not.
+std::optional<calls::Texts> match(const Route& route, const std::vector<std::string>& path);
+
+/// The call's parameters from where the route says they stand. Throws Error{bad_input}, StatusError 415.
+template <class Parameters>
+Parameters read_parameters(const Call& call) {
+  if (call.route.source == Source::query) {
+    return calls::read_call<Parameters>(call.request.query, call.names);
+  }
+  return calls::read_call<Parameters>(calls::parse_body(call.request.body), call.names);
+}
+
+/// A call's parameters, and in which format its answer is wanted: empty for the JSON report.
+template <class Parameters>
+struct WithFormat {
+  Parameters call;
+  std::string format;
+};
+
+/// Which formats an answer can have; specialised where there are some.
+template <class Parameters>
+struct Formats;
+
+template <class Visit, class Parameters>
+void fields(Visit& visit, WithFormat<Parameters>& wanted) {
+  fields(visit, wanted.call);
+  visit(calls::Field{.name = "format", .help = Formats<Parameters>::help(), .one_of = Formats<Parameters>::names()},
+        wanted.format);
+}
+
+// Handlers, by file.
+ApiResponse list_databases(Call& call);  // handle_databases.cpp
+ApiResponse show_database(Call& call);
+ApiResponse show_recording(Call& call);
+ApiResponse check_database(Call& call);
+ApiResponse list_formats(Call& call);
+ApiResponse show_openapi(Call& call);
+ApiResponse find_segments(Call& call);  // handle_search.cpp
+ApiResponse count_transitions(Call& call);
+ApiResponse propose_segments(Call& call);
+ApiResponse evaluate_methods(Call& call);
+ApiResponse sign_utterance(Call& call);  // handle_signing.cpp
+ApiResponse edit_recording(Call& call);
+ApiResponse export_motion(Call& call);
+ApiResponse export_annotation(Call& call);
+ApiResponse relayout_database(Call& call);  // handle_changes.cpp
+ApiResponse remove_recording(Call& call);
+ApiResponse open_upload(Call& call);  // handle_uploads.cpp
+ApiResponse show_upload(Call& call);
+ApiResponse discard_upload(Call& call);
+ApiResponse put_file(Call& call);
+ApiResponse import_upload(Call& call);
+ApiResponse list_jobs(Call& call);
+ApiResponse show_job(Call& call);
+ApiResponse cancel_job(Call& call);
+
+/// The fields of each call that has some, for the table and the document.
+calls::SchemaWriter query_fields();
+calls::SchemaWriter stats_fields();
+calls::SchemaWriter segment_fields();
+calls::SchemaWriter evaluate_fields();
+calls::SchemaWriter sign_fields();
+calls::SchemaWriter edit_fields();
+calls::SchemaWriter motion_fields();
+calls::SchemaWriter annotation_fields();
+calls::SchemaWriter relayout_fields();
+calls::SchemaWriter import_fields();
+
+}  // namespace signweave::server

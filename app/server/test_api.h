@@ -1,0 +1,84 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/server/api.h"
+#include "signweave/formats/bvh.h"
+#include "signweave/formats/eaf.h"
+#include "signweave/kv/test_folder.h"
+#include "tests/demo_database.h"
+
+namespace signweave::server {
+
+using Path = std::vector<std::string>;
+
+/// For tests: an Api over databases of the demo signer, each in a folder of its own.
+class TestApi {
+ public:
+  /// One database, "demo", with meteo and villes.
+  explicit TestApi(bool writable, ApiLimits limits = {}) {
+    std::filesystem::copy(made(), folder_ / "demo.db", std::filesystem::copy_options::recursive);
+    std::filesystem::create_directory(folder_ / "scratch");
+    databases_.add(folder_ / "demo.db", writable);
+    api_ = std::make_unique<Api>(databases_, limits, folder_ / "scratch");
+  }
+
+  Api& api() { return *api_; }
+  const Database& database() { return databases_.at("demo").database(); }
+  std::filesystem::path scratch() const { return folder_ / "scratch"; }
+
+  ApiResponse get(Path path, std::map<std::string, std::string> query = {}) {
+    return api_->answer({.method = "GET", .path = std::move(path), .query = std::move(query)});
+  }
+  ApiResponse send(std::string method, Path path, const nlohmann::json& body = nullptr) {
+    ApiRequest request{.method = std::move(method), .path = std::move(path)};
+    if (!body.is_null()) {
+      request.content_type = "application/json";
+      request.body = body.dump();
+    }
+    return api_->answer(std::move(request));
+  }
+  ApiResponse put(Path path, std::string body) {
+    return api_->answer({.method = "PUT", .path = std::move(path), .body = std::move(body)});
+  }
+
+  /// A database of the demo's first two recordings, made once for the whole program.
+  static const std::filesystem::path& made() {
+    static const kv::TestFolder folder;
+    static const std::filesystem::path path = [] {
+      demo_database(folder / "demo.db", demo::corpus_scripts(2));
+      return folder / "demo.db";
+    }();
+    return path;
+  }
+
+ private:
+  kv::TestFolder folder_;
+  ServedDatabases databases_;
+  std::unique_ptr<Api> api_;
+};
+
+inline nlohmann::json json_in(const ApiResponse& response) {
+  return nlohmann::json::parse(response.body);
+}
+
+/// The fault of an answer, "404 not_found: …".
+inline std::string fault_of(const ApiResponse& response) {
+  const nlohmann::json error = json_in(response).at("error");
+  return std::to_string(response.status) + " " + error.at("code").get<std::string>() + ": " +
+         error.at("message").get<std::string>();
+}
+
+inline std::string header_of(const ApiResponse& response, const std::string& name) {
+  for (const auto& [of, value] : response.headers) {
+    if (of == name) return value;
+  }
+  return {};
+}
+
+}  // namespace signweave::server

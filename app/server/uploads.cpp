@@ -1,0 +1,167 @@
+#include "app/server/uploads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <random>
+
+#include "app/server/answer.h"
+#include "signweave/core/error.h"
+#include "signweave/core/text.h"
+
+namespace signweave::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Nobody guesses another client's upload.
+std::string random_id() {
+  std::random_device device;
+  std::string id;
+  for (int i = 0; i < 4; ++i) id += fmt::format("{:08x}", device());
+  return id;
+}
+
+void write_file(const fs::path& path, std::string_view body) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out.write(body.data(), static_cast<std::streamsize>(body.size()));
+  out.close();
+  if (!out) throw Error(ErrorCode::io, "the file could not be kept (is the server's disk full?)");
+}
+
+void move_file(const fs::path& from, const fs::path& to) {
+  std::error_code fault;
+  fs::rename(from, to, fault);
+  if (!fault) return;
+  fs::copy_file(from, to, fs::copy_options::overwrite_existing, fault);  // another file system
+  std::error_code ignored;
+  fs::remove(from, ignored);
+  if (fault) throw Error(ErrorCode::io, "the file could not be kept (is the server's disk full?)");
+}
+
+}  // namespace
+
+Uploads::Uploads(fs::path folder, std::size_t most, std::uint64_t most_bytes, Seconds idle)
+    : folder_(std::move(folder)), most_(most), most_bytes_(most_bytes), idle_(idle) {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+Uploads::~Uploads() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+void Uploads::require_plain(std::string_view name) {
+  constexpr std::size_t kMostBytes = 200;
+  const bool plain = !name.empty() && name.size() <= kMostBytes && name.front() != '.' && is_utf8(name) &&
+                     std::ranges::none_of(name, [](char c) {
+                       return static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == '/' || c == '\\' || c == ':';
+                     });
+  if (plain) return;
+  throw Error(ErrorCode::bad_input,
+              fmt::format("'{}' is no plain file name: no folders, no ':', no leading dot, at most {} bytes",
+                          printable(name), kMostBytes));
+}
+
+const Uploads::Upload& Uploads::at(const std::string& database, const std::string& id) const {
+  const auto found = uploads_.find(id);
+  if (found == uploads_.end() || found->second.database != database) {
+    throw Error(ErrorCode::not_found, fmt::format("no upload '{}' for '{}'; it may be over, or nobody used it for long",
+                                                  printable(id), printable(database)));
+  }
+  return found->second;
+}
+
+Uploads::Upload& Uploads::at(const std::string& database, const std::string& id) {
+  return const_cast<Upload&>(std::as_const(*this).at(database, id));
+}
+
+std::string Uploads::open(const std::string& database) {
+  sweep();
+  const std::lock_guard lock(mutex_);
+  if (uploads_.size() >= most_) {
+    throw StatusError(503, "busy", fmt::format("{} uploads are open already; finish one, or wait", uploads_.size()));
+  }
+  std::string id = random_id();
+  Upload upload{.database = database, .folder = folder_ / id, .files = {}, .touched = std::chrono::steady_clock::now()};
+  std::error_code fault;
+  fs::create_directories(upload.folder, fault);
+  if (fault) throw Error(ErrorCode::io, "no folder for the upload could be made: " + fault.message());
+  uploads_.emplace(id, std::move(upload));
+  return id;
+}
+
+nlohmann::json Uploads::put(const std::string& database, const std::string& id, const std::string& name,
+                            const fs::path& from, std::string_view body) {
+  require_plain(name);
+  const std::lock_guard lock(mutex_);
+  Upload& upload = at(database, id);
+  if (upload.held) throw Error(ErrorCode::conflict, "the upload is being imported; open another one");
+  const std::uint64_t bytes = from.empty() ? body.size() : fs::file_size(from);
+  std::uint64_t all = bytes;
+  for (const auto& [other, size] : upload.files) all += other == name ? 0 : size;
+  if (all > most_bytes_) {
+    throw too_large(fmt::format("the upload would have {} bytes, and may have {}", all, most_bytes_));
+  }
+  if (upload.files.size() >= 10'000) throw too_large("the upload has 10000 files already; open another one");
+  if (from.empty()) {
+    write_file(upload.folder / name, body);
+  } else {
+    move_file(from, upload.folder / name);
+  }
+  upload.files[name] = bytes;
+  upload.touched = std::chrono::steady_clock::now();
+  return {{"file", name}, {"bytes", bytes}, {"upload_bytes", all}};
+}
+
+nlohmann::json Uploads::describe(const std::string& database, const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  const Upload& upload = at(database, id);
+  nlohmann::json files = nlohmann::json::array();
+  for (const auto& [name, bytes] : upload.files) files.push_back({{"file", name}, {"bytes", bytes}});
+  return {{"upload", id}, {"files", std::move(files)}};
+}
+
+void Uploads::discard(const std::string& database, const std::string& id) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (at(database, id).held) throw Error(ErrorCode::conflict, "the upload is being imported; cancel its job first");
+  }
+  release(id, true);
+}
+
+fs::path Uploads::hold(const std::string& database, const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  Upload& upload = at(database, id);
+  if (upload.held) throw Error(ErrorCode::conflict, "the upload is being imported already");
+  if (upload.files.empty()) throw Error(ErrorCode::bad_input, "the upload has no files yet; put some first");
+  upload.held = true;
+  return upload.folder;
+}
+
+void Uploads::release(const std::string& id, bool remove) {
+  const std::lock_guard lock(mutex_);
+  const auto found = uploads_.find(id);
+  if (found == uploads_.end()) return;
+  found->second.held = false;
+  found->second.touched = std::chrono::steady_clock::now();
+  if (!remove) return;
+  std::error_code ignored;
+  fs::remove_all(found->second.folder, ignored);
+  uploads_.erase(found);
+}
+
+void Uploads::sweep() {
+  const std::lock_guard lock(mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  std::erase_if(uploads_, [&](const auto& entry) {
+    if (entry.second.held || now - entry.second.touched < idle_) return false;
+    std::error_code ignored;
+    fs::remove_all(entry.second.folder, ignored);
+    return true;
+  });
+}
+
+}  // namespace signweave::server

@@ -29,7 +29,8 @@ bool is_lid(std::string_view track) {
 
 // --- Which frame is at rest ---
 
-// What makes a frame less of a rest; each is worth hands that are a shoulder width higher. (ours)
+// What makes a frame less of a rest. Hands as high as the shoulders are worth kHigh each, these here 1. (ours)
+constexpr float kHigh = 3;
 constexpr float kSpeed = 0.5f;         // metres a second, of the fastest of hands, head and feet
 constexpr float kTilt = 20 * kDegree;  // of the trunk, and of the head from how it is mostly held
 constexpr float kStep = 0.15f;         // metres that one foot is higher than the other
@@ -40,14 +41,16 @@ constexpr float kLevel = 0.03f;
 constexpr Seconds kLook{0.05};          // to each side of a frame, for its speed
 constexpr std::int64_t kMostLook = 20;  // frames
 
+/// How much that is worth, and no more than kMost: hands up high are worse than any haste.
 float beyond(float value, float free, float unit) {
-  return std::max(0.0f, value - free) / unit;
+  constexpr float kMost = 1.5f;
+  return std::clamp((value - free) / unit, 0.0f, kMost);
 }
 
 /// One frame as far as resting goes.
 struct Seen {
   std::int64_t frame = 0;
-  float height = 0;  ///< of the hands above the hips, shoulder widths
+  float height = 0;  ///< of the hands together: of each 0 at the hips and below, kHigh at the shoulders
   float speed = 0;
   float tilt = 0;
   float step = 0;
@@ -125,9 +128,9 @@ class RestLook {
   void measure(Seen& seen) {
     const RigMap& rig = signer_.rig;
     const SignerSpace space = signer_space(*signer_.body, rig, pose_);
-    const float hips = signer_.body->heights[static_cast<std::size_t>(Height::waist)];
+    const float hips = std::min(-0.1f, signer_.body->heights[static_cast<std::size_t>(Height::waist)]);
     for (const HandPlaces& hand : hands_) {
-      if (hand.has_wrist()) seen.height += std::max(0.0f, space.to_signer(palm(hand)).y() - hips);
+      if (hand.has_wrist()) seen.height += kHigh * std::max(0.0f, 1 - space.to_signer(palm(hand)).y() / hips);
     }
     if (rig.has(Part::pelvis)) {
       const Vector3f trunk = space.origin - position_of(rig[Part::pelvis], pose_);

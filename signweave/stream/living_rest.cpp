@@ -165,16 +165,25 @@ std::vector<std::int64_t> rest_frames(std::int64_t frames) {
   return chosen;
 }
 
-/// How the head is mostly held: the mean over frames, those counting most in which the signer is near to rest.
+/// How the head is mostly held: as in the frame from which it is least turned in the others, those counting most in
+/// which the trunk is upright. A mean would lie between two ways of looking.
 Quaternionf usual_head(std::span<const Seen> frames) {
-  Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+  std::vector<float> weights;
   for (const Seen& seen : frames) {
-    const float away = seen.height + beyond(seen.speed, kStill, kSpeed) + beyond(seen.tilt, kUpright, kTilt);
-    const Eigen::Vector4f turn = seen.signer_from_head.coeffs();
-    const float weight = 1 / (0.2f + away);
-    if (turn.allFinite()) sum += (sum.dot(turn) < 0 ? -weight : weight) * turn;
+    weights.push_back(1 / (0.2f + beyond(seen.tilt, kUpright, kTilt)));
   }
-  return sum.norm() > 1e-6f ? Quaternionf(sum.normalized()) : Quaternionf::Identity();
+  Quaternionf usual = Quaternionf::Identity();
+  float least = std::numeric_limits<float>::infinity();
+  for (const Seen& candidate : frames) {
+    float sum = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      sum += weights[i] * candidate.signer_from_head.angularDistance(frames[i].signer_from_head);
+    }
+    if (!(sum < least)) continue;
+    least = sum;
+    usual = candidate.signer_from_head;
+  }
+  return usual;
 }
 
 std::int64_t rest_frame_of(const MotionSource& motion, const SignerModel& signer) {

@@ -151,6 +151,7 @@ TEST(LivingRest, HandsAndFeetAreQuietAndTheGazeStays) {
     const LivingRest rest = living(motion, {30, 1}, {.seed = seed});
     const ModelPose still = to_model_space(motion.skeleton(), std::as_const(motion).pose(0));
     float hands = 0;
+    float hang = 0;
     float head = 0;
     float feet = 0;
     watch(rest, 600, [&](double, const ModelPose& pose) {
@@ -158,6 +159,8 @@ TEST(LivingRest, HandsAndFeetAreQuietAndTheGazeStays) {
         const PartPlace& hand = rig[of(side, Part::left_hand)];
         const PartPlace& foot = rig[of(side, Part::left_foot)];
         hands = std::max(hands, (position_of(hand, pose) - position_of(hand, still)).norm());
+        const auto wrist = static_cast<std::size_t>(hand.joint);
+        hang = std::max(hang, pose.rotations[wrist].angularDistance(still.rotations[wrist]));
         feet = std::max(feet, (position_of(foot, pose) - position_of(foot, still)).norm());
       }
       const auto at = static_cast<std::size_t>(rig[Part::head].joint);
@@ -167,6 +170,7 @@ TEST(LivingRest, HandsAndFeetAreQuietAndTheGazeStays) {
     EXPECT_GT(hands, 0.001f);
     EXPECT_LT(static_cast<double>(head), 2 * kDegree);
     EXPECT_GT(static_cast<double>(head), 0.3 * kDegree);
+    EXPECT_LT(static_cast<double>(hang), 0.1 * kDegree);  // arms hang as they hung
     EXPECT_EQ(feet, 0);
   }
 }
@@ -347,6 +351,17 @@ TEST(LivingRest, BreathesWithWhatTheRigHas) {
     });
     EXPECT_GT(shoulders, 0.005f);
     EXPECT_LT(static_cast<double>(head), 10 * kDegree);
+  }
+}
+
+TEST(LivingRest, NeverTurnsWhatCarriesTheLegs) {
+  const Motion motion = standing();
+  RigMap rig = map_rig(motion);
+  rig[Part::spine] = rig[Part::pelvis];
+  const LivingRest rest(motion.shared_skeleton(), {60, 1}, rig, {.pose = Pose(std::as_const(motion).pose(0))}, {});
+  const Motion moved = frames_of(rest, {0, 600});
+  for (std::int64_t frame = 0; frame < 600; ++frame) {
+    EXPECT_EQ(moved.pose(frame).rotations[0].coeffs(), motion.rotations()[0].coeffs());
   }
 }
 

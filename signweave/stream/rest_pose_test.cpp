@@ -1,9 +1,10 @@
+#include "signweave/stream/rest_pose.h"
+
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "signweave/rig/test_rigs.h"
-#include "signweave/stream/living_rest.h"
 
 namespace signweave {
 namespace {

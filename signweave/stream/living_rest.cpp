@@ -20,8 +20,8 @@ constexpr float kDegree = std::numbers::pi_v<float> / 180;
 
 // Breaths a second, and how their pace and depth change over minutes: 12.5 to 15.5 in each minute. (ours)
 constexpr double kBreaths = 14.0 / 60;
-constexpr double kInhale = 0.38;  // of a breath; then out, then a pause
-constexpr double kPause = 0.16;
+constexpr double kInhale = 0.4;  // of a breath; then out, then a pause
+constexpr double kPause = 0.04;
 // How far, at the end of breathing in. (ours)
 constexpr float kSpinePitch = 0.25f * kDegree;
 constexpr float kChestPitch = 0.7f * kDegree;

@@ -78,6 +78,7 @@ Run export_recording(CLI::App& verb);
 Run segment(CLI::App& verb);
 Run stats(CLI::App& verb);
 Run evaluate(CLI::App& verb);
+Run serve(CLI::App& verb);
 Run formats(CLI::App& verb);
 
 }  // namespace signweave::cli

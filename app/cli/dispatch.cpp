@@ -36,6 +36,7 @@ constexpr Command kCommands[] = {
     {"stats", "durations of the recorded transitions", "signweave stats corpus.db --recording meteo", stats},
     {"evaluate", "cut captured movements out, make them again by each method, compare",
      "signweave evaluate recordings/ --plot errors.svg", evaluate},
+    {"serve", "answer over HTTP, and stream signing live", "signweave serve corpus.db --listen 127.0.0.1:8080", serve},
     {"formats", "the file formats, and what each can hold", "signweave formats", formats},
 };
 

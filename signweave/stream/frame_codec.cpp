@@ -1,6 +1,5 @@
 #include "signweave/stream/frame_codec.h"
 
-#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -8,13 +7,41 @@
 
 #include "signweave/core/error.h"
 
+// Rounding without a branch or a call, so that the compiler turns the loop over rotations into vector instructions: a
+// number of moderate size, added to one so large that its last place counts whole units, is rounded to them, and the
+// low bits of the sum are the whole number in two's complement.
+
 namespace signweave {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "messages are written as the machine has its numbers");
+static_assert(sizeof(Eigen::Quaternionf) == 4 * sizeof(float), "rotations lie in memory without padding");
 
-constexpr float kPerMetre = 100'000.0f;
+constexpr double kPerMetre = 100'000.0;
 constexpr float kPerUnit = 32'767.0f;
+constexpr double kMostUnits = 2'147'483'647.0;
+constexpr float kRoundsFloats = 12'582'912.0f;              // 1.5 · 2^23, low bits 0
+constexpr double kRoundsDoubles = 6'755'399'441'055'744.0;  // 1.5 · 2^52, low bits 0
+
+/// `least` to `most`.
+template <typename Number>
+[[gnu::always_inline]] inline Number within(Number value, Number least, Number most) noexcept {
+  const Number kept = value < most ? value : most;
+  return kept > least ? kept : least;
+}
+[[gnu::always_inline]] inline std::uint32_t rotation_units(float value, float least, float most) noexcept {
+  const auto bits = std::bit_cast<std::uint32_t>(within(value * kPerUnit, least, most) + kRoundsFloats);
+  return bits & (value == value ? 0xffffu : 0u);
+}
+[[gnu::always_inline]] inline std::int32_t translation_units(float metres) noexcept {
+  if (metres != metres) return 0;
+  const double units = within(static_cast<double>(metres) * kPerMetre, -kMostUnits, kMostUnits);
+  return static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(units + kRoundsDoubles));
+}
+
+// Volatile, so that the compiler does not know them: comparisons with known numbers become branches.
+const volatile float kLeastRotation = -kPerUnit;
+const volatile float kMostRotation = kPerUnit;
 
 template <typename T>
 void put(std::byte*& to, T value) noexcept {
@@ -44,18 +71,20 @@ void encode(const MessageHeader& header, std::span<std::byte> out) noexcept {
 void encode(const FrameView& frame, std::span<std::byte> out) noexcept {
   std::byte* to = out.data();
   for (const Eigen::Vector3f& t : frame.pose.translations) {
-    for (int i = 0; i < 3; ++i) {
-      const float units = std::nearbyint(t[i] * kPerMetre);
-      put(to, std::isfinite(units) ? static_cast<std::int32_t>(std::clamp(units, -2.1e9f, 2.1e9f)) : 0);
-    }
+    for (int i = 0; i < 3; ++i) put(to, translation_units(t[i]));
   }
-  for (const float value : frame.tracks) put(to, value);
-  for (const Eigen::Quaternionf& q : frame.pose.rotations) {
-    for (int i = 0; i < 4; ++i) {
-      const float units = std::nearbyint(q.coeffs()[i] * kPerUnit);
-      put(to,
-          std::isfinite(units) ? static_cast<std::int16_t>(std::clamp(units, -kPerUnit, kPerUnit)) : std::int16_t{0});
-    }
+  if (!frame.tracks.empty()) std::memcpy(to, frame.tracks.data(), frame.tracks.size_bytes());
+  to += frame.tracks.size_bytes();
+  if (frame.pose.rotations.empty()) return;
+  const float* from = frame.pose.rotations.front().coeffs().data();
+  const std::size_t pairs = 2 * frame.pose.rotations.size();
+  const float least = kLeastRotation;
+  const float most = kMostRotation;
+  // Two numbers at a time: whole words cost fewer shuffles than halves.
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const std::uint32_t units = rotation_units(from[2 * i], least, most) | rotation_units(from[2 * i + 1], least, most)
+                                                                               << 16;
+    std::memcpy(to + i * sizeof units, &units, sizeof units);
   }
 }
 
@@ -77,13 +106,17 @@ MessageHeader decode_header(std::span<const std::byte> message, const FrameShape
 void decode(std::span<const std::byte> bytes, MutableFrameView out) noexcept {
   const std::byte* from = bytes.data();
   for (Eigen::Vector3f& t : out.pose.translations) {
-    for (int i = 0; i < 3; ++i) t[i] = static_cast<float>(get<std::int32_t>(from)) / kPerMetre;
+    for (int i = 0; i < 3; ++i) t[i] = static_cast<float>(get<std::int32_t>(from) / kPerMetre);
   }
   for (float& value : out.tracks) value = get<float>(from);
   for (Eigen::Quaternionf& q : out.pose.rotations) {
-    for (int i = 0; i < 4; ++i) q.coeffs()[i] = static_cast<float>(get<std::int16_t>(from)) / kPerUnit;
-    const float norm = q.norm();
-    q = norm > 0 ? Eigen::Quaternionf(q.coeffs() / norm) : Eigen::Quaternionf::Identity();
+    const auto x = static_cast<float>(get<std::int16_t>(from));
+    const auto y = static_cast<float>(get<std::int16_t>(from));
+    const auto z = static_cast<float>(get<std::int16_t>(from));
+    const auto w = static_cast<float>(get<std::int16_t>(from));
+    const float square = x * x + y * y + z * z + w * w;
+    const float scale = 1.0f / std::sqrt(square);
+    q = square > 0 ? Eigen::Quaternionf(w * scale, x * scale, y * scale, z * scale) : Eigen::Quaternionf::Identity();
   }
 }
 

@@ -1,96 +1,183 @@
 #include "signweave/stream/player.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "signweave/core/error.h"
+#include "signweave/motion/blend.h"
+#include "signweave/stream/frame_ring.h"
+#include "signweave/stream/growing_utterance.h"
 
 namespace signweave {
+namespace {
 
-// The thinnest path: each utterance is synthesised whole.
+constexpr double kSlowest = 0.25;
+constexpr double kFastest = 2.0;
 
-struct SigningBase::State {
-  const Database& database;
-};
-SigningBase::SigningBase(const Database& database) : state_(new State{database}) {}
-SigningBase::~SigningBase() = default;
-const Database& SigningBase::database() const noexcept {
-  return state_->database;
+PlayerOptions checked(PlayerOptions options) {
+  check(options.synthesis);
+  if (options.look_ahead < 1 || options.look_ahead > 16) {
+    throw Error(ErrorCode::bad_input, fmt::format("a look-ahead of {} places is outside 1 to 16", options.look_ahead));
+  }
+  return options;
 }
-void SigningBase::warm_up() {}
+
+}  // namespace
 
 struct Player::State {
-  SigningBase& base;
-  PlayerOptions options;
-  Motion motion;
-  std::optional<StreamHeader> header;
-  std::int64_t at = 0;
-  std::uint64_t frame = 0;
+  State(SigningBase& base, const PlayerOptions& options) : growing(base, options) {}
+
+  GrowingUtterance growing;
+  FrameRing ring;
+  std::int64_t next = 0;    ///< frame of the timeline that is shown next
+  double part = 0;          ///< of the way to the frame after it, in [0, 1)
+  double tempo = 1;         ///< frames of the timeline for one that is taken
+  std::uint64_t taken = 0;  ///< frames of the stream
   bool paused = false;
+
+  /// The ring, once it is known what a frame is.
+  void open_ring() {
+    if (ring.capacity() > 1 || growing.header() == nullptr) return;
+    ring = FrameRing(growing.header()->shape(), kMostReady * 2 + static_cast<std::size_t>(growing.history()) + 2);
+  }
+  /// Frames that can be taken with what the ring has.
+  std::size_t ready() const noexcept {
+    const auto there = static_cast<double>(ring.end() - next) - part;
+    if (there <= 0) return 0;
+    // A frame between two needs both.
+    const double last = part == 0 && tempo == 1 ? there - 1 : there - 1 - 1e-9;
+    return last < 0 ? (part == 0 ? 1 : 0) : static_cast<std::size_t>(last / tempo) + 1;
+  }
+  /// What is left of the ring after the timeline was changed.
+  void changed() {
+    ring.cut(std::min(ring.end(), growing.end()));
+    if (ring.end() == next) part = 0;
+  }
 };
 
-Player::Player(SigningBase& base, PlayerOptions options)
-    : state_(new State{.base = base, .options = std::move(options), .motion = {}, .header = {}}) {}
+Player::Player(SigningBase& base, PlayerOptions options) {
+  const PlayerOptions sound = checked(std::move(options));
+  state_ = std::make_unique<State>(base, sound);
+  if (!sound.recording.empty()) state_->growing.rest_in(sound.recording);
+  state_->open_ring();
+}
+
 Player::~Player() = default;
+
 void Player::sign(const Utterance& utterance) {
-  Synthesized made = synthesize(state_->base.database(), utterance, state_->options.synthesis);
-  state_->motion = std::move(made.result.motion);
-  state_->at = 0;
-  if (state_->header) return;
-  StreamHeader header{.skeleton = state_->motion.shared_skeleton(),
-                      .rate = state_->motion.rate(),
-                      .tracks = {},
-                      .layout_from = made.layout_from,
-                      .declarations = made.result.declarations};
-  for (const ScalarTrack& track : state_->motion.tracks()) header.tracks.push_back(track.name);
-  state_->header = std::move(header);
+  state_->growing.replace(utterance, state_->next, state_->ring);
+  state_->changed();
 }
+
 void Player::append(const Utterance& utterance) {
-  sign(utterance);
+  state_->growing.add(utterance, state_->next, state_->ring);
+  state_->changed();
 }
+
+void Player::stop() {
+  sign({});
+}
+
 void Player::pause() noexcept {
   state_->paused = true;
 }
+
 void Player::resume() noexcept {
   state_->paused = false;
 }
-void Player::seek(Milliseconds) {
-  state_->at = 0;
+
+void Player::seek(Milliseconds at) {
+  State& state = *state_;
+  if (state.growing.header() == nullptr) return;
+  const double frames = Seconds(at).count() * state.growing.header()->rate.hertz();
+  state.ring.cut(state.next);
+  state.growing.seek(std::llround(std::clamp(frames, 0.0, 1e12)), state.next);
+  state.part = 0;
+  state.changed();
 }
-void Player::set_tempo(double) {}
-void Player::set_loop(bool) noexcept {}
-void Player::stop() {
-  state_->at = state_->motion.frame_count();
+
+void Player::set_tempo(double tempo) {
+  if (!(tempo >= kSlowest && tempo <= kFastest)) {
+    throw Error(ErrorCode::bad_input, fmt::format("a tempo of {} is outside {} to {}", tempo, kSlowest, kFastest));
+  }
+  state_->tempo = tempo;
+  // Whole frames are shown as they are again: the next one half a frame early or late.
+  if (tempo == 1 && state_->part > 0) {
+    if (state_->part >= 0.5 && state_->next + 1 < state_->ring.end()) ++state_->next;
+    state_->part = 0;
+  }
 }
+
+void Player::set_loop(bool loop) noexcept {
+  state_->growing.set_loop(loop);
+}
+
 const StreamHeader* Player::header() const noexcept {
-  return state_->header ? &*state_->header : nullptr;
+  return state_->growing.header();
 }
-std::size_t Player::prepare(std::size_t) {
-  return static_cast<std::size_t>(state_->motion.frame_count() - state_->at);
+
+std::size_t Player::prepare(std::size_t frames) {
+  State& state = *state_;
+  frames = std::min(frames, kMostReady);
+  struct LetGo {
+    State& state;
+    ~LetGo() { state.growing.let_go(state.ring.end()); }
+  } const let_go{state};
+  while (state.ready() < frames) {
+    if (state.growing.end() <= state.ring.end() && !state.growing.extend()) break;
+    state.open_ring();
+    state.ring.forget(state.next - state.growing.history());
+    const auto wanted =
+        static_cast<std::int64_t>(std::ceil(static_cast<double>(frames) * state.tempo + state.part)) + 1;
+    const std::int64_t before = state.ring.end();
+    state.growing.read(std::min(state.growing.end(), state.next + wanted), state.ring);
+    if (state.ring.end() == before && state.growing.end() > before) break;
+  }
+  return state.ready();
 }
+
 bool Player::next(MutableFrameView out) noexcept {
   State& state = *state_;
-  if (state.paused || state.at >= state.motion.frame_count()) return false;
-  const PoseView pose = std::as_const(state.motion).pose(state.at);
-  std::ranges::copy(pose.rotations, out.pose.rotations.begin());
-  std::ranges::copy(pose.translations, out.pose.translations.begin());
-  for (std::size_t i = 0; i < out.tracks.size(); ++i) {
-    out.tracks[i] = state.motion.tracks()[i].values[static_cast<std::size_t>(state.at)];
+  if (state.paused || state.ready() == 0) return false;
+  const FrameView frame = state.ring.at(state.next);
+  if (state.part == 0) {
+    std::ranges::copy(frame.pose.rotations, out.pose.rotations.begin());
+    std::ranges::copy(frame.pose.translations, out.pose.translations.begin());
+    std::ranges::copy(frame.tracks, out.tracks.begin());
+  } else {
+    const FrameView after = state.ring.at(state.next + 1);
+    const auto part = static_cast<float>(state.part);
+    blend(frame.pose, after.pose, part, out.pose);
+    for (std::size_t i = 0; i < out.tracks.size(); ++i) {
+      out.tracks[i] = frame.tracks[i] + part * (after.tracks[i] - frame.tracks[i]);
+    }
   }
-  ++state.at;
-  ++state.frame;
+  const double to = state.part + state.tempo;
+  const double whole = std::floor(to);
+  state.next += static_cast<std::int64_t>(whole);
+  state.part = state.tempo == 1 ? 0 : to - whole;
+  ++state.taken;
   return true;
 }
+
 std::uint64_t Player::frame() const noexcept {
-  return state_->frame;
+  return state_->taken;
 }
+
 std::optional<PlayerEvent> Player::take_event() noexcept {
-  return std::nullopt;
+  std::optional<PlayerEvent> event = state_->growing.take_event(state_->next);
+  if (event) event->frame = state_->taken;
+  return event;
 }
+
 bool Player::paused() const noexcept {
   return state_->paused;
 }
+
 bool Player::idle() const noexcept {
-  return state_->at >= state_->motion.frame_count();
+  return state_->growing.idle(state_->next);
 }
 
 }  // namespace signweave

@@ -8,31 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "signweave/database/database.h"
+#include "signweave/core/time.h"
 #include "signweave/stream/frame_codec.h"
+#include "signweave/stream/signing_base.h"
 #include "signweave/synthesis/synthesizer.h"
 
 namespace signweave {
-
-/// What many players of one database share and what does not depend on what they sign: how long transitions last, which
-/// joint is what, where a signer rests. Made when it is first asked for, and again after a change of the database.
-/// Threads may share it; it must outlive its players, and the database it.
-class SigningBase {
- public:
-  explicit SigningBase(const Database& database);
-  ~SigningBase();
-  SigningBase(const SigningBase&) = delete;
-  SigningBase& operator=(const SigningBase&) = delete;
-
-  const Database& database() const noexcept;
-  /// Makes now what players would wait for.
-  void warm_up();
-
- private:
-  friend class Player;
-  struct State;
-  std::unique_ptr<State> state_;
-};
 
 /// What happens when nothing is left to sign.
 enum class Idle {
@@ -131,7 +112,7 @@ class Player {
   /// True where nothing is left to sign: at rest, or at the end.
   bool idle() const noexcept;
 
-  static constexpr std::size_t kMostReady = 256;
+  static constexpr std::size_t kMostReady = 64;
 
  private:
   struct State;

@@ -37,4 +37,8 @@ std::vector<Candidate> candidates_for(const Contents& contents, const Place& pla
 /// its last. None where no sign has a stroke inside the motion.
 std::optional<Candidate> candidate_of_run(const Contents& contents, std::size_t recording, std::vector<Sign> signs);
 
+/// Makes `last` go on with the signs of `next`, which was recorded after it (`are_neighbours`): one stretch, with the
+/// recorded transition inside.
+void go_on_with(Candidate& last, const Candidate& next);
+
 }  // namespace signweave

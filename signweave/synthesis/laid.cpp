@@ -23,6 +23,10 @@ double Laid::frame_at(std::int64_t output) const noexcept {
   return std::clamp(frame, static_cast<double>(stretch->whole.begin), static_cast<double>(last));
 }
 
+std::int64_t Laid::frame_of(std::int64_t recorded) const noexcept {
+  return core + std::llround(static_cast<double>(recorded - stretch->core.begin) / step);
+}
+
 Laid lay(const Stretch& stretch, FrameRate rate, double tempo) {
   Laid laid;
   laid.stretch = &stretch;

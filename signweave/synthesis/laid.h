@@ -31,6 +31,8 @@ struct Laid {
   bool captured_as_is() const noexcept { return step == 1.0; }
   /// The recording's frame that is shown at an output frame.
   double frame_at(std::int64_t output) const noexcept;
+  /// The output frame at which a frame of the recording is shown, as near as can be.
+  std::int64_t frame_of(std::int64_t recorded) const noexcept;
 };
 
 /// Lays a stretch on a grid of `rate` at a tempo.

@@ -60,12 +60,7 @@ std::vector<Candidate> merge_neighbours(const Contents& contents, const std::vec
     const Candidate& next = choices[place].candidates[selection.chosen[place]];
     const Milliseconds pause = choices[place].pause_before;
     if (!merged.empty() && pause == Milliseconds(0) && are_neighbours(contents, merged.back(), next)) {
-      Candidate& last = merged.back();
-      last.signs.insert(last.signs.end(), next.signs.begin(), next.signs.end());
-      last.left_out.insert(last.left_out.end(), next.left_out.begin(), next.left_out.end());
-      last.core.end = next.core.end;
-      last.whole.end = next.whole.end;
-      last.last_row = next.last_row;
+      go_on_with(merged.back(), next);
     } else {
       merged.push_back(next);
       pauses.push_back(pause);
@@ -78,13 +73,7 @@ std::vector<Candidate> merge_neighbours(const Contents& contents, const std::vec
 Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<Choice> choices,
                 std::string_view edited, const SynthesisOptions& options, Clock::time_point start, Synthesis used) {
   const Contents& contents = snapshot.contents();
-  if (!(options.tempo >= 0.25 && options.tempo <= 4.0)) {
-    throw Error(ErrorCode::bad_input, fmt::format("tempo {} is outside 0.25 to 4", options.tempo));
-  }
-  const Milliseconds fixed = options.duration.fixed.value_or(Milliseconds(0));
-  if (fixed < Milliseconds(0) || fixed > Milliseconds(60'000)) {
-    throw Error(ErrorCode::bad_input, fmt::format("a transition of {} ms is outside 0 to 60000", fixed.count()));
-  }
+  check(options);
   Synthesized made;
   made.contents = snapshot.shared_contents();
   made.choices = std::move(choices);
@@ -162,6 +151,16 @@ Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<
 }
 
 }  // namespace
+
+void check(const SynthesisOptions& options) {
+  if (!(options.tempo >= 0.25 && options.tempo <= 4.0)) {
+    throw Error(ErrorCode::bad_input, fmt::format("tempo {} is outside 0.25 to 4", options.tempo));
+  }
+  const Milliseconds fixed = options.duration.fixed.value_or(Milliseconds(0));
+  if (fixed < Milliseconds(0) || fixed > Milliseconds(60'000)) {
+    throw Error(ErrorCode::bad_input, fmt::format("a transition of {} ms is outside 0 to 60000", fixed.count()));
+  }
+}
 
 Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options,
                        Synthesis used) {

@@ -24,6 +24,9 @@ struct SynthesisOptions {
   bool explain = false;  ///< fill Selection::explained
 };
 
+/// Throws Error{bad_input} where an option is out of range.
+void check(const SynthesisOptions& options);
+
 /// How long each step took: the columns of the paper's Table 1.
 struct Timings {
   Seconds semantic_query{0};

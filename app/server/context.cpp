@@ -1,0 +1,85 @@
+#include "app/server/context.h"
+
+#include <boost/asio/post.hpp>
+#include <vector>
+
+namespace signweave::server {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{200};
+constexpr std::chrono::milliseconds kLookWhileStopping{20};
+
+}  // namespace
+
+Context::Context(ServedDatabases& served, Api& called, ServerOptions wanted)
+    : options(std::move(wanted)),
+      access(options),
+      databases(served),
+      api(called),
+      addresses({.connections = options.limits.connections_per_address,
+                 .rate = options.limits.requests_per_second,
+                 .burst = options.limits.request_burst}),
+      workers(options.workers) {
+  for (std::size_t i = 0; i < options.threads; ++i) threads.push_back(std::make_unique<IoThread>(*this));
+}
+
+Context::~Context() {
+  workers.join();
+  disk.join();
+}
+
+std::string Context::metrics() const {
+  std::vector<const Metrics*> all;
+  for (const auto& thread : threads) all.push_back(&thread->metrics);
+  return metrics_text(all, {.draining = draining, .calls = calls, .databases = databases.all().size()});
+}
+
+Connection::Connection(IoThread& thread) : thread_(thread) {
+  thread_.connections.insert(this);
+  thread_.metrics.connections.add();
+  ++thread_.context.connections;
+}
+
+Connection::~Connection() {
+  thread_.connections.erase(this);
+  thread_.metrics.connections.subtract();
+  --thread_.context.connections;
+}
+
+IoThread::IoThread(Context& shared) : context(shared), pacer(io), look_timer_(io) {}
+
+void IoThread::run() {
+  look();
+  io.run();
+}
+
+void IoThread::stop() {
+  boost::asio::post(io, [this] {
+    stopping_ = true;
+    end_ = Clock::now() + context.options.limits.drain;
+    const std::vector<Connection*> now(connections.begin(), connections.end());
+    for (Connection* connection : now) connection->drain();
+    look();
+  });
+}
+
+void IoThread::look() {
+  const Clock::time_point now = Clock::now();
+  const std::vector<Connection*> all(connections.begin(), connections.end());
+  bool busy = false;
+  for (Connection* connection : all) {
+    connection->look(now);
+    busy = busy || connection->busy();
+  }
+  if (stopping_ && (!busy || now >= end_)) {
+    for (Connection* connection : all) connection->close();
+    boost::asio::post(io, [this] { io.stop(); });
+    return;
+  }
+  look_timer_.expires_after(stopping_ ? kLookWhileStopping : kLook);
+  look_timer_.async_wait([this](boost::system::error_code error) {
+    if (!error) look();
+  });
+}
+
+}  // namespace signweave::server

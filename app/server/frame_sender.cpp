@@ -1,0 +1,283 @@
+#include "app/server/frame_sender.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/server/stream_text.h"
+
+namespace signweave::server {
+namespace {
+
+constexpr unsigned kBinary = 2;
+constexpr std::size_t kRoomForHeader = 10;  // of a WebSocket frame, at most
+/// A client that has more text unread is told no events.
+constexpr std::size_t kMostEvents = 16 * 1024;
+/// Later than this the clock starts anew: the machine slept, and nobody wants the frames of that time at once.
+constexpr std::chrono::seconds kMostLate{1};
+/// How long a client that takes all it gets may keep others waiting.
+constexpr std::chrono::milliseconds kFastTurn{1};
+/// Places in a row that cannot be signed; more than that are told at the next turn.
+constexpr int kMostFaults = 16;
+
+std::size_t batch_of(std::size_t wanted, std::size_t frame_bytes, std::size_t message_bytes) {
+  return std::clamp<std::size_t>((message_bytes - kMessageHeaderBytes) / std::max<std::size_t>(frame_bytes, 1), 1,
+                                 wanted);
+}
+
+}  // namespace
+
+FrameSender::FrameSender(IoThread& thread, ServedDatabase& database, StreamSocket& out, const StreamOptions& options)
+    : thread_(thread),
+      out_(out),
+      database_(database.name()),
+      pace_(options.pace),
+      batch_(options.batch),
+      player_(database.signing(), options.player) {}
+
+FrameSender::~FrameSender() {
+  thread_.pacer.forget(*this);
+}
+
+void FrameSender::stop() noexcept {
+  stopped_ = true;
+  flowing_ = false;
+  thread_.pacer.forget(*this);
+}
+
+void FrameSender::control(const ControlMessage& message) {
+  was_idle_ = player_.idle();
+  const Clock::time_point now = Clock::now();
+  switch (message.control) {
+    case Control::sign:
+      player_.sign(message.utterance);
+      break;
+    case Control::append:
+      player_.append(message.utterance);
+      break;
+    case Control::pause:
+      player_.pause();
+      break;
+    case Control::resume:
+      player_.resume();
+      break;
+    case Control::seek:
+      player_.seek(message.at);
+      break;
+    case Control::tempo:
+      player_.set_tempo(message.tempo);
+      break;
+    case Control::loop:
+      player_.set_loop(message.loop);
+      break;
+    case Control::stop:
+      player_.stop();
+      break;
+    case Control::open:
+    case Control::ping:
+      return;
+  }
+  const bool glosses = message.control == Control::sign || message.control == Control::append;
+  if (glosses && (message.control == Control::sign || was_idle_)) asked_ = now;
+  first_ = true;
+}
+
+void FrameSender::go() {
+  if (stopped_) return;
+  if (player_.paused()) {
+    flowing_ = false;
+    thread_.pacer.wake_at(*this, kNever);
+    return;
+  }
+  prepare(1);
+  if (!announced_) return;
+  if (pace_ == Pace::fast) {
+    if (send_fast()) thread_.pacer.want_work(*this);
+    return;
+  }
+  // Who waits at rest for glosses gets their first frame now; who is signing keeps the pace.
+  const Clock::time_point now = Clock::now();
+  if (!flowing_ || (was_idle_ && asked_ != kNever)) start_clock(now);
+  thread_.pacer.wake_at(*this, tick(now));
+}
+
+void FrameSender::drained() {
+  if (!stopped_ && pace_ == Pace::fast) thread_.pacer.want_work(*this);
+}
+
+Clock::time_point FrameSender::due() const noexcept {
+  const Seconds since = static_cast<double>(since_) * rate_.frame_time();
+  return start_ + std::chrono::duration_cast<Clock::duration>(since);
+}
+
+void FrameSender::start_clock(Clock::time_point now) noexcept {
+  flowing_ = true;
+  start_ = now;
+  since_ = 0;
+}
+
+void FrameSender::passed(std::size_t frames) noexcept {
+  since_ += static_cast<std::int64_t>(frames);
+  while (since_ >= rate_.numerator) {  // whole seconds, so that nothing is ever rounded twice
+    since_ -= rate_.numerator;
+    start_ += std::chrono::seconds(rate_.denominator);
+  }
+}
+
+Clock::time_point FrameSender::tick(Clock::time_point now) noexcept {
+  const Clock::time_point next = send_due(now);
+  if (next == kNever ? starved_ : ready_ < ahead_ / 2) thread_.pacer.want_work(*this);
+  return next;
+}
+
+Clock::time_point FrameSender::send_due(Clock::time_point now) noexcept {
+  if (!flowing_ || stopped_) return kNever;
+  Metrics& metrics = thread_.metrics;
+  Clock::time_point at = due();
+  if (now - at > kMostLate) {
+    start_clock(now);
+    metrics.late.add();
+    at = now;
+  }
+  while (at <= now) {
+    const bool keep = out_.idle();
+    const std::uint64_t first = player_.frame();
+    const std::size_t frames = take(batch_, keep);
+    if (frames == 0) {
+      flowing_ = false;
+      starved_ = !player_.paused();
+      return kNever;
+    }
+    const Seconds late = Clock::now() - at;
+    metrics.ticks.add();
+    metrics.lateness.observe(late.count());
+    if (late > rate_.frame_time() / 2) metrics.late.add();
+    if (keep) {
+      send(frames, first);
+    } else {
+      left_out_ += static_cast<std::uint32_t>(frames);
+      metrics.left_out.add(frames);
+    }
+    passed(frames);
+    at = due();
+  }
+  return at;
+}
+
+bool FrameSender::work() {
+  if (stopped_ || player_.paused()) return false;
+  if (pace_ == Pace::fast) return send_fast();
+  prepare(ahead_);
+  if (flowing_ || !announced_ || ready_ == 0) return false;
+  // The clock stood still for want of frames: it goes on where there are some again.
+  if (std::exchange(starved_, false)) thread_.metrics.starved.add();
+  const Clock::time_point now = Clock::now();
+  start_clock(now);
+  thread_.pacer.wake_at(*this, send_due(now));
+  return false;
+}
+
+bool FrameSender::send_fast() {
+  const Clock::time_point end = Clock::now() + kFastTurn;
+  while (announced_ && out_.idle()) {
+    const std::uint64_t number = player_.frame();
+    // The first frame does not wait until a batch is full.
+    std::size_t frames = take(batch_, true);
+    while (frames < batch_ && !(first_ && frames > 0) && !player_.idle()) {
+      prepare(std::min(batch_ - frames, Player::kMostReady));
+      const std::size_t more = take(batch_ - frames, true, frames);
+      if (more == 0) break;
+      frames += more;
+    }
+    if (frames == 0) {
+      tell_events();
+      return false;
+    }
+    send(frames, number);
+    if (Clock::now() >= end) return out_.idle();
+  }
+  return false;
+}
+
+std::size_t FrameSender::take(std::size_t most, bool keep, std::size_t after) noexcept {
+  std::byte* to = message_.data() + kRoomForHeader + kMessageHeaderBytes + after * frame_bytes_;
+  const MutableFrameView frame{pose_.view(), tracks_};
+  for (std::size_t taken = 0; taken < most; ++taken) {
+    tell_events();
+    // Nothing is sent as fast as it goes while the signer only breathes.
+    if ((pace_ == Pace::fast && player_.idle()) || !player_.next(frame)) {
+      ready_ = 0;
+      return taken;
+    }
+    if (ready_ > 0) --ready_;
+    if (keep) encode(frame, {to + taken * frame_bytes_, frame_bytes_});
+  }
+  return most;
+}
+
+void FrameSender::send(std::size_t frames, std::uint64_t first) noexcept {
+  std::byte* const header = message_.data() + kRoomForHeader;
+  const std::size_t size = kMessageHeaderBytes + frames * frame_bytes_;
+  encode(MessageHeader{.frames = static_cast<std::uint16_t>(frames), .left_out = left_out_, .first_frame = first},
+         {header, kMessageHeaderBytes});
+  const std::size_t before = write_frame_header(header, kBinary, size);
+  out_.send_frame({header - before, before + size});
+  Metrics& metrics = thread_.metrics;
+  metrics.frames.add(frames);
+  metrics.messages.add();
+  metrics.bytes.add(before + size);
+  first_ = false;
+  if (asked_ != kNever) {
+    metrics.first_frame.observe(Seconds(Clock::now() - asked_).count());
+    asked_ = kNever;
+  }
+}
+
+void FrameSender::prepare(std::size_t frames) {
+  const Clock::time_point begin = Clock::now();
+  for (int fault = 0; fault < kMostFaults; ++fault) {
+    try {
+      ready_ = player_.prepare(frames);
+      break;
+    } catch (const Error& error) {  // of one place, which is left out; the next call goes on
+      out_.send_text(error_text(error.code(), error.what(), {}));
+    }
+  }
+  thread_.metrics.prepare.observe(Seconds(Clock::now() - begin).count());
+  announce();
+  if (ready_ == 0) tell_events();
+}
+
+void FrameSender::announce() {
+  const StreamHeader* header = player_.header();
+  if (announced_ || header == nullptr) return;
+  announced_ = true;
+  shape_ = header->shape();
+  frame_bytes_ = bytes_of(shape_);
+  rate_ = header->rate;
+  batch_ = batch_of(batch_, frame_bytes_, thread_.context.options.limits.message_bytes);
+  message_.resize(kRoomForHeader + kMessageHeaderBytes + batch_ * frame_bytes_);
+  pose_ = Pose(*header->skeleton);
+  tracks_.resize(shape_.tracks);
+  const auto half_second = static_cast<std::size_t>(rate_.hertz() / 2);
+  ahead_ = std::clamp<std::size_t>(std::max(half_second, 2 * batch_), 64, Player::kMostReady);
+  out_.send_text(header_text(*header, database_, pace_, batch_));
+}
+
+void FrameSender::tell_events() {
+  while (std::optional<PlayerEvent> event = player_.take_event()) {
+    if (out_.unread() > kMostEvents) {
+      ++events_left_out_;
+      continue;
+    }
+    if (events_left_out_ > 0) {
+      const PlayerEvent notice{.frame = event->frame,
+                               .at = event->at,
+                               .text = fmt::format("{} events were left out", std::exchange(events_left_out_, 0))};
+      out_.send_text(event_text(notice));
+    }
+    out_.send_text(event_text(*event));
+  }
+}
+
+}  // namespace signweave::server

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/server/context.h"
+#include "app/server/control_message.h"
+#include "app/server/served_database.h"
+#include "app/server/stream_socket.h"
+#include "signweave/stream/frame_codec.h"
+#include "signweave/stream/player.h"
+
+namespace signweave::server {
+
+/// A player and its way to one client: takes frames at their time, or as fast as the client does, and sends them. At
+/// most one message of frames is under way; those that fall due meanwhile are taken and left out. Belongs to its I/O
+/// thread; the socket must outlive it.
+class FrameSender final : public Paced {
+ public:
+  FrameSender(IoThread& thread, ServedDatabase& database, StreamSocket& out, const StreamOptions& options);
+  ~FrameSender() override;
+
+  /// Does what a message asks, but for "open" and "ping". Throws what the player throws, and then nothing has changed.
+  void control(const ControlMessage& message);
+  /// To be called after a message was answered: sends what can be sent now.
+  void go();
+  /// Whatever was under way has gone out.
+  void drained();
+  /// Sends nothing more.
+  void stop() noexcept;
+  std::uint64_t frame() const noexcept { return player_.frame(); }
+
+  Clock::time_point tick(Clock::time_point now) noexcept override;
+  bool work() override;
+
+ private:
+  Clock::time_point due() const noexcept;
+  Clock::time_point send_due(Clock::time_point now) noexcept;
+  void start_clock(Clock::time_point now) noexcept;
+  void passed(std::size_t frames) noexcept;
+  void prepare(std::size_t frames);
+  void announce();
+  void tell_events();
+  std::size_t take(std::size_t most, bool keep, std::size_t after = 0) noexcept;
+  void send(std::size_t frames, std::uint64_t first) noexcept;
+  bool send_fast();
+
+  IoThread& thread_;
+  StreamSocket& out_;
+  std::string database_;
+  Pace pace_;
+  std::size_t batch_;
+  Player player_;
+
+  bool announced_ = false;  // the header was sent
+  bool stopped_ = false;
+  FrameShape shape_;
+  std::size_t frame_bytes_ = 0;
+  std::vector<std::byte> message_;  // room for a WebSocket header, the message's header, the frames
+  Pose pose_;                       // the frame that was taken
+  std::vector<float> tracks_;
+
+  // Frame `since_` after `start_` is due at start_ + since_ / rate.
+  FrameRate rate_;
+  Clock::time_point start_;
+  std::int64_t since_ = 0;
+  bool flowing_ = false;   // the clock runs
+  bool starved_ = false;   // it stopped for want of frames
+  std::size_t ready_ = 0;  // frames that can be taken, as far as is known
+  bool was_idle_ = true;
+  bool first_ = true;       // nothing was sent since a control message
+  std::size_t ahead_ = 64;  // frames made at a time
+
+  Clock::time_point asked_ = kNever;  // when glosses came whose first frame is yet to be sent
+  std::uint32_t left_out_ = 0;
+  std::size_t events_left_out_ = 0;
+};
+
+}  // namespace signweave::server

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace signweave::server {
+
+/// A request's target, taken apart and percent-decoded.
+struct HttpTarget {
+  std::vector<std::string> path;             ///< segments, none of them empty but perhaps the last ("/a/" has one)
+  std::map<std::string, std::string> query;  ///< of a name that comes twice the last
+};
+
+/// Reads "/api/databases/demo?limit=3". None where it is no path, a % is not followed by two hexadecimal digits, or a
+/// segment holds what no name may: a NUL, or a slash that was percent-encoded to pass for part of a name.
+std::optional<HttpTarget> parse_target(std::string_view target);
+
+/// "%C3%A9t%C3%A9" is "été"; with `plus` "+" is a blank, as forms write it.
+std::optional<std::string> percent_decoded(std::string_view text, bool plus);
+
+}  // namespace signweave::server

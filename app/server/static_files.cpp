@@ -1,0 +1,117 @@
+#include "app/server/static_files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <linux/openat2.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <ctime>
+#include <utility>
+
+namespace signweave::server {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 24> kTypes = {{
+    {".html", "text/html; charset=utf-8"},
+    {".js", "text/javascript; charset=utf-8"},
+    {".mjs", "text/javascript; charset=utf-8"},
+    {".css", "text/css; charset=utf-8"},
+    {".json", "application/json"},
+    {".map", "application/json"},
+    {".wasm", "application/wasm"},
+    {".svg", "image/svg+xml"},
+    {".png", "image/png"},
+    {".jpg", "image/jpeg"},
+    {".jpeg", "image/jpeg"},
+    {".webp", "image/webp"},
+    {".ico", "image/x-icon"},
+    {".woff2", "font/woff2"},
+    {".woff", "font/woff"},
+    {".glb", "model/gltf-binary"},
+    {".gltf", "model/gltf+json"},
+    {".webm", "video/webm"},
+    {".mp4", "video/mp4"},
+    {".txt", "text/plain; charset=utf-8"},
+    {".md", "text/markdown; charset=utf-8"},
+    {".csv", "text/csv; charset=utf-8"},
+    {".bvh", "text/plain; charset=utf-8"},
+    {".eaf", "application/xml"},
+}};
+
+/// Opens `path` beneath the folder: no "..", no link that leads out, no other mount by magic links.
+int open_beneath(int folder, const std::string& path) {
+  open_how how{};
+  how.flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+  how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
+  return static_cast<int>(::syscall(SYS_openat2, folder, path.empty() ? "." : path.c_str(), &how, sizeof how));
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int value) : value_(value) {}
+  Descriptor(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  int get() const noexcept { return value_; }
+  int release() noexcept { return std::exchange(value_, -1); }
+
+ private:
+  int value_;
+};
+
+}  // namespace
+
+std::string_view content_type_of(std::string_view name) noexcept {
+  for (const auto& [ending, type] : kTypes) {
+    if (name.ends_with(ending)) return type;
+  }
+  return "application/octet-stream";
+}
+
+std::string http_date(std::int64_t seconds_since_1970) {
+  const std::time_t time = seconds_since_1970;
+  std::tm parts{};
+  ::gmtime_r(&time, &parts);
+  constexpr std::array kDays = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
+  constexpr std::array kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+  return fmt::format("{}, {:02} {} {} {:02}:{:02}:{:02} GMT", kDays[static_cast<std::size_t>(parts.tm_wday)],
+                     parts.tm_mday, kMonths[static_cast<std::size_t>(parts.tm_mon)], parts.tm_year + 1900,
+                     parts.tm_hour, parts.tm_min, parts.tm_sec);
+}
+
+std::optional<StaticFile> open_static(const std::filesystem::path& folder, const std::vector<std::string>& segments) {
+  std::string path;
+  for (const std::string& segment : segments) {
+    if (segment.starts_with('.') || segment.find_first_of(std::string_view("\\/\0", 3)) != std::string::npos) {
+      return std::nullopt;
+    }
+    if (!path.empty() && !segment.empty()) path += '/';
+    path += segment;
+  }
+  const Descriptor root(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (root.get() < 0) return std::nullopt;
+  for (int step = 0; step < 2; ++step) {
+    Descriptor file(open_beneath(root.get(), path));
+    struct stat status {};
+    if (file.get() < 0 || ::fstat(file.get(), &status) != 0) return std::nullopt;
+    if (S_ISDIR(status.st_mode)) {
+      path += path.empty() ? "index.html" : "/index.html";
+      continue;
+    }
+    if (!S_ISREG(status.st_mode)) return std::nullopt;
+    return StaticFile{
+        .descriptor = file.release(),
+        .size = static_cast<std::uint64_t>(status.st_size),
+        .content_type = std::string(content_type_of(path)),
+        .etag = fmt::format("\"{:x}-{:x}-{:x}\"", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec),
+        .last_modified = http_date(status.st_mtim.tv_sec)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace signweave::server

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace signweave::server {
+
+/// A file that is served, open.
+struct StaticFile {
+  int descriptor = -1;  ///< the caller closes it
+  std::uint64_t size = 0;
+  std::string content_type;
+  std::string etag;           ///< of size and time of change, quoted
+  std::string last_modified;  ///< as HTTP writes dates
+};
+
+/// Opens the file of these decoded segments below `folder`; of a folder its index.html. None where there is no such
+/// plain file. No path leads outside, and none to hidden files: segments that are "..", that begin with a dot or hold
+/// a backslash or NUL are no names here, and the kernel resolves the rest beneath the folder, whatever links lie there.
+std::optional<StaticFile> open_static(const std::filesystem::path& folder, const std::vector<std::string>& segments);
+
+/// By the name's ending; "application/octet-stream" where it tells nothing.
+std::string_view content_type_of(std::string_view name) noexcept;
+
+/// "Sun, 06 Nov 1994 08:49:37 GMT"
+std::string http_date(std::int64_t seconds_since_1970);
+
+}  // namespace signweave::server

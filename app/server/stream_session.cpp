@@ -1,0 +1,175 @@
+#include "app/server/stream_session.h"
+
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <optional>
+
+#include "app/server/frame_sender.h"
+#include "app/server/stream_text.h"
+
+namespace signweave::server {
+namespace {
+
+namespace http = boost::beast::http;
+namespace websocket = boost::beast::websocket;
+
+/// One stream: its control messages, and what they bring about.
+class StreamSession final : public Connection, public std::enable_shared_from_this<StreamSession> {
+ public:
+  StreamSession(IoThread& thread, boost::asio::ip::tcp::socket socket, ServedDatabase& database, bool counted,
+                const boost::asio::ip::address& address)
+      : Connection(thread),
+        database_(database),
+        counted_(counted),
+        address_(address),
+        socket_(std::move(socket), thread.context.options.limits.unread_bytes),
+        buffer_(2 * thread.context.options.limits.control_bytes),
+        tokens_(thread.context.options.limits.control_rate) {
+    thread_.metrics.streams.add();
+    ++thread_.context.streams;
+  }
+  ~StreamSession() override {
+    sender_.reset();
+    if (counted_) thread_.context.addresses.leave(address_);
+    thread_.metrics.streams.subtract();
+    --thread_.context.streams;
+  }
+
+  void start(const http::request<http::empty_body>& request) {
+    const ServerLimits& limits = thread_.context.options.limits;
+    StreamSocket& socket = socket_.next_layer();
+    boost::system::error_code ignored;
+    socket.socket().set_option(boost::asio::socket_base::send_buffer_size(limits.send_buffer), ignored);
+    socket.socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
+    socket.held_by(weak_from_this());
+    socket.on_drained([this] {
+      if (sender_) sender_->drained();
+    });
+    websocket::stream_base::timeout timeout{};
+    timeout.handshake_timeout = std::min<std::chrono::milliseconds>(limits.header_time, std::chrono::seconds(5));
+    timeout.idle_timeout = limits.silence;
+    timeout.keep_alive_pings = true;
+    socket_.set_option(timeout);
+    socket_.set_option(websocket::stream_base::decorator(
+        [](websocket::response_type& response) { response.set(http::field::server, "signweave"); }));
+    socket_.read_message_max(limits.control_bytes);
+    socket_.async_accept(request, [self = shared_from_this()](boost::system::error_code error) {
+      if (!error) self->read();
+    });
+  }
+
+  void look(Clock::time_point) override {
+    if (!std::exchange(reading_late_, false)) return;
+    read();
+  }
+  void drain() override {
+    if (sender_) sender_->stop();
+    draining_ = true;
+    socket_.async_close({websocket::close_code::going_away, "the server is being stopped"},
+                        [self = shared_from_this()](boost::system::error_code) {});
+  }
+  bool busy() const override { return true; }
+  void close() override { socket_.next_layer().close(); }
+
+ private:
+  void say(std::string_view text) { socket_.next_layer().send_text(text); }
+
+  void read() {
+    if (!may_read()) {
+      reading_late_ = true;  // it is read a moment later; until then the client's own socket fills
+      return;
+    }
+    socket_.async_read(
+        buffer_, [self = shared_from_this()](boost::system::error_code error, std::size_t) { self->on_read(error); });
+  }
+
+  /// One token a message, which come back with time.
+  bool may_read() {
+    const double rate = thread_.context.options.limits.control_rate;
+    const Clock::time_point now = Clock::now();
+    tokens_ = std::min(rate, tokens_ + std::chrono::duration<double>(now - counted_at_).count() * rate);
+    counted_at_ = now;
+    if (tokens_ < 1) return false;
+    tokens_ -= 1;
+    return true;
+  }
+
+  void on_read(boost::system::error_code error) {
+    if (error) {
+      if (error == boost::beast::error::timeout) thread_.metrics.timeouts.add();
+      if (sender_) sender_->stop();
+      if (error != websocket::error::closed) close();
+      return;
+    }
+    if (!draining_) {
+      thread_.metrics.controls.add();
+      if (socket_.got_text()) {
+        const auto data = buffer_.data();
+        answer({static_cast<const char*>(data.data()), data.size()});
+      } else {
+        refuse(ErrorCode::bad_input, "control messages are text; frames go only the other way", {});
+      }
+    }
+    buffer_.consume(buffer_.size());
+    if (buffer_.capacity() > 8'192) buffer_.shrink_to_fit();
+    read();
+  }
+
+  void refuse(ErrorCode code, std::string_view text, std::string_view id) {
+    thread_.metrics.control_errors.add();
+    say(error_text(code, text, id));
+  }
+
+  void answer(std::string_view text) {
+    std::string id;
+    try {
+      const ControlMessage message = parse_control(text);
+      id = message.id;
+      if (message.control == Control::open) {
+        if (sender_) throw Error(ErrorCode::conflict, "'open' comes first, and once");
+        sender_.emplace(thread_, database_, socket_.next_layer(), message.open);
+      } else if (message.control != Control::ping) {
+        if (!sender_) sender_.emplace(thread_, database_, socket_.next_layer(), StreamOptions{});
+        sender_->control(message);
+      }
+      say(ok_text(id, sender_ ? sender_->frame() : 0));
+      if (message.control != Control::ping) sender_->go();
+    } catch (const ControlError& error) {
+      refuse(error.code(), error.what(), error.id);
+    } catch (const Error& error) {
+      refuse(error.code(), error.what(), id);
+    } catch (const std::exception& error) {  // no memory, for one: this stream has no future, the others have
+      refuse(ErrorCode::io, error.what(), id);
+      if (sender_) sender_->stop();
+      draining_ = true;
+      socket_.async_close({websocket::close_code::internal_error, "a fault of the server"},
+                          [self = shared_from_this()](boost::system::error_code) {});
+    }
+  }
+
+  ServedDatabase& database_;
+  bool counted_;
+  boost::asio::ip::address address_;
+  websocket::stream<StreamSocket, false> socket_;
+  boost::beast::flat_buffer buffer_;
+  std::optional<FrameSender> sender_;
+  bool draining_ = false;
+  bool reading_late_ = false;
+  double tokens_;
+  Clock::time_point counted_at_ = Clock::now();
+};
+
+}  // namespace
+
+void start_stream(IoThread& thread, boost::asio::ip::tcp::socket socket, ServedDatabase& database,
+                  const http::request_parser<http::buffer_body>& request, bool counted,
+                  const boost::asio::ip::address& address) {
+  const auto session = std::make_shared<StreamSession>(thread, std::move(socket), database, counted, address);
+  session->start(http::request<http::empty_body>(http::request_header<>(request.get().base())));
+}
+
+}  // namespace signweave::server

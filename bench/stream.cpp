@@ -1,0 +1,338 @@
+// What streaming costs, measured by a client beside the server: how soon the first frame of a gloss leaves, how many
+// paced streams keep their time and what they cost beside a loop that only sends, what batches gain and what a client
+// that reads nothing costs. The server is a process of its own.
+//
+// Arguments: --quick is the shortest form; --database FOLDER takes that one, and else 44 minutes of the demo corpus are
+// made; --only PART measures one of: codec, first, long, paced, batches, stalled.
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+#include "bench/measure.h"
+#include "bench/stream_load/paced.h"
+#include "bench/stream_load/server.h"
+#include "signweave/synthesis/utterance.h"
+#include "tests/demo_database.h"
+
+namespace {
+
+using namespace signweave;
+using namespace signweave::bench;
+using bench::print;
+
+constexpr double kRate = 60;
+constexpr std::string_view kLive = R"("rate":60,"pace":"live","idle":"rest")";
+constexpr std::string_view kLoop = R"("rate":60,"pace":"live","loop":true)";
+
+struct Size {
+  int glosses = 1000;
+  std::size_t resting_streams = 50;
+  std::size_t long_utterance = 1000;
+  int long_rounds = 41;
+  std::vector<std::size_t> paced = {100, 500, 1000};
+  double settle = 3;
+  double seconds = 15;
+  int batch_rounds = 5;
+  double batch_seconds = 1;
+  std::size_t stalled = 200;
+  double stalled_seconds = 10;
+};
+constexpr std::size_t kOfPaced = 8;  // glosses of one stream's utterance
+
+void codec() {
+  const FrameShape shape{.joints = 60, .translations = 1, .tracks = 22};
+  const std::vector<Eigen::Quaternionf> rotations(shape.joints, Eigen::Quaternionf(0.5f, 0.5f, -0.5f, 0.5f));
+  const std::vector<Eigen::Vector3f> translations(shape.translations, Eigen::Vector3f(0.1f, 0.9f, 0));
+  const std::vector<float> tracks(shape.tracks, 0.5f);
+  const FrameView frame{{rotations, translations}, tracks};
+  std::vector<std::byte> bytes(bytes_of(shape));
+  std::vector<double> seconds;
+  for (int round = 0; round < 15; ++round) {
+    seconds.push_back(seconds_of(
+        [&] {
+          encode(frame, bytes);
+          keep(bytes);
+        },
+        20'000));
+  }
+  const double us = 1e6 * median(seconds);
+  print("stream/encode_60_joints_against_the_aim", us, "us", 0.2, us / 0.2, "<= 1");
+}
+
+void print_times(std::string_view name, std::vector<double> seconds, const std::vector<double>& pings) {
+  std::sort(seconds.begin(), seconds.end());
+  for (const auto& [part, value] : {std::pair("p50", 0.5), {"p99", 0.99}}) {
+    const double ours = 1e3 * quantile(seconds, value);
+    const double ping = 1e3 * quantile(pings, value);
+    print(fmt::format("stream/first_frame/{}:{}_against_ping", name, part), ours, "ms", ping, ours / ping, "-");
+  }
+  const double aimed = 1e3 * quantile(seconds, 0.99);
+  print(fmt::format("stream/first_frame/{}:p99_against_the_aim", name), aimed, "ms", 5, aimed / 5, "<= 1");
+}
+
+/// Seconds there and back of an empty control message.
+double ping(Connection& stream) {
+  const double begin = now();
+  stream.send(R"({"type":"ping"})");
+  if (!wait_for_answer(stream)) throw std::runtime_error("no answer to a ping");
+  return now() - begin;
+}
+
+/// From sending a gloss to reading the first frames after its answer.
+double first_frame(Connection& stream, std::string_view type, std::string_view utterance) {
+  const std::string message = control(type, utterance);
+  const double begin = now();
+  stream.send(message);
+  if (!wait_for_answer(stream)) throw std::runtime_error("the server does not sign");
+  return wait_for_frames(stream).at - begin;
+}
+
+/// What the server says of the same, where it does.
+void print_of_server(const Server& server) {
+  const std::string name = "signweave_first_frame_seconds";
+  const double all = server.metric(name + "_count");
+  for (const char* bound :
+       {"0.0001", "0.00025", "0.0005", "0.001", "0.0025", "0.005", "0.01", "0.025", "0.05", "0.1"}) {
+    if (server.metric(fmt::format("{}_bucket{{le=\"{}\"}}", name, bound)) < 0.99 * all) continue;
+    const double ms = 1e3 * std::stod(bound);
+    print("stream/first_frame/within_the_server:p99_at_most", ms, "ms", 5, ms / 5, "<= 1");
+    return;
+  }
+}
+
+void first_frames(const Server& server, Utterances& utterances, const Size& size) {
+  std::vector<double> fresh, pings;
+  for (int i = 0; i < size.glosses; ++i) {
+    const std::unique_ptr<Connection> stream = server.open(kLive);
+    fresh.push_back(first_frame(*stream, "append", utterances.of(1)));
+    pings.push_back(ping(*stream));
+  }
+  std::sort(pings.begin(), pings.end());
+  print_times("fresh", fresh, pings);
+
+  // Streams at rest, which send the breathing signer all the while: one after another gets a gloss, whenever it rests.
+  std::vector<std::unique_ptr<Connection>> streams;
+  for (std::size_t i = 0; i < size.resting_streams; ++i) {
+    streams.push_back(server.open(kLive));
+    streams.back()->send(control("append", utterances.of(1)));
+  }
+  std::vector<double> at_rest;
+  for (int i = 0; i < size.glosses; ++i) {
+    Connection& stream = *streams[static_cast<std::size_t>(i) % streams.size()];
+    while (!is_of_type(stream.wait().text, "rest")) {
+    }
+    while (stream.read([](const Connection::Message&) {})) {  // what came since
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(1'000 + 331 * (i % 50)));  // at any moment between two frames
+    while (stream.read([](const Connection::Message&) {})) {
+    }
+    at_rest.push_back(first_frame(stream, "append", utterances.of(1)));
+  }
+  print_times("at_rest", at_rest, pings);
+  print_of_server(server);
+}
+
+void long_utterances(const Server& server, Utterances& utterances, const Size& size) {
+  std::vector<double> longer, shorter, ratios;
+  for (int round = -1; round < size.long_rounds; ++round) {
+    const std::string text = utterances.of(size.long_utterance);
+    const std::string begin = [&] {  // the same ten glosses
+      std::size_t at = 0;
+      for (int i = 0; i < 10; ++i) at = find_unquoted(text, " ", at) + 1;
+      return text.substr(0, at);
+    }();
+    const double a = first_frame(*server.open(kLive), "sign", text);
+    const double b = first_frame(*server.open(kLive), "sign", begin);
+    if (round < 0) continue;
+    longer.push_back(a);
+    shorter.push_back(b);
+    ratios.push_back(a / b);
+  }
+  print(fmt::format("stream/first_frame/{}_signs_against_10", size.long_utterance), 1e3 * median(longer), "ms",
+        1e3 * median(shorter), median(ratios), "<= 1.2");
+}
+
+Paced paced_by_server(const Server& server, Utterances& utterances, std::size_t count, const Size& size) {
+  std::vector<std::unique_ptr<Connection>> streams;
+  for (std::size_t i = 0; i < count; ++i) {
+    streams.push_back(server.open(kLoop));
+    streams.back()->send(control("sign", utterances.of(kOfPaced)));
+    if (i % 20 > 0) continue;
+    for (const auto& stream : streams) stream->read([](const Connection::Message&) {});  // nobody is slow
+  }
+  return receive_paced(streams, kRate, size.settle, size.seconds, [&] { return server.process().cpu_seconds(); });
+}
+
+Paced paced_by_bare_loop(std::size_t count, double bytes, const std::filesystem::path& work, const Size& size) {
+  const Process sender({"/proc/self/exe", "--bare-sender", std::to_string(count), fmt::format("{:.0f}", bytes)},
+                       work / "bare.log");
+  const auto port = static_cast<std::uint16_t>(std::stoi(sender.wait_for_line("listening on ")));
+  std::vector<std::unique_ptr<Connection>> streams;
+  for (std::size_t i = 0; i < count; ++i) {
+    streams.push_back(std::make_unique<Connection>(port));
+    streams.back()->send_raw("!");
+    std::this_thread::sleep_for(std::chrono::microseconds(500));  // they start one after another, as streams do
+  }
+  return receive_paced(streams, kRate, size.settle, size.seconds, [&] { return sender.cpu_seconds(); });
+}
+
+void print_lateness(const std::string& name, const Paced& paced) {
+  for (const auto& [part, value] : {std::pair("p50", 0.5), {"p99", 0.99}}) {
+    const double ms = 1e3 * quantile(paced.lateness, value);
+    const double half_a_frame = 1e3 * 0.5 / kRate;
+    print(fmt::format("{}/lateness:{}_against_half_a_frame", name, part), ms, "ms", half_a_frame, ms / half_a_frame,
+          value > 0.9 ? "<= 1" : "-");
+  }
+}
+
+void print_missed(const std::string& name, const Paced& paced) {
+  const double due = static_cast<double>(paced.frames + paced.left_out);
+  print(name, static_cast<double>(paced.missed), "frames", due, static_cast<double>(paced.missed) / due, "<= 0");
+}
+
+void paced_streams(const Server& server, Utterances& utterances, const std::filesystem::path& work, const Size& size) {
+  for (const std::size_t count : size.paced) {
+    const std::string name = fmt::format("stream/paced:{}", count);
+    const Paced ours = paced_by_server(server, utterances, count, size);
+    const Paced bare = paced_by_bare_loop(count, ours.message_bytes, work, size);
+    print_missed(name + "/missed_of_due", ours);
+    print(name + "/left_out_of_due", static_cast<double>(ours.left_out), "frames",
+          static_cast<double>(ours.frames + ours.left_out), 0, "-");
+    print_lateness(name, ours);
+    print_lateness(name + "/bare_loop", bare);
+    print_missed(name + "/bare_loop/missed_of_due", bare);
+    // Per frame that came: neither side gains by sending less.
+    const auto us_a_frame = [](const Paced& p) { return 1e6 * p.server_cpu_seconds / static_cast<double>(p.frames); };
+    print(name + "/cpu_a_frame_against_bare_loop", us_a_frame(ours), "us", us_a_frame(bare),
+          us_a_frame(ours) / us_a_frame(bare), "<= 1.3");
+    print(name + "/cpu_of_a_core", ours.server_cpu_seconds / ours.seconds, "cores",
+          bare.server_cpu_seconds / bare.seconds, ours.server_cpu_seconds / bare.server_cpu_seconds, "-");
+    print(name + "/client_cpu_of_a_core", ours.client_cpu_seconds / ours.seconds, "cores",
+          bare.client_cpu_seconds / bare.seconds, ours.client_cpu_seconds / bare.client_cpu_seconds, "-");
+    fmt::print("{}: messages of {:.0f} bytes\n", name, ours.message_bytes);
+  }
+}
+
+/// Frames a second of one stream that sends as fast as this client takes them.
+double frames_a_second(const Server& server, Utterances& utterances, int batch, double seconds) {
+  const std::unique_ptr<Connection> stream =
+      server.open(fmt::format(R"("rate":60,"pace":"fast","loop":true,"batch":{})", batch));
+  stream->send(control("sign", utterances.of(kOfPaced)));
+  wait_for_frames(*stream);
+  std::uint64_t frames = 0;
+  const double begin = now();
+  while (now() < begin + seconds) {
+    if (!stream->read([&](const Connection::Message& m) { frames += m.binary ? m.header.frames : 0u; })) {
+      stream->wait_until_readable();
+    }
+  }
+  return static_cast<double>(frames) / (now() - begin);
+}
+
+void batches(const Server& server, Utterances& utterances, const Size& size) {
+  std::vector<double> many, single, ratios;
+  for (int round = -1; round < size.batch_rounds; ++round) {
+    const double a = frames_a_second(server, utterances, 60, size.batch_seconds);
+    const double b = frames_a_second(server, utterances, 1, size.batch_seconds);
+    if (round < 0) continue;
+    many.push_back(a);
+    single.push_back(b);
+    ratios.push_back(a / b);
+  }
+  print("stream/batches_of_60_against_single_frames", median(many), "frames/s", median(single), median(ratios),
+        ">= 20");
+}
+
+/// Kilobytes that the system holds for TCP.
+double tcp_memory() {
+  std::ifstream file("/proc/net/sockstat");
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("TCP:")) continue;
+    return std::stod(line.substr(line.find("mem ") + 4)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  }
+  return 0;
+}
+
+void stalled_clients(const Server& server, Utterances& utterances, const Size& size) {
+  constexpr double kMiB = 1 << 20;
+  std::vector<std::unique_ptr<Connection>> reading;
+  reading.push_back(server.open(kLoop));
+  reading.back()->send(control("sign", utterances.of(kOfPaced)));
+  wait_for_frames(*reading.back());
+  const double before = server.process().resident_bytes();
+  const double tcp_before = tcp_memory();
+  std::vector<std::unique_ptr<Connection>> stalled;
+  for (std::size_t i = 0; i < size.stalled; ++i) {
+    stalled.push_back(server.open(kLoop));
+    stalled.back()->send(control("sign", utterances.of(kOfPaced)));
+  }
+  const Paced beside =
+      receive_paced(reading, kRate, size.settle, size.stalled_seconds, [&] { return server.process().cpu_seconds(); });
+  const auto each = [&](double bytes) { return bytes / kMiB / static_cast<double>(size.stalled); };
+  const double grown = each(server.process().resident_bytes() - before);
+  print("stream/stalled_client_against_the_aim", grown, "MiB", 1, grown, "<= 1");
+  print("stream/stalled_client/both_ends_in_the_system", each(tcp_memory() - tcp_before), "MiB", 1,
+        each(tcp_memory() - tcp_before), "-");
+  print_missed("stream/beside_stalled_clients/missed_of_due", beside);
+  print_lateness("stream/beside_stalled_clients", beside);
+}
+
+std::filesystem::path database_in(const std::filesystem::path& folder, double minutes) {
+  demo_database(folder / "demo.db", demo::corpus_scripts(minutes));
+  return folder / "demo.db";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() == 3 && words[0] == "--bare-sender") {
+    return run_bare_sender(std::stoul(words[1]), std::stoul(words[2]), kRate);
+  }
+  Size size;
+  double minutes = 44;
+  std::string database, only;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--quick") {
+      minutes = 2;
+      size = {20, 2, 50, 3, {5}, 0.5, 1, 1, 0.2, 5, 1};
+    } else if (words[i] == "--database" && i + 1 < words.size()) {
+      database = words[++i];
+    } else if (words[i] == "--only" && i + 1 < words.size()) {
+      only = words[++i];
+    } else {
+      fmt::print(stderr, "bench_stream: no argument '{}'\n", words[i]);
+      return 2;
+    }
+  }
+  // A thousand connections are more than a shell may allow at first.
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+  try {
+    const bench::Folder work("stream");
+    const std::filesystem::path path = database.empty() ? database_in(work.path(), minutes) : database.c_str();
+    Utterances utterances(path);
+    const auto wanted = [&](std::string_view part) { return only.empty() || only == part; };
+    // A server of its own for each part: none pays for what was before it.
+    const auto measure = [&](std::string_view part, auto&& action) {
+      if (!wanted(part)) return;
+      const Server server(path, work.path());
+      action(server);
+    };
+    if (wanted("codec")) codec();
+    measure("first", [&](const Server& server) { first_frames(server, utterances, size); });
+    measure("long", [&](const Server& server) { long_utterances(server, utterances, size); });
+    measure("paced", [&](const Server& server) { paced_streams(server, utterances, work.path(), size); });
+    measure("batches", [&](const Server& server) { batches(server, utterances, size); });
+    measure("stalled", [&](const Server& server) { stalled_clients(server, utterances, size); });
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench_stream: {}\n", error.what());
+    return 1;
+  }
+}

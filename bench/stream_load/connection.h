@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "signweave/stream/frame_codec.h"
+
+namespace signweave::bench {
+
+/// Seconds of the steady clock.
+double now();
+
+/// A client's end of one stream, cheap enough to stand beside a thousand others: of a message of frames only the header
+/// is looked at.
+class Connection {
+ public:
+  struct Message {
+    bool binary = false;
+    std::string_view text;  ///< until the next call
+    MessageHeader header;   ///< of a binary one
+    std::size_t bytes = 0;  ///< with the WebSocket's own
+    double at = 0;          ///< when its last byte was read
+  };
+
+  /// Connects to a port on this machine. Throws std::runtime_error where that fails.
+  explicit Connection(std::uint16_t port);
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  /// Becomes a WebSocket. Throws where the server refuses.
+  void upgrade(std::string_view target);
+  /// Sends one text message, whole.
+  void send(std::string_view text);
+  /// Sends bytes as they are.
+  void send_raw(std::string_view bytes);
+  /// Everything until the server closes.
+  std::string read_to_end();
+  /// Reads what is there, once, and calls `take(const Message&)` for each message that it completes; false where
+  /// nothing was there. Throws where the server has closed.
+  template <typename Take>
+  bool read(Take&& take) {
+    const std::span<const std::byte> bytes = receive();
+    rest_ = bytes;
+    while (const std::optional<Message> message = next()) take(*message);
+    return !bytes.empty();
+  }
+  struct OwnedMessage {
+    bool binary = false;
+    std::string text;
+    MessageHeader header;
+    double at = 0;
+  };
+  /// Waits for the next message, for who has few of them. Throws after some seconds.
+  OwnedMessage wait();
+
+  /// Throws where nothing comes for some seconds.
+  void wait_until_readable() const;
+  int descriptor() const noexcept { return descriptor_; }
+
+ private:
+  std::span<const std::byte> receive();
+  std::optional<Message> next();
+  bool take_frame_header();
+  void answer_control(unsigned opcode);
+
+  int descriptor_ = -1;
+  std::span<const std::byte> rest_;  // received, not yet looked at; of the thread's buffer, empty between calls
+  double received_at_ = 0;
+  // The frame that is under way.
+  std::array<std::uint8_t, 10> head_{};
+  std::size_t head_bytes_ = 0;
+  std::uint64_t payload_ = 0;  // that is to come
+  // The message, which may have several frames.
+  bool within_ = false;
+  bool binary_ = false;
+  std::array<std::byte, kMessageHeaderBytes> begin_{};
+  std::size_t begin_bytes_ = 0;
+  std::size_t bytes_ = 0;
+  std::string text_;
+  std::string control_;  // a ping or close may stand between two frames of a message
+  std::deque<OwnedMessage> waiting_;
+};
+
+/// {"type": "place", …} is of type "place". Cheap: what this server writes begins so.
+bool is_of_type(std::string_view text, std::string_view type);
+
+}  // namespace signweave::bench

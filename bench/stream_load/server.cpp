@@ -1,0 +1,69 @@
+#include "bench/stream_load/server.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "signweave/database/database.h"
+#include "signweave/synthesis/utterance.h"
+
+namespace signweave::bench {
+
+Server::Server(const std::filesystem::path& database, const std::filesystem::path& work)
+    : process_({SIGNWEAVE_PROGRAM, "serve", database.string(), "--listen", "127.0.0.1:0"}, work / "server.log"),
+      port_(static_cast<std::uint16_t>(std::stoi(process_.wait_for_line("listening on http://127.0.0.1:")))) {}
+
+std::unique_ptr<Connection> Server::open(std::string_view options) const {
+  auto stream = std::make_unique<Connection>(port_);
+  stream->upgrade("/api/stream");
+  stream->send(fmt::format(R"({{"type":"open",{}}})", options));
+  if (!wait_for_answer(*stream)) throw std::runtime_error("the server does not open a stream");
+  return stream;
+}
+
+std::string Server::metrics() const {
+  Connection connection(port_);
+  connection.send_raw("GET /metrics HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n");
+  return connection.read_to_end();
+}
+
+double Server::metric(std::string_view name) const {
+  const std::string text = metrics();
+  const std::size_t at = text.find(fmt::format("\n{} ", name));
+  if (at == text.npos) throw std::runtime_error(fmt::format("/metrics tells no {}", name));
+  return std::stod(text.substr(at + name.size() + 2));
+}
+
+bool wait_for_answer(Connection& stream) {
+  for (;;) {
+    const Connection::OwnedMessage message = stream.wait();
+    if (is_of_type(message.text, "ok")) return true;
+    if (is_of_type(message.text, "error")) return false;
+  }
+}
+
+Connection::OwnedMessage wait_for_frames(Connection& stream) {
+  for (;;) {
+    Connection::OwnedMessage message = stream.wait();
+    if (message.binary) return message;
+    if (is_of_type(message.text, "error")) throw std::runtime_error(message.text);
+  }
+}
+
+std::string control(std::string_view type, std::string_view utterance) {
+  return nlohmann::json{{"type", type}, {"utterance", utterance}}.dump();
+}
+
+Utterances::Utterances(const std::filesystem::path& database)
+    : glosses_(Database(database, kv::Access::read_only).snapshot().contents().segments.glosses()) {}
+
+std::string Utterances::of(std::size_t glosses) {
+  std::string text;
+  for (std::size_t i = 0; i < glosses; ++i) {
+    text += to_string(GlossRef{.gloss = glosses_[random_() % glosses_.size()]}) + " ";
+  }
+  return text;
+}
+
+}  // namespace signweave::bench

@@ -1,0 +1,61 @@
+// Counts what the whole test program allocates; frame paths must not.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include "signweave/stream/test_allocations.h"
+
+namespace {
+std::atomic<bool> counting = false;
+std::atomic<std::size_t> allocations = 0;
+
+void* counted(std::size_t size) {
+  if (counting) ++allocations;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(size);
+}
+void* operator new[](std::size_t size) {
+  return counted(size);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace signweave {
+
+std::size_t allocations_in(const std::function<void()>& call) {
+  allocations = 0;
+  counting = true;
+  call();
+  counting = false;
+  return allocations;
+}
+
+namespace {
+
+TEST(Allocation, IsCounted) {
+  std::unique_ptr<int> kept;
+  EXPECT_EQ(allocations_in([&] { kept = std::make_unique<int>(1); }), 1u);
+  EXPECT_EQ(allocations_in([&] { *kept = 2; }), 0u);
+}
+
+}  // namespace
+}  // namespace signweave

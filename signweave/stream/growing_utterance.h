@@ -1,0 +1,145 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "signweave/stream/frame_ring.h"
+#include "signweave/stream/open_recordings.h"
+#include "signweave/stream/player.h"
+#include "signweave/stream/signing_base.h"
+#include "signweave/synthesis/weaver.h"
+
+/// Inside this module only.
+namespace signweave {
+
+/// The frames of an utterance while places are added to it: a timeline that grows as far as it is asked to, and is
+/// taken back where frames that nobody took yet are to be others. Its frames are counted from the first one that a
+/// player shows. Belongs to one thread.
+class GrowingUtterance {
+ public:
+  GrowingUtterance(SigningBase& base, const PlayerOptions& options);
+
+  /// Throws what `candidates_for` throws for one of the places, Error{bad_input} for a pause longer than kLongestPause.
+  void check(const Utterance& utterance);
+
+  // Each of these is told the first frame that was not taken (`next`), and the ring with those before it. What is
+  // known of the timeline may end earlier afterwards, but not before `next`.
+
+  /// These places instead of those that are not begun; a sign that has begun is finished where it ends soon.
+  void replace(const Utterance& utterance, std::int64_t next, const FrameRing& shown);
+  /// These places after the others.
+  void add(const Utterance& utterance, std::int64_t next, const FrameRing& shown);
+  /// Rests as the signer of a recording, before anything is signed. Throws Error{not_found}.
+  void rest_in(const std::string& recording);
+  /// Goes on at a moment of the utterance, in output frames from its first; clamped to what is decided.
+  void seek(std::int64_t at, std::int64_t next);
+  void set_loop(bool loop) noexcept { loop_ = loop; }
+
+  const StreamHeader* header() const noexcept { return header_ ? &*header_ : nullptr; }
+
+  /// The timeline is known up to this frame.
+  std::int64_t end() const noexcept { return end_; }
+  /// Makes the timeline longer; false where nothing more can be known. Throws Error where a place cannot be signed; it
+  /// is left out then, and the next call goes on.
+  bool extend();
+  /// Puts frames from the ring's end on into the ring, up to `until`, which must be known. Throws Error{corrupt}.
+  void read(std::int64_t until, FrameRing& ring);
+  /// Lets go of the database until it is needed again, and of the timeline before a frame.
+  void let_go(std::int64_t taken) noexcept;
+
+  /// The next event that belongs to a frame up to `frame`.
+  std::optional<PlayerEvent> take_event(std::int64_t frame) noexcept;
+  /// True where from this frame on nothing is left to sign.
+  bool idle(std::int64_t frame) const noexcept;
+
+  /// As many shown frames must be kept.
+  std::int64_t history() const noexcept;
+
+  static constexpr Milliseconds kLongestPause{60'000};
+  /// A sign that ends within this is finished where another utterance begins.
+  static constexpr Seconds kFinished{1.0};
+
+ private:
+  using WovenPtr = std::shared_ptr<Woven>;
+  enum class State {
+    nothing,  ///< no frame is known
+    at_core,  ///< the timeline ends with the tail's core: what comes next is joined there
+    resting,  ///< the tail is the rest, which goes on
+    ended,    ///< the last retraction is over (Idle::end)
+  };
+  /// Frames of the timeline, all from one thing.
+  struct Segment {
+    FrameRange frames;
+    WovenPtr woven;                      ///< captured frames of it, or
+    std::shared_ptr<const Motion> made;  ///< a transition that begins at `made_begin`
+    std::int64_t made_begin = 0;
+  };
+  /// What fills a place once it is decided.
+  struct Decision {
+    std::shared_ptr<const Contents> contents;
+    Candidate candidate;
+  };
+  /// A stretch of this utterance as it came to lie, with the places that it is of.
+  struct Entry {
+    WovenPtr woven;
+    std::size_t first = 0;
+    std::size_t last = 0;    ///< inclusive
+    bool joined = false;     ///< to the entry before
+    std::int64_t begin = 0;  ///< of the utterance: where its transition or its preparation begins
+    std::int64_t core = 0;   ///< of the utterance
+  };
+
+  bool has_next() const noexcept { return next_ < places_.size() || (loop_ && !places_.empty()); }
+  const Decision& decide(std::size_t place);
+  bool decided_well(std::size_t place) const noexcept;
+  bool goes_on(const Candidate& candidate, std::size_t place);
+  Stretch stretch_of(const Decision& decision, Milliseconds pause);
+  void begin_header(const Stretch& stretch, const std::shared_ptr<const Contents>& contents);
+  void sign_next();
+  void go_to_rest();
+  WovenPtr living_rest() const;
+  WovenPtr history_of(std::int64_t next, const FrameRing& shown) const;
+  void leave(std::int64_t next, const FrameRing& shown);
+  void cut(std::int64_t end);
+  bool finish_sign(std::int64_t next);
+  void append(FrameRange frames, WovenPtr woven);
+  void append(FrameRange frames, std::shared_ptr<const Motion> made);
+  void go_on_as_captured(std::size_t place);
+  void tell_places(const Entry& entry, std::int64_t from);
+  Milliseconds time_of(std::int64_t frames) const noexcept;
+  void read_segment(const Segment& segment, FrameRange frames, FrameRing& ring);
+
+  SigningBase& base_;
+  PlayerOptions options_;
+  bool loop_;
+  OpenRecordings open_;
+
+  std::vector<Place> places_;
+  std::vector<std::optional<Decision>> decisions_;  ///< [place]
+  std::size_t next_ = 0;                            ///< the place that is signed next
+
+  // Of the first decision; they stay.
+  std::optional<StreamHeader> header_;
+  std::shared_ptr<const DurationFit> fit_;
+  std::shared_ptr<const SignerRig> rig_;
+  std::shared_ptr<const CapturedSpans> spans_;
+  std::optional<Weaver> weaver_;
+  std::shared_ptr<const LivingRest> living_;
+
+  State state_ = State::nothing;
+  WovenPtr tail_;                        ///< what was laid last
+  WovenPtr last_sign_;                   ///< what was signed last; the rest may follow
+  std::optional<Candidate> last_signs_;  ///< of it: what may go on from there
+  std::vector<Entry> entries_;           ///< of this utterance, or this round of a loop
+  std::deque<Segment> segments_;
+  std::int64_t end_ = 0;
+  std::deque<PlayerEvent> events_;  ///< `frame` counts the timeline's
+  std::vector<float> track_values_;
+  std::vector<std::span<float>> track_spans_;
+};
+
+}  // namespace signweave

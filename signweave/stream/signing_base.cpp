@@ -1,0 +1,134 @@
+#include "signweave/stream/signing_base.h"
+
+#include <algorithm>
+#include <set>
+
+#include "signweave/core/error.h"
+
+namespace signweave {
+namespace {
+
+/// Glosses whose tokens are kept. A database may have more glosses than anybody asks for.
+constexpr std::size_t kMostKept = 8192;
+constexpr std::size_t kMostRigs = 1024;
+
+}  // namespace
+
+SigningBase::SigningBase(const Database& database) : database_(database) {}
+
+SigningBase::Known& SigningBase::of(const std::shared_ptr<const Contents>& contents) {
+  if (known_.contents != contents) {
+    known_ = {};
+    known_.contents = contents;
+  }
+  return known_;
+}
+
+/// `find` gives the place of a value among what is known; where it is empty, `make` makes the value, with no lock held.
+template <typename Value, typename Find, typename Make>
+std::shared_ptr<const Value> SigningBase::look_up(const std::shared_ptr<const Contents>& contents, Find find,
+                                                  Make make) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::shared_ptr<const Value>& known = find(of(contents))) return known;
+  }
+  auto made = std::make_shared<const Value>(make());
+  const std::lock_guard lock(mutex_);
+  std::shared_ptr<const Value>& known = find(of(contents));
+  if (!known) known = std::move(made);
+  return known;
+}
+
+void SigningBase::warm_up() {
+  const Snapshot snapshot = database_.snapshot();
+  const std::shared_ptr<const Contents>& contents = snapshot.shared_contents();
+  durations(contents, {});
+  declarations(contents);
+  for (std::size_t i = 0; i < contents->recordings.size(); ++i) {
+    if (contents->recordings[i].motion) snapshot.joins(i);
+  }
+  snapshot.join_weights();
+}
+
+std::shared_ptr<const DurationFit> SigningBase::durations(const std::shared_ptr<const Contents>& contents,
+                                                          const DurationModel& model) {
+  if (model.fixed) return std::make_shared<const DurationFit>(DurationFit{.mean = *model.fixed});
+  return look_up<DurationFit>(
+      contents, [&](Known & known) -> auto& { return known.durations[model.fitted]; },
+      [&] { return durations_of(database_, *contents, model); });
+}
+
+std::shared_ptr<const std::vector<Candidate>> SigningBase::candidates(const std::shared_ptr<const Contents>& contents,
+                                                                      const Place& place) {
+  if (place.kind != Place::Kind::gloss) {
+    return std::make_shared<const std::vector<Candidate>>(candidates_for(*contents, place));
+  }
+  std::string key = place.gloss.gloss;
+  if (place.gloss.token > 0) key += '\n' + std::to_string(place.gloss.token);
+  return look_up<std::vector<Candidate>>(
+      contents,
+      [&](Known & known) -> auto& {
+        if (known.candidates.size() > kMostKept) known.candidates.clear();
+        return known.candidates[key];
+      },
+      [&] { return candidates_for(*contents, place); });
+}
+
+std::shared_ptr<const SignerRig> SigningBase::rig(const std::shared_ptr<const Contents>& contents,
+                                                  const Stretch& stretch) {
+  return look_up<SignerRig>(
+      contents,
+      [&](Known & known) -> auto& {
+        if (known.rigs.size() > kMostRigs) known.rigs.clear();
+        return known.rigs[{stretch.recording, stretch.core.begin}];
+      },
+      [&] { return signer_rig_of(stretch, contents->at(stretch.recording).rig); });
+}
+
+std::shared_ptr<const CapturedSpans> SigningBase::spans(const Snapshot& snapshot, const Stretch& stretch,
+                                                        const SignerRig& rig) {
+  return look_up<CapturedSpans>(
+      snapshot.shared_contents(), [&](Known & known) -> auto& { return known.spans[stretch.recording]; },
+      [&] { return captured_spans(snapshot, *stretch.source->skeleton(), rig.groups); });
+}
+
+std::shared_ptr<const RestPose> SigningBase::rest(const Snapshot& snapshot, const Stretch& stretch,
+                                                  const SignerRig& rig) {
+  return look_up<RestPose>(
+      snapshot.shared_contents(), [&](Known & known) -> auto& { return known.rests[stretch.recording]; },
+      [&] {
+        const std::unique_ptr<MotionSource> motion = snapshot.motion(snapshot.contents().at(stretch.recording));
+        return rest_pose_of(*motion, rig.signer);
+      });
+}
+
+std::vector<std::string> SigningBase::tracks(const Contents& contents, const std::string& recording) const {
+  std::vector<std::string> names;
+  const auto add = [&](const RecordingInfo& info) {
+    if (!info.motion) return;
+    for (const std::string& name : info.motion->tracks) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  };
+  add(contents.at(recording));
+  for (const RecordingInfo& info : contents.recordings) add(info);
+  return names;
+}
+
+std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> SigningBase::declarations(
+    const std::shared_ptr<const Contents>& contents) {
+  using Declarations = std::vector<std::pair<std::string, std::string>>;
+  return look_up<Declarations>(
+      contents, [&](Known & known) -> auto& { return known.declarations; },
+      [&] {
+        std::set<std::pair<std::string, std::string>> all;
+        for (const RecordingInfo& info : contents->recordings) {
+          for (const auto& [name, value] : info.declarations) {
+            if (name != "signweave:synthesis") all.emplace(name, value);
+          }
+        }
+        return Declarations(all.begin(), all.end());
+      });
+}
+
+}  // namespace signweave

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "signweave/database/database.h"
+#include "signweave/stream/living_rest.h"
+#include "signweave/synthesis/candidate.h"
+#include "signweave/synthesis/captured_spans.h"
+#include "signweave/synthesis/concatenate.h"
+#include "signweave/synthesis/durations.h"
+
+namespace signweave {
+
+/// What many players of one database share and what does not depend on what they sign: how long transitions last, which
+/// joint is what, where a signer rests, the tokens of a gloss. Made when it is first asked for, and again after a
+/// change of the database. Threads may share it; it must outlive its players, and the database it.
+class SigningBase {
+ public:
+  explicit SigningBase(const Database& database);
+
+  const Database& database() const noexcept { return database_; }
+  /// Makes now what players would wait for.
+  void warm_up();
+
+  /// What follows is of the contents given, which are the database's now or were.
+
+  /// As `durations_of`.
+  std::shared_ptr<const DurationFit> durations(const std::shared_ptr<const Contents>& contents,
+                                               const DurationModel& model);
+  /// As `candidates_for`; throws what it throws.
+  std::shared_ptr<const std::vector<Candidate>> candidates(const std::shared_ptr<const Contents>& contents,
+                                                           const Place& place);
+  /// As `signer_rig_of` for a stretch of a recording.
+  std::shared_ptr<const SignerRig> rig(const std::shared_ptr<const Contents>& contents, const Stretch& stretch);
+  /// As `captured_spans`, for the skeleton of a recording.
+  std::shared_ptr<const CapturedSpans> spans(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
+  /// Where the signer of a recording rests.
+  std::shared_ptr<const RestPose> rest(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
+  /// The names of all scalar tracks of the database, those of `recording` first.
+  std::vector<std::string> tracks(const Contents& contents, const std::string& recording) const;
+  /// What all recordings declare of themselves, each once.
+  std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> declarations(
+      const std::shared_ptr<const Contents>& contents);
+
+ private:
+  struct Known {
+    std::shared_ptr<const Contents> contents;
+    std::map<bool, std::shared_ptr<const DurationFit>> durations;  ///< by whether they may be fitted
+    std::map<std::string, std::shared_ptr<const std::vector<Candidate>>, std::less<>> candidates;  ///< by the place
+    std::map<std::pair<std::string, std::int64_t>, std::shared_ptr<const SignerRig>> rigs;  ///< recording, first frame
+    std::map<std::string, std::shared_ptr<const CapturedSpans>> spans;                      ///< by recording
+    std::map<std::string, std::shared_ptr<const RestPose>> rests;                           ///< by recording
+    std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> declarations;
+  };
+  /// What is known of these contents; of others than the newest nothing is kept. Call it with the lock held.
+  Known& of(const std::shared_ptr<const Contents>& contents);
+  template <typename Value, typename Find, typename Make>
+  std::shared_ptr<const Value> look_up(const std::shared_ptr<const Contents>& contents, Find find, Make make);
+
+  const Database& database_;
+  std::mutex mutex_;
+  Known known_;
+};
+
+}  // namespace signweave

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "signweave/motion/motion.h"
+#include "signweave/synthesis/concatenate.h"
+#include "signweave/synthesis/cut_points.h"
+#include "signweave/synthesis/laid.h"
+#include "signweave/transition/body_guard.h"
+
+/// One junction at a time, from nothing but its two sides: `concatenate` makes all those of a result with it, and
+/// `Weaver` one after another while an utterance grows. So both make the same of the same stretches.
+namespace signweave {
+
+/// What all junctions of a result have in common. Everything is borrowed.
+struct JunctionSettings {
+  std::shared_ptr<const Skeleton> skeleton;
+  FrameRate rate;
+  const TransitionMethod* method = nullptr;  ///< not null
+  const SignerRig* rig = nullptr;            ///< not null
+  const DurationFit* fit = nullptr;          ///< null: each transition has `duration`
+  Milliseconds duration{0};                  ///< at tempo 1, without pauses
+  double tempo = 1;
+  const TransitionModel* model = nullptr;  ///< null: the default
+};
+
+struct JunctionCuts {
+  TransitionCuts parts;
+  TransitionCut tracks;  ///< of the scalar tracks, which know no poses
+};
+
+/// Times and cuts junctions, reading what lies around them. Used for many it allocates for the first ones only.
+class JunctionTimer {
+ public:
+  explicit JunctionTimer(const JunctionSettings& settings);
+
+  /// Of two stretches that are laid, wherever they lie. Throws Error{corrupt}.
+  JunctionCuts cuts_between(const Laid& a, const Laid& b, Milliseconds pause);
+
+ private:
+  void read(const Laid& a, const Laid& b, std::int64_t most);
+  void read(const Laid& laid, FrameRange frames, Motion& out);
+
+  JunctionSettings settings_;
+  Motion left_, right_;
+  CutSide from_, to_;
+  std::optional<CutChooser> chooser_;
+};
+
+/// Lays b where the cuts leave it behind a, and notes what both keep of the transition.
+void lay_after(Laid& a, Laid& b, const JunctionCuts& cuts);
+
+/// Output frames in memory, the first of them number `first`. Borrowed.
+struct OutputWindow {
+  Motion& motion;
+  std::int64_t first = 0;
+
+  FrameRange frames() const noexcept { return {first, first + motion.frame_count()}; }
+  MutablePoseView pose(std::int64_t frame) const noexcept { return motion.pose(frame - first); }
+  MutablePoses poses(FrameRange range) const noexcept { return motion.poses({range.begin - first, range.end - first}); }
+  PosesView view(FrameRange range) const noexcept { return view_of(motion, {range.begin - first, range.end - first}); }
+};
+
+/// Makes the frames of junctions.
+class JunctionFiller {
+ public:
+  explicit JunctionFiller(const JunctionSettings& settings);
+
+  /// Frames of b that a has too: of the whole body in a cross-fade, of one part here and another there where each has
+  /// its own cut.
+  static std::int64_t shared(const Laid& a, const Laid& b) noexcept;
+  /// As many frames beside a transition are looked at.
+  std::int64_t context() const noexcept;
+
+  /// The transition: Algorithm 1, lines 3 to 6. The window has what both sides keep of it already, and of both cores
+  /// `context()` frames or all; the frames that they share are there as a's, and in `shared` as b's. Quaternions of b
+  /// in the window may be turned to their negatives.
+  void fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, Motion& shared);
+
+ private:
+  void turn_signs(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, Motion& shared) const;
+  void crossfade(const Laid& b, std::int64_t frames, OutputWindow window, const Motion& shared) const;
+  void take_over(const Laid& b, const TransitionCuts& cuts, OutputWindow window, const Motion& shared) const;
+  Gap gap_at(const Laid& a, const Laid& b, FrameRange frames, OutputWindow window) const;
+  void fill_gap(const Laid& a, const Laid& b, FrameRange frames, GroupSet groups, const TransitionCut& cut,
+                OutputWindow window);
+
+  JunctionSettings settings_;
+  BodyGuard guard_;
+  GapScratch scratch_;
+};
+
+}  // namespace signweave

@@ -1,0 +1,439 @@
+// The player on whole databases: what it shows is what `synthesize` makes, whenever places are added; and what becomes
+// of it when a user interferes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "signweave/database/test_signing.h"
+#include "signweave/stream/player.h"
+#include "tests/demo_database.h"
+
+namespace signweave {
+namespace {
+
+using testing_database::TestFolder;
+using Kind = PlayerEvent::Kind;
+
+/// The demo corpus in a database, made once.
+const Database& corpus() {
+  static const TestFolder folder;
+  static const std::unique_ptr<const Database> database = demo_database(folder / "db", demo::corpus_scripts(6));
+  return *database;
+}
+
+SigningBase& base() {
+  static SigningBase shared(corpus());
+  return shared;
+}
+
+/// What a player showed.
+struct Shown {
+  Motion motion;
+  std::vector<PlayerEvent> events;
+  std::vector<std::vector<float>> tracks;  ///< [frame][track]
+
+  std::size_t count(Kind kind) const {
+    return static_cast<std::size_t>(std::ranges::count(events, kind, &PlayerEvent::kind));
+  }
+  /// The tokens that were signed: an utterance that leaves nothing to choose.
+  std::string tokens(const std::vector<std::string>& pauses = {}) const {
+    std::string text;
+    for (const PlayerEvent& event : events) {
+      if (event.kind != Kind::place) continue;
+      if (event.place < pauses.size()) text += pauses[event.place];
+      text += to_string(GlossRef{event.gloss, event.token}) + " ";
+    }
+    return text;
+  }
+};
+
+/// Takes frames until none is ready, at most so many.
+void show(Player& player, Shown& shown, std::size_t most = 100'000, std::size_t at_once = 32) {
+  for (std::size_t taken = 0; taken < most;) {
+    const std::size_t ready = player.prepare(std::min(at_once, most - taken));
+    if (player.header() == nullptr) return;
+    if (shown.motion.frame_count() == 0) shown.motion = Motion(player.header()->skeleton, player.header()->rate);
+    std::size_t here = 0;
+    for (; here < ready && taken < most; ++here, ++taken) {
+      while (auto event = player.take_event()) shown.events.push_back(std::move(*event));
+      shown.tracks.emplace_back(player.header()->tracks.size());
+      if (!player.next({shown.motion.append(), shown.tracks.back()})) {
+        ADD_FAILURE() << "a frame was promised";
+        return;
+      }
+    }
+    if (here == 0) break;
+  }
+  while (auto event = player.take_event()) shown.events.push_back(std::move(*event));
+}
+
+Shown shown_whole(const std::string& utterance, PlayerOptions options) {
+  options.idle = Idle::end;
+  Player player(base(), std::move(options));
+  player.sign(parse_utterance(utterance));
+  Shown shown;
+  show(player, shown);
+  return shown;
+}
+
+/// The same frames, up to the signs of quaternions.
+void expect_same(const Shown& shown, const Synthesized& made, const std::string& what) {
+  const Motion& a = shown.motion;
+  const Motion& b = made.result.motion;
+  ASSERT_EQ(a.frame_count(), b.frame_count()) << what;
+  for (std::int64_t frame = 0; frame < a.frame_count(); ++frame) {
+    const PoseView one = a.pose(frame);
+    const PoseView other = b.pose(frame);
+    for (std::size_t joint = 0; joint < one.rotations.size(); ++joint) {
+      const Eigen::Vector4f q = one.rotations[joint].coeffs();
+      const Eigen::Vector4f r = other.rotations[joint].coeffs();
+      ASSERT_TRUE(q == r || q == -r) << what << ": frame " << frame << " of " << a.frame_count() << ", joint "
+                                     << a.skeleton().joint(static_cast<JointIndex>(joint)).name << ": "
+                                     << (q - r).norm();
+    }
+    for (std::size_t t = 0; t < one.translations.size(); ++t) {
+      ASSERT_EQ(one.translations[t], other.translations[t]) << what << ": frame " << frame;
+    }
+    for (std::size_t t = 0; t < b.tracks().size(); ++t) {
+      ASSERT_EQ(shown.tracks[static_cast<std::size_t>(frame)][t], b.tracks()[t].values[static_cast<std::size_t>(frame)])
+          << what << ": frame " << frame << ", " << b.tracks()[t].name;
+    }
+  }
+}
+
+struct Case {
+  std::string method = "learned";
+  double tempo = 1;
+  std::optional<FrameRate> rate;
+  Alignment alignment = Alignment::automatic;
+};
+
+class PlayerMakes : public testing::TestWithParam<Case> {};
+
+TEST_P(PlayerMakes, WhatSynthesizeMakesOfItsTokens) {
+  const Case& given = GetParam();
+  SynthesisOptions synthesis;
+  synthesis.method = find_transition_method(given.method);
+  synthesis.tempo = given.tempo;
+  synthesis.rate = given.rate;
+  synthesis.alignment = given.alignment;
+  const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
+  std::mt19937 random(7);
+  for (int round = 0; round < 12; ++round) {
+    std::string text;
+    std::vector<std::string> pauses;
+    for (int place = 0; place < 9; ++place) {
+      pauses.push_back(place > 0 && random() % 6 == 0 ? ", " : "");
+      text += pauses.back() + to_string(GlossRef{glosses[random() % glosses.size()], 0}) + " ";
+    }
+    const Shown shown = shown_whole(text, {.synthesis = synthesis});
+    ASSERT_EQ(shown.count(Kind::place), 9u);
+    ASSERT_EQ(shown.count(Kind::end), 1u);
+    EXPECT_EQ(shown.events.back().frame, static_cast<std::uint64_t>(shown.motion.frame_count()));
+    const std::string tokens = shown.tokens(pauses);
+    expect_same(shown, synthesize(corpus(), parse_utterance(tokens), synthesis), tokens);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Player, PlayerMakes,
+                         testing::Values(Case{}, Case{.method = "overlap"}, Case{.method = "gap"},
+                                         Case{.method = "recorded"}, Case{.tempo = 0.6}, Case{.rate = FrameRate{60, 1}},
+                                         Case{.rate = FrameRate{25, 1}},
+                                         Case{.method = "overlap", .tempo = 1.7, .rate = FrameRate{30, 1}},
+                                         Case{.alignment = Alignment::ground}, Case{.alignment = Alignment::none}));
+
+TEST(Player, SignsAsCapturedWhatWasSignedSo) {
+  // A run of neighbours, of which `synthesize` keeps the recorded transitions.
+  const std::string text = "BRETAGNE MATIN NUAGES VANNES";
+  const Shown shown = shown_whole(text, {});
+  expect_same(shown, synthesize(corpus(), parse_utterance(shown.tokens())), shown.tokens());
+  EXPECT_EQ(synthesize(corpus(), parse_utterance(shown.tokens())).result.junctions.size(), 1u);
+}
+
+TEST(Player, SignsPiecesOfRecordings) {
+  const std::string text = "\"meteo\"@1200..3400 VANNES#1 \"villes\"@5000..5600 \"meteo\"@20000..32000";
+  const Shown shown = shown_whole(text, {});
+  ASSERT_EQ(shown.count(Kind::place), 4u);
+  expect_same(shown, synthesize(corpus(), parse_utterance(text)), text);
+}
+
+TEST(Player, TheSameWhenGlossesComeOneByOne) {
+  const std::string tokens = "DEMAIN#1 MATIN#1 VANNES#1 PLUIE#2 RENNES#1 NUAGES#1";
+  for (const std::size_t step : {1u, 7u, 30u}) {
+    Player player(base(), {.idle = Idle::end});
+    Shown shown;
+    for (const Place& place : parse_utterance(tokens).places) {
+      player.append({{place}});
+      show(player, shown, step, step);
+    }
+    show(player, shown);
+    expect_same(shown, synthesize(corpus(), parse_utterance(tokens)), tokens);
+  }
+}
+
+TEST(Player, WhatFollowsAWordThatIsNotOverIsJoinedToIt) {
+  // The rest, or the retraction, was prepared already, but no frame of it was taken.
+  for (const Idle idle : {Idle::end, Idle::living_rest}) {
+    Player player(base(), {.idle = idle});
+    player.sign(parse_utterance("DEMAIN#1"));
+    Shown shown;
+    show(player, shown, 1);
+    player.prepare(Player::kMostReady);
+    player.append(parse_utterance("MATIN#1"));
+    show(player, shown, 500);
+    const Synthesized made = synthesize(corpus(), parse_utterance("DEMAIN#1 MATIN#1"));
+    const auto of = [&](std::size_t place) {
+      return std::ranges::find(shown.events, place, &PlayerEvent::place)->frame;
+    };
+    EXPECT_EQ(of(1) - of(0),
+              static_cast<std::uint64_t>(made.result.stretches[1].core.begin - made.result.stretches[0].core.begin));
+  }
+}
+
+TEST(Player, TheFirstFrameComesBeforeTheLastGloss) {
+  Player player(base(), {});
+  EXPECT_EQ(player.header(), nullptr);
+  EXPECT_EQ(player.prepare(10), 0u);
+  player.append(parse_utterance("DEMAIN"));
+  EXPECT_GE(player.prepare(10), 10u);
+  ASSERT_NE(player.header(), nullptr);
+  EXPECT_FALSE(player.header()->declarations.empty());
+  Shown shown;
+  show(player, shown, 10);
+  player.append(parse_utterance("MATIN PLUIE"));
+  show(player, shown, 1500);
+  EXPECT_EQ(shown.count(Kind::place), 3u);
+  EXPECT_EQ(shown.count(Kind::rest), 1u);
+  EXPECT_TRUE(player.idle());
+}
+
+/// The greatest turn of any joint, and way of the root, from one frame to the next.
+std::pair<float, float> greatest_step(const Motion& motion, std::int64_t from = 1) {
+  float turn = 0;
+  float way = 0;
+  for (std::int64_t frame = std::max<std::int64_t>(from, 1); frame < motion.frame_count(); ++frame) {
+    const PoseView a = motion.pose(frame - 1);
+    const PoseView b = motion.pose(frame);
+    for (std::size_t joint = 0; joint < a.rotations.size(); ++joint) {
+      EXPECT_GE(a.rotations[joint].dot(b.rotations[joint]), 0.0f) << frame;  // one hemisphere
+      turn = std::max(turn, a.rotations[joint].angularDistance(b.rotations[joint]));
+    }
+    way = std::max(way, (a.translations[0] - b.translations[0]).norm());
+  }
+  return {turn, way};
+}
+
+TEST(Player, NothingJumpsWhateverAUserDoes) {
+  const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
+  // As fast as any joint of an ordinary utterance, and half as much again.
+  const auto [turn, way] =
+      greatest_step(shown_whole("DEMAIN MATIN VANNES PLUIE RENNES NUAGES SOLEIL-BRILLER", {}).motion);
+  std::mt19937 random(11);
+  for (int round = 0; round < 40; ++round) {
+    Player player(base(), {.synthesis = {}, .idle = random() % 3 == 0 ? Idle::end : Idle::living_rest});
+    Shown shown;
+    std::string story;
+    for (int step = 0; step < 30; ++step) {
+      const std::string gloss = to_string(GlossRef{glosses[random() % glosses.size()], 0});
+      switch (random() % 5) {
+        case 0:
+          story += " sign " + gloss;
+          player.sign(parse_utterance(gloss));
+          break;
+        case 1:
+        case 2:
+          story += " append " + gloss;
+          player.append(parse_utterance(gloss));
+          break;
+        case 3:
+          if (random() % 3 == 0) {
+            story += " stop";
+            player.stop();
+          }
+          break;
+        default:
+          break;
+      }
+      const std::size_t frames = random() % 150;
+      story += " " + std::to_string(frames);
+      show(player, shown, frames, 1 + random() % 60);
+    }
+    show(player, shown, 2000);
+    const auto [most, farthest] = greatest_step(shown.motion);
+    EXPECT_LT(most, 1.5f * turn) << "round " << round << story;
+    EXPECT_LT(farthest, 1.5f * way + 0.005f) << "round " << round << story;
+    EXPECT_TRUE(player.idle());
+  }
+}
+
+TEST(Player, RestsAndBreathes) {
+  Player player(base(), {.recording = "meteo"});
+  ASSERT_NE(player.header(), nullptr);
+  Shown shown;
+  show(player, shown, 1000);
+  EXPECT_EQ(shown.motion.frame_count(), 1000);
+  EXPECT_TRUE(player.idle());
+  EXPECT_GT(greatest_step(shown.motion).first, 0.0f);
+  EXPECT_LT(greatest_step(shown.motion).first, 0.01f);
+  player.sign(parse_utterance("PLUIE"));
+  EXPECT_FALSE(player.idle());
+  show(player, shown, 1000);
+  EXPECT_EQ(shown.count(Kind::place), 1u);
+  EXPECT_EQ(shown.count(Kind::rest), 1u);
+  EXPECT_EQ(shown.motion.frame_count(), 2000);
+}
+
+TEST(Player, PausesAndGoesOn) {
+  Player player(base(), {});
+  player.sign(parse_utterance("DEMAIN MATIN"));
+  Shown shown;
+  show(player, shown, 20);
+  player.pause();
+  EXPECT_TRUE(player.paused());
+  player.prepare(5);
+  std::vector<float> tracks(player.header()->tracks.size());
+  Motion one(player.header()->skeleton, player.header()->rate, 1);
+  EXPECT_FALSE(player.next({one.pose(0), tracks}));
+  player.resume();
+  EXPECT_TRUE(player.next({one.pose(0), tracks}));
+  EXPECT_EQ(player.frame(), 21u);
+}
+
+TEST(Player, SeeksToWhatItShowedThere) {
+  const std::string tokens = "DEMAIN#1 MATIN#1 VANNES#1 PLUIE#2 RENNES#1";
+  Player player(base(), {.idle = Idle::end});
+  player.sign(parse_utterance(tokens));
+  Shown whole;
+  show(player, whole);
+  for (const std::int64_t at : {0, 1, 40, 111, 170, 200, 260}) {
+    const double hertz = player.header()->rate.hertz();
+    player.seek(Milliseconds(std::llround(static_cast<double>(at) * 1000.0 / hertz)));
+    Shown again;
+    show(player, again);
+    ASSERT_EQ(again.motion.frame_count(), whole.motion.frame_count() - at);
+    EXPECT_EQ(again.count(Kind::seek), 1u);
+    EXPECT_EQ(again.events.front().at, Milliseconds(std::llround(static_cast<double>(at) * 1000.0 / hertz)));
+    for (std::int64_t frame = 0; frame < again.motion.frame_count(); ++frame) {
+      for (std::size_t joint = 0; joint < again.motion.skeleton().joint_count(); ++joint) {
+        const Eigen::Vector4f a = again.motion.pose(frame).rotations[joint].coeffs();
+        const Eigen::Vector4f b = whole.motion.pose(at + frame).rotations[joint].coeffs();
+        ASSERT_TRUE(a == b || a == -b) << "from " << at << ", frame " << frame << ", joint " << joint;
+      }
+    }
+  }
+}
+
+TEST(Player, SeeksWhileItSigns) {
+  Player player(base(), {});
+  player.sign(parse_utterance("DEMAIN MATIN VANNES PLUIE RENNES NUAGES"));
+  Shown shown;
+  show(player, shown, 300);
+  player.seek(Milliseconds(100));
+  show(player, shown, 5000);
+  // Every place comes, those that were over by then once more.
+  for (std::size_t place = 0; place < 6; ++place) {
+    EXPECT_GE(std::ranges::count(shown.events, place, &PlayerEvent::place), 1) << place;
+  }
+  EXPECT_TRUE(player.idle());
+}
+
+TEST(Player, TempoIsChangedAtOnce) {
+  const std::string tokens = "DEMAIN#1 MATIN#1 VANNES#1";
+  const Shown plain = shown_whole(tokens, {});
+  for (const double tempo : {0.25, 0.5, 0.8, 1.3, 2.0}) {
+    Player player(base(), {.idle = Idle::end});
+    player.sign(parse_utterance(tokens));
+    player.set_tempo(tempo);
+    Shown shown;
+    show(player, shown);
+    EXPECT_NEAR(static_cast<double>(shown.motion.frame_count()),
+                static_cast<double>(plain.motion.frame_count()) / tempo, 1.0 / tempo + 1)
+        << tempo;
+    if (tempo < 1) continue;
+    const auto at = static_cast<std::int64_t>(20);
+    const auto [turn, way] = greatest_step(shown.motion);
+    EXPECT_LT(turn, 2.2f * greatest_step(plain.motion).first) << at;
+    EXPECT_LT(way, 2.2f * greatest_step(plain.motion).second + 0.001f);
+  }
+  Player player(base(), {});
+  EXPECT_THROW(player.set_tempo(0.2), Error);
+  EXPECT_THROW(player.set_tempo(2.5), Error);
+  EXPECT_THROW(player.set_tempo(std::nan("")), Error);
+}
+
+TEST(Player, ATempoThatIsOneAgainShowsFramesAsTheyAre) {
+  const std::string tokens = "DEMAIN#1 MATIN#1 VANNES#1";
+  const Shown plain = shown_whole(tokens, {});
+  Player player(base(), {.idle = Idle::end});
+  player.sign(parse_utterance(tokens));
+  Shown shown;
+  show(player, shown, 20);
+  player.set_tempo(0.7);
+  show(player, shown, 13);
+  player.set_tempo(1);
+  show(player, shown);
+  // The end is the same to the bit.
+  for (std::int64_t back = 1; back < 50; ++back) {
+    const PoseView a = shown.motion.pose(shown.motion.frame_count() - back);
+    const PoseView b = plain.motion.pose(plain.motion.frame_count() - back);
+    for (std::size_t joint = 0; joint < a.rotations.size(); ++joint) {
+      const Eigen::Vector4f q = a.rotations[joint].coeffs();
+      const Eigen::Vector4f r = b.rotations[joint].coeffs();
+      ASSERT_TRUE(q == r || q == -r) << back;
+    }
+  }
+}
+
+TEST(Player, LoopsWithoutASeam) {
+  Player player(base(), {.idle = Idle::end, .loop = true});
+  player.sign(parse_utterance("DEMAIN MATIN"));
+  Shown shown;
+  show(player, shown, 3000);
+  EXPECT_EQ(shown.motion.frame_count(), 3000);
+  EXPECT_GT(shown.count(Kind::place), 8u);
+  EXPECT_LT(greatest_step(shown.motion).first, 0.5f);
+  player.set_loop(false);
+  show(player, shown, 3000);
+  EXPECT_TRUE(player.idle());
+  EXPECT_EQ(shown.count(Kind::end), 1u);
+}
+
+TEST(Player, AGlossThatIsNotThereChangesNothing) {
+  Player player(base(), {.idle = Idle::end});
+  player.sign(parse_utterance("DEMAIN#1 MATIN#1"));
+  Shown shown;
+  show(player, shown, 30);
+  EXPECT_THROW(player.append(parse_utterance("PLUIE NO-SUCH-SIGN")), Error);
+  EXPECT_THROW(player.sign(parse_utterance("NO-SUCH-SIGN")), Error);
+  show(player, shown);
+  expect_same(shown, synthesize(corpus(), parse_utterance("DEMAIN#1 MATIN#1")), "what it had begun");
+}
+
+TEST(Player, StopsSoon) {
+  Player player(base(), {});
+  player.sign(parse_utterance("DEMAIN MATIN VANNES PLUIE RENNES NUAGES"));
+  Shown shown;
+  show(player, shown, 130);
+  const std::size_t before = shown.count(Kind::place);
+  player.stop();
+  show(player, shown, 400);
+  EXPECT_TRUE(player.idle());
+  EXPECT_LE(shown.count(Kind::place), before + 1);
+  EXPECT_EQ(shown.count(Kind::rest), 1u);
+}
+
+TEST(Player, RefusesWhatCannotBe) {
+  EXPECT_THROW(Player(base(), {.look_ahead = 0}), Error);
+  EXPECT_THROW(Player(base(), {.look_ahead = 17}), Error);
+  EXPECT_THROW(Player(base(), {.recording = "no such"}), Error);
+  EXPECT_THROW(Player(base(), {.synthesis = {.tempo = 9}}), Error);
+  Player player(base(), {});
+  player.append(parse_utterance("DEMAIN"));
+  Place late = parse_utterance("MATIN").places.front();
+  late.pause_before = Milliseconds(60'001);
+  EXPECT_THROW(player.append({{late}}), Error);
+}
+
+}  // namespace
+}  // namespace signweave

@@ -18,8 +18,8 @@ struct ApiRequest {
   std::vector<std::string> path;             ///< decoded segments after /api: {"databases", "demo", "query"}
   std::map<std::string, std::string> query;  ///< decoded; of a name that comes twice the last
   std::string content_type;
-  std::string accept;               ///< the Accept header: of sign, edit and exports it may name the file's type
-  std::string body;                 ///< whole, within the server's limit
+  std::string accept;  ///< the Accept header: its first type may say which file sign, edit and exports give
+  std::string body;    ///< whole, within the server's limit
   std::filesystem::path body_file;  ///< of an upload: where the server has put the body instead; the call takes it away
 };
 

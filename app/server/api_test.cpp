@@ -121,9 +121,11 @@ TEST(Api, SignsAReportOrAFile) {
   EXPECT_EQ(json_in(file("json"))["motion"]["frames"], json_in(file("json"))["frames"]);
   EXPECT_EQ(header_of(file("glb"), "Content-Disposition"), "attachment; filename*=UTF-8''signing.glb");
   ApiRequest accepting{.method = "POST", .path = at({"sign"}), .content_type = "application/json"};
-  accepting.accept = "model/gltf-binary";
+  accepting.accept = "model/gltf-binary;q=0.9, */*";
   accepting.body = R"({"utterance": "VANNES"})";
   EXPECT_EQ(reading().api().answer(accepting).content_type, "model/gltf-binary");
+  accepting.accept = "application/json, text/plain, */*";
+  EXPECT_EQ(reading().api().answer(accepting).content_type, "application/json");
 }
 
 TEST(Api, AGlossThatIsNotThereHasNearMatches) {

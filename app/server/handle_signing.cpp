@@ -3,6 +3,7 @@
 #include "app/calls/export_call.h"
 #include "app/calls/synthesis_call.h"
 #include "app/server/routes.h"
+#include "signweave/core/text.h"
 
 namespace signweave::server {
 
@@ -48,14 +49,15 @@ void fields(Visit& visit, AnnotationCall& call) {
   visit(calls::Field{.name = "to", .help = "annotation time in ms to end at"}, call.call.to);
 }
 
-/// The format that a request asks for: by its field, else by what it accepts; empty for the report.
+/// The format that a request asks for: by its field, else by the first type that it accepts; empty for the report.
+/// Browsers accept nearly everything after what they want first.
 std::string wanted_format(const Call& call, const std::string& format, const std::vector<std::string>& known) {
-  if (!format.empty() || call.request.accept.empty()) return format;
+  if (!format.empty()) return format;
+  const std::string_view accept = call.request.accept;
+  const std::string_view first = trimmed(accept.substr(0, accept.find_first_of(",;")));
   for (const std::string& name : known) {
-    if (name != "json" && call.request.accept.find(file_format(name).media_type.substr(
-                              0, file_format(name).media_type.find(';'))) != std::string::npos) {
-      return name;
-    }
+    const std::string_view type = file_format(name).media_type;
+    if (name != "json" && type.substr(0, type.find(';')) == first) return name;
   }
   return {};
 }

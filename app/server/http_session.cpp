@@ -168,6 +168,7 @@ void HttpSession::go_on() {
               .path = {decision_.target.path.begin() + 1, decision_.target.path.end()},
               .query = std::move(decision_.target.query),
               .content_type = std::string(text_of(head[http::field::content_type])),
+              .accept = std::string(text_of(head[http::field::accept])),
               .body = {},
               .body_file = {}};
   in_file_ = context.api.takes_file(request_);

@@ -60,7 +60,8 @@ constexpr const char* kDatabaseAnswers = R"json({
     "properties": {"ending": {"type": "string"}, "reads": {"type": "boolean"}, "writes": {"type": "boolean"},
       "holds": {"type": "string"}, "lost": {"type": "string"}}}},
   "OpenApi": {"type": "object", "required": ["openapi", "info", "paths"], "properties": {
-    "openapi": {"type": "string"}, "info": {"type": "object"}, "paths": {"type": "object"}}},
+    "openapi": {"type": "string"}, "info": {"type": "object"}, "paths": {"type": "object"},
+    "components": {"type": "object"}, "servers": {"type": "array"}, "security": {"type": "array"}}},
   "Notices": {"type": "array", "items": {"type": "object", "required": ["where", "text"], "properties": {
     "where": {"type": "string"}, "text": {"type": "string"}}}},
   "Declarations": {"type": "object", "additionalProperties": {"type": "string"},
@@ -87,6 +88,8 @@ constexpr const char* kSearchAnswers = R"json({
     "histogram": {"type": "object", "required": ["begin", "width", "counts"], "properties": {
       "begin": {"type": "number"}, "width": {"type": "number"},
       "counts": {"type": "array", "items": {"type": "integer"}}}}}},
+  "HandTravel": {"type": "object", "required": ["displacement_m", "path_m"], "properties": {
+    "displacement_m": {"type": "number"}, "path_m": {"type": "number"}}},
   "TransitionPart": {"type": "object", "required": ["duration_ms"], "properties": {
     "duration_ms": {"$ref": "#/components/schemas/Distribution"},
     "left_hand": {"type": "object"}, "right_hand": {"type": "object"}}},
@@ -104,9 +107,11 @@ constexpr const char* kSearchAnswers = R"json({
           "required": ["from", "to", "begin_ms", "end_ms", "inferred"], "properties": {
             "from": {"type": "string"}, "to": {"type": "string"}, "begin_ms": {"type": "integer"},
             "end_ms": {"type": "integer"}, "inferred": {"type": "boolean"}, "retraction_ms": {"type": "integer"},
-            "preparation_ms": {"type": "integer"}}}}}}]}},
+            "preparation_ms": {"type": "integer"}, "left_hand": {"$ref": "#/components/schemas/HandTravel"},
+            "right_hand": {"$ref": "#/components/schemas/HandTravel"}}}}}}]}},
     "pairs": {"type": "array", "items": {"allOf": [{"$ref": "#/components/schemas/TransitionSummary"},
-      {"type": "object", "required": ["from", "to"]}]}},
+      {"type": "object", "required": ["from", "to"], "properties": {
+        "from": {"type": "string"}, "to": {"type": "string"}}}]}},
     "glosses": {"type": "array", "items": {"type": "object", "required": ["gloss", "sign_ms", "stroke_ms"],
       "properties": {"gloss": {"type": "string"}, "sign_ms": {"$ref": "#/components/schemas/Distribution"},
         "stroke_ms": {"$ref": "#/components/schemas/Distribution"}}}},

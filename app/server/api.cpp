@@ -61,7 +61,7 @@ const Route& route_of(const ApiRequest& request, std::string& allowed) {
         fmt::format("{} takes {}, not {}", printable(path_text(request.path)), allowed, printable(request.method)));
   }
   const std::string path = path_text(request.path);
-  throw Error(ErrorCode::not_found, fmt::format("there is nothing at {}{}; /api/openapi.json lists what there is",
+  throw Error(ErrorCode::not_found, fmt::format("there is nothing at {} (/api/openapi.json lists what there is){}",
                                                 printable(path), did_you_mean(path, paths_like(request.path))));
 }
 
@@ -112,6 +112,7 @@ Api::Api(ServedDatabases& databases, ApiLimits limits, std::filesystem::path scr
   auto* state = new State{{.databases = databases,
                            .limits = limits,
                            .scratch = scratch,
+                           .evaluating = {},
                            .uploads = {scratch / "uploads", limits.uploads, limits.upload_bytes, limits.upload_idle},
                            .jobs = {[this](std::string text) { return redacted(*state_, std::move(text)); },
                                     [this] { state_->uploads.sweep(); }}}};

@@ -75,8 +75,7 @@ void check(const json& value, const json& schema, const std::string& where, std:
       whole["properties"].update(of.value("properties", json::object()));
       for (const json& name : of.value("required", json::array())) whole["required"].push_back(name);
     }
-    if (whole["properties"].size() > 4 || value.size() <= whole["properties"].size())
-      check(value, whole, where, faults);
+    check(value, whole, where, faults);
   }
   if (schema.contains("oneOf")) {
     std::size_t fitting = 0;
@@ -142,7 +141,7 @@ TEST(ApiDocument, EveryFieldOfTheParametersIsInTheDocs) {
 }
 
 TEST(ApiDocument, EveryAnswerToGetFitsItsSchema) {
-  TestApi api(false);
+  TestApi api(false, {.sign_time = Milliseconds(300'000)});  // sanitizers are slow
   std::set<std::string> seen;
   for (const Route& route : routes()) {
     const std::optional<Path> path = demo_path(route);
@@ -150,6 +149,7 @@ TEST(ApiDocument, EveryAnswerToGetFitsItsSchema) {
     std::map<std::string, std::string> query;
     if (route.id == "query") query = {{"text", "gloss = \"MATIN\" -> gloss = \"BROUILLARD\""}};
     if (route.id == "stats") query = {{"pairs", "true"}, {"glosses", "true"}, {"ngrams", "3"}};
+    if (route.id == "evaluate") query = {{"method", "hermite"}};
     const ApiResponse response = api.get(*path, query);
     ASSERT_EQ(response.status, 200) << route.id << response.body;
     EXPECT_THAT(faults_of(json_in(response), std::string(route.answer)), testing::IsEmpty()) << route.id;

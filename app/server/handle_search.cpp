@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <mutex>
 
 #include "app/calls/evaluate_call.h"
 #include "app/calls/query_call.h"
@@ -106,6 +107,8 @@ ApiResponse propose_segments(Call& call) {
 
 ApiResponse evaluate_methods(Call& call) {
   const auto [parameters, format] = read_parameters<WithFormat<calls::EvaluateCall>>(call);
+  const std::unique_lock one(call.state.evaluating, std::try_to_lock);
+  if (!one) throw StatusError(503, "busy", "another evaluation is under way; try again when it is over");
   const Database& database = call.database().database();
   const calls::Evaluated made = calls::run(database, parameters, call.listener());
   call.declare_all(*database.contents());

@@ -39,8 +39,8 @@ Motion taking(const std::vector<Stance>& stances, std::int64_t hold = 50) {
           .bow = std::lerp(from.bow, to.bow, t),
           .look = std::lerp(from.look, to.look, t)};
     const MutablePoseView pose = motion.pose(frame);
-    pose.rotations[joint("LeftArm")] = about(Vector3f::UnitZ(), -at.arms);
-    pose.rotations[joint("RightArm")] = about(Vector3f::UnitZ(), at.arms);
+    pose.rotations[joint("LeftArm")] = about(Vector3f::UnitX(), -at.bow) * about(Vector3f::UnitZ(), -at.arms);
+    pose.rotations[joint("RightArm")] = about(Vector3f::UnitX(), -at.bow) * about(Vector3f::UnitZ(), at.arms);
     pose.rotations[joint("Spine")] = about(Vector3f::UnitX(), at.bow);
     pose.rotations[joint("Head")] = about(Vector3f::UnitX(), -at.bow) * about(Vector3f::UnitY(), at.look);  // looks up
   }

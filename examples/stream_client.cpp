@@ -122,14 +122,14 @@ class Client {
       }
     } else if (type == "ok") {
       --unanswered_;
-      ended_ = false;
+      end_ = -1;
     } else if (type == "error") {
       throw std::runtime_error(message.at("message").get<std::string>());
     } else if (type == "place") {
       Place& place = signed_.places.at(message.at("place"));
       if (place.kind == Place::Kind::gloss) place.gloss = {message.at("gloss"), message.at("token")};
     } else if (type == "end") {
-      ended_ = true;
+      end_ = message.at("frame");  // the frames before it may still be on their way
     } else if (type == "notice") {
       std::cerr << "stream_client: " << message.at("text").get<std::string>() << '\n';
     }
@@ -146,7 +146,8 @@ class Client {
     }
   }
   void close_when_done() {
-    if (done_ || !no_more_ || unanswered_ > 0 || !(ended_ || signed_.places.empty())) return;
+    const bool ended = signed_.places.empty() || motion_.frame_count() == end_;
+    if (done_ || !no_more_ || unanswered_ > 0 || !ended) return;
     done_ = true;
     stream_.async_close(beast::websocket::close_code::normal, [](beast::error_code) {});
   }
@@ -155,7 +156,8 @@ class Client {
   beast::flat_buffer buffer_;
   std::deque<std::string> waiting_;  // to be written, the first one now
   int unanswered_ = 0;
-  bool no_more_ = false, ended_ = false, done_ = false;
+  bool no_more_ = false, done_ = false;
+  std::int64_t end_ = -1;  // the frame after the last, once it is known
   Utterance signed_;
   Motion motion_;
   std::vector<float> tracks_;  // of one frame; BVH has no place for them

@@ -8,20 +8,22 @@ const url = new URL('/api/stream' + new URL(server).search, server.replace(/^htt
 const socket = Object.assign(new WebSocket(url), { binaryType: 'arraybuffer' })
 const fail = (text) => (console.error(`stream_client.mjs: ${text}`), process.exit(1))
 const frames = [], tokens = []
-let header, order // joints as a BVH file has them: children after their parent
+let header, end // the number of the frame after the last, once it is known
 
 socket.onerror = (event) => fail(event.message)
 socket.onclose = ({ code, reason }) => code === 1000 || fail(`closed: ${reason || code}`)
 socket.onopen = () => [{ type: 'open', pace: 'fast', idle: 'end', batch: 60 }, { type: 'sign', utterance: glosses.join(' ') }]
   .forEach((message) => socket.send(JSON.stringify(message)))
-socket.onmessage = ({ data }) => (typeof data === 'string' ? told(JSON.parse(data)) : framesOf(data))
+socket.onmessage = ({ data }) => {
+  if (typeof data === 'string') told(JSON.parse(data)); else framesOf(data)
+  if (frames.length === end) finish()
+}
 
 function told(message) {
   if (message.type === 'error') fail(message.message)
-  if (message.type === 'header') message.declarations.forEach(({ value }) => console.error(`stream_client.mjs: ${value}`))
-  if (message.type === 'header') [header, order] = [message, []]
+  if (message.type === 'header') (header = message).declarations.forEach(({ value }) => console.error(`stream_client.mjs: ${value}`))
   if (message.type === 'place') tokens.push(`${message.gloss || '(piece)'}#${message.token}`)
-  if (message.type === 'end') finish()
+  if (message.type === 'end') end = message.frame
 }
 function framesOf(data) { // little-endian, as the machine: typed arrays look at the bytes where they lie
   for (let i = 0, at = 16; i < new Uint16Array(data, 2, 1)[0]; ++i, at += header.frame_bytes) {
@@ -38,11 +40,16 @@ function zxy(q) { // a rotation as degrees about z, then x, then y
 }
 function finish() {
   const text = (numbers) => numbers.map((v) => v.toFixed(6)).join(' '), cm = (offset) => text(offset.map((v) => 100 * v))
-  const tree = (joint, index = order.push(joint) && joint) => `${joint ? 'JOINT' : 'ROOT'} ${header.joints[index].name}\n{\nOFFSET ` +
-    `${cm(header.joints[joint].offset)}\nCHANNELS ${header.translated.includes(joint) ? '6 Xposition Yposition Zposition' : 3} Zrotation Xrotation Yrotation\n` +
-    header.joints.map((child, i) => (child.parent === joint ? tree(i) : '')).join('') +
-    header.tips.map((tip) => (tip.joint === joint ? `End Site\n{\nOFFSET ${cm(tip.offset)}\n}\n` : '')).join('') + '}\n'
-  const row = (frame) => order.map((joint) => text([...(header.translated.includes(joint) ? frame.place(header.translated.indexOf(joint)) : []), ...frame.turn(joint)])).join(' ')
+  const order = [], moved = (joint) => header.translated.indexOf(joint)
+  const tree = (joint) => { // children after their parent; `order` is that of the columns
+    order.push(joint)
+    const channels = moved(joint) < 0 ? '3' : '6 Xposition Yposition Zposition'
+    return `${joint ? 'JOINT' : 'ROOT'} ${header.joints[joint].name}\n{\nOFFSET ${cm(header.joints[joint].offset)}\n` +
+      `CHANNELS ${channels} Zrotation Xrotation Yrotation\n` +
+      header.joints.map((child, i) => (child.parent === joint ? tree(i) : '')).join('') +
+      header.tips.map((tip) => (tip.joint === joint ? `End Site\n{\nOFFSET ${cm(tip.offset)}\n}\n` : '')).join('') + '}\n'
+  }
+  const row = (frame) => order.map((joint) => text([...(moved(joint) < 0 ? [] : frame.place(moved(joint))), ...frame.turn(joint)])).join(' ')
   writeFileSync(out, `HIERARCHY\n${tree(0)}MOTION\nFrames: ${frames.length}\nFrame Time: ${1 / header.rate}\n${frames.map(row).join('\n')}\n`)
   console.log(tokens.join(' ')), socket.close(1000)
 }

@@ -1,5 +1,6 @@
 #include "app/server/context.h"
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <vector>
 
@@ -71,6 +72,9 @@ void IoThread::look() {
     connection->look(now);
     busy = busy || connection->busy();
   }
+  busy_ = busy;
+  // Threads end together, so that one that has nothing to do still tells who asks that the server drains.
+  busy = std::ranges::any_of(context.threads, [](const auto& thread) { return thread->busy_.load(); });
   if (stopping_ && (!busy || now >= end_)) {
     for (Connection* connection : all) connection->close();
     boost::asio::post(io, [this] { io.stop(); });

@@ -83,6 +83,7 @@ class IoThread {
  private:
   void look();
   boost::asio::steady_timer look_timer_;
+  std::atomic<bool> busy_ = true;  // something runs that a stop waits for, here or there
   bool stopping_ = false;
   Clock::time_point end_;
 };

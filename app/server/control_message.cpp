@@ -189,7 +189,11 @@ ControlMessage parse_control(std::string_view text) {
     message.control = control_of(object);
     read_fields(message, object);
   } catch (const Json::exception& error) {
-    throw ControlError(ErrorCode::bad_input, fmt::format("not JSON: {}", printable(error.what())), message.id);
+    const std::string_view what = error.what();  // "[json.exception.parse_error.101] parse error at …"
+    const std::size_t mark = what.find("] ");
+    throw ControlError(ErrorCode::bad_input,
+                       fmt::format("not JSON: {}", printable(what.substr(mark == what.npos ? 0 : mark + 2))),
+                       message.id);
   } catch (const Error& error) {
     throw ControlError(error.code(), error.what(), message.id);
   }

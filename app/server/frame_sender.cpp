@@ -203,7 +203,12 @@ std::size_t FrameSender::take(std::size_t most, bool keep, std::size_t after) no
   std::byte* to = message_.data() + kRoomForHeader + kMessageHeaderBytes + after * frame_bytes_;
   const MutableFrameView frame{pose_.view(), tracks_};
   for (std::size_t taken = 0; taken < most; ++taken) {
-    tell_events();
+    if (!event_) event_ = player_.take_event();
+    if (event_) {
+      // It is told right before the message that begins with its frame, so what was taken goes out first.
+      if (taken + after > 0) return taken;
+      tell_events();
+    }
     // Nothing is sent as fast as it goes while the signer only breathes.
     if ((pace_ == Pace::fast && player_.idle()) || !player_.next(frame)) {
       ready_ = 0;
@@ -265,18 +270,18 @@ void FrameSender::announce() {
 }
 
 void FrameSender::tell_events() {
-  while (std::optional<PlayerEvent> event = player_.take_event()) {
+  for (; event_ || (event_ = player_.take_event()); event_.reset()) {
     if (out_.unread() > kMostEvents) {
       ++events_left_out_;
       continue;
     }
     if (events_left_out_ > 0) {
-      const PlayerEvent notice{.frame = event->frame,
-                               .at = event->at,
+      const PlayerEvent notice{.frame = event_->frame,
+                               .at = event_->at,
                                .text = fmt::format("{} events were left out", std::exchange(events_left_out_, 0))};
       out_.send_text(event_text(notice));
     }
-    out_.send_text(event_text(*event));
+    out_.send_text(event_text(*event_));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -75,6 +76,7 @@ class FrameSender final : public Paced {
   std::size_t ahead_ = 64;  // frames made at a time
 
   Clock::time_point asked_ = kNever;  // when glosses came whose first frame is yet to be sent
+  std::optional<PlayerEvent> event_;  // the next to be told
   std::uint32_t left_out_ = 0;
   std::size_t events_left_out_ = 0;
 };

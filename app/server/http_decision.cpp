@@ -63,7 +63,7 @@ Decision decide(const RequestHead& head, const ServerOptions& options, const Acc
   if (head.method == "OPTIONS" && !head.origin.empty()) {
     return answer(decision.allowed_origin
                       ? preflight()
-                      : error_reply(403, "bad_input", "this origin is not allowed; see --allow-origin"));
+                      : error_reply(403, "forbidden", "this origin is not allowed; see --allow-origin"));
   }
   const bool needs_own_origin = !reads || decision.route == RouteClass::stream;
   if (needs_own_origin && !access.origin_is_ours(head.origin, head.host)) {
@@ -77,7 +77,7 @@ Decision decide(const RequestHead& head, const ServerOptions& options, const Acc
     const auto found = decision.target.query.find("token");
     const bool in_query = decision.route == RouteClass::stream && found != decision.target.query.end();
     if (!access.token_is_right(head.authorization, in_query ? std::string_view(found->second) : std::string_view())) {
-      Reply reply = error_reply(401, "bad_input", "a token is needed: Authorization: Bearer TOKEN");
+      Reply reply = error_reply(401, "unauthorized", "a token is needed: Authorization: Bearer TOKEN");
       reply.headers.emplace_back("WWW-Authenticate", "Bearer");
       return answer(std::move(reply));
     }

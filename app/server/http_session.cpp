@@ -64,8 +64,7 @@ void HttpSession::start() {
     thread_.metrics.refused.add();
     keep_alive_ = false;
     decision_ = {};
-    Reply refusal =
-        error_reply(503, "conflict", full ? "too many connections" : "too many connections of this address");
+    Reply refusal = error_reply(503, "busy", full ? "too many connections" : "too many connections of this address");
     refusal.headers.emplace_back("Retry-After", "5");
     reply(std::move(refusal));
     return;
@@ -131,7 +130,7 @@ void HttpSession::on_header(Error error) {
   if (decision_.allowed_origin) origin_ = head.origin;
   if (!thread_.context.addresses.request(address_, begin_)) {
     thread_.metrics.refused.add();
-    Reply refusal = error_reply(429, "conflict", "too many requests from this address");
+    Reply refusal = error_reply(429, "busy", "too many requests from this address");
     refusal.headers.emplace_back("Retry-After", "1");
     return reply(std::move(refusal));
   }
@@ -162,7 +161,7 @@ void HttpSession::go_on() {
     case RouteClass::refused:
       break;
   }
-  if (context.draining) return reply(error_reply(503, "cancelled", "the server is being stopped"));
+  if (context.draining) return reply(error_reply(503, "stopping", "the server is being stopped"));
   const auto& head = parser_->get();
   request_ = {.method = head_only_ ? "GET" : std::string(text_of(head.method_string())),
               .path = {decision_.target.path.begin() + 1, decision_.target.path.end()},
@@ -248,7 +247,7 @@ void HttpSession::call() {
   Context& context = thread_.context;
   if (context.calls >= context.options.limits.calls) {
     thread_.metrics.refused.add();
-    Reply refusal = error_reply(503, "conflict", "too many calls at once; try again");
+    Reply refusal = error_reply(503, "busy", "too many calls at once; try again");
     refusal.headers.emplace_back("Retry-After", "1");
     return reply(std::move(refusal));
   }
@@ -273,10 +272,10 @@ void HttpSession::upgrade() {
   const auto refuse = [&](int status, std::string_view code, std::string_view message) {
     reply(error_reply(status, code, message));
   };
-  if (context.draining) return refuse(503, "cancelled", "the server is being stopped");
+  if (context.draining) return refuse(503, "stopping", "the server is being stopped");
   if (context.streams >= context.options.limits.streams) {
     thread_.metrics.refused.add();
-    return refuse(503, "conflict", "too many streams");
+    return refuse(503, "busy", "too many streams");
   }
   ServedDatabase* database = nullptr;
   try {

@@ -42,18 +42,14 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 24> kTypes =
     {".eaf", "application/xml"},
 }};
 
-/// Opens `path` beneath the folder: no "..", no link that leads out, no other mount by magic links.
-int open_beneath(int folder, const std::string& path) {
-  open_how how{};
-  how.flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
-  how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
-  return static_cast<int>(::syscall(SYS_openat2, folder, path.empty() ? "." : path.c_str(), &how, sizeof how));
-}
-
 class Descriptor {
  public:
   explicit Descriptor(int value) : value_(value) {}
   Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(value_, other.value_);
+    return *this;
+  }
   ~Descriptor() {
     if (value_ >= 0) ::close(value_);
   }
@@ -63,6 +59,31 @@ class Descriptor {
  private:
   int value_;
 };
+
+constexpr int kOpenFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+
+/// As open_beneath where the kernel is older than 5.6: folder by folder, and no links at all.
+int open_without_links(int folder, std::string_view path) {
+  Descriptor at(::dup(folder));
+  while (!path.empty()) {
+    const std::size_t slash = path.find('/');
+    const std::string name(path.substr(0, slash));
+    path.remove_prefix(slash == std::string_view::npos ? path.size() : slash + 1);
+    at = Descriptor(::openat(at.get(), name.c_str(), kOpenFlags | O_NOFOLLOW | (path.empty() ? 0 : O_DIRECTORY)));
+    if (at.get() < 0) return -1;
+  }
+  return at.release();
+}
+
+/// Opens `path` beneath the folder: no "..", no link that leads out.
+int open_beneath(int folder, const std::string& path) {
+  open_how how{};
+  how.flags = kOpenFlags;
+  how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
+  const auto file =
+      static_cast<int>(::syscall(SYS_openat2, folder, path.empty() ? "." : path.c_str(), &how, sizeof how));
+  return file < 0 && errno == ENOSYS ? open_without_links(folder, path) : file;
+}
 
 }  // namespace
 

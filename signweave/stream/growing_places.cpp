@@ -11,6 +11,16 @@
 // How places are decided and signed; where their frames come to lie is in growing_utterance.cpp.
 namespace signweave {
 
+namespace {
+
+/// What its frames are of.
+std::string key_of(const Stretch& stretch) {
+  return fmt::format("{}:{}-{}-{}-{}", stretch.recording, stretch.whole.begin, stretch.core.begin, stretch.core.end,
+                     stretch.whole.end);
+}
+
+}  // namespace
+
 void GrowingUtterance::check(const Utterance& utterance) {
   if (utterance.places.empty()) return;
   const std::shared_ptr<const Contents> contents = base_.database().contents();
@@ -106,6 +116,10 @@ void GrowingUtterance::begin_header(const Stretch& stretch, const std::shared_pt
     living_ = std::make_shared<const LivingRest>(settings.skeleton, settings.rate, rig_->signer.rig, std::move(rest),
                                                  weaver_->tracks());
   }
+  const Milliseconds fixed = synthesis.duration.fixed.value_or(Milliseconds(-1));
+  settings_key_ = fmt::format("{} {} {}/{} {} {} {} {} {}", base_.state_number(contents), method->name,
+                              settings.rate.numerator, settings.rate.denominator, synthesis.tempo, fixed.count(),
+                              synthesis.duration.fitted, static_cast<int>(synthesis.alignment), key_of(stretch));
   header_ = {.skeleton = settings.skeleton,
              .rate = settings.rate,
              .tracks = weaver_->tracks(),
@@ -156,6 +170,7 @@ void GrowingUtterance::sign_next() {
   woven->stretch.whole = signs.whole;
   if (!weaver_) begin_header(woven->stretch, decision.contents);
   weaver_->lay_sign(*woven);
+  woven->key = key_of(woven->stretch);
 
   Entry entry{.woven = woven, .first = first, .last = last};
   if (state_ == State::nothing && options_.idle == Idle::living_rest) {  // out of a rest that nobody saw
@@ -172,8 +187,7 @@ void GrowingUtterance::sign_next() {
     append({end_, woven->laid.core}, woven);
     entry.core = woven->laid.preparation;
   } else {
-    auto made = std::make_shared<Motion>();
-    weaver_->join(*tail_, *woven, *made);
+    std::shared_ptr<const Motion> made = join(*tail_, *woven);
     entry.joined = !entries_.empty() && tail_ == entries_.back().woven;
     if (!entries_.empty()) entry.begin = entries_.back().core + entries_.back().woven->laid.core_frames;
     entry.core = entry.begin + (entry.joined ? made->frame_count() : woven->laid.preparation);
@@ -201,6 +215,7 @@ void GrowingUtterance::go_on_as_captured(std::size_t place) {
   woven.laid.core = before.core;
   woven.laid.before = before.before;
   woven.transform = transform;
+  woven.key.clear();  // it stands where its beginning alone was brought
   append({end_, woven.laid.core_end()}, tail_);
   entries_.back().last = place;
   Entry told = entries_.back();

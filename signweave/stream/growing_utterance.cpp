@@ -1,5 +1,7 @@
 #include "signweave/stream/growing_utterance.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -79,13 +81,34 @@ GrowingUtterance::WovenPtr GrowingUtterance::living_rest() const {
 
 void GrowingUtterance::go_to_rest() {
   WovenPtr rest = living_rest();
-  auto made = std::make_shared<Motion>();
-  weaver_->join(*tail_, *rest, *made);
+  rest->key = "rest";
+  std::shared_ptr<const Motion> made = join(*tail_, *rest);
   append({end_, rest->laid.core}, std::move(made));
   tail_ = std::move(rest);
   state_ = State::resting;
   events_.push_back({.kind = PlayerEvent::Kind::rest, .frame = static_cast<std::uint64_t>(end_)});
   append({end_, end_ + kRestFramesAtOnce}, tail_);
+}
+
+/// Lays b behind a; the frames between them, made now or before.
+std::shared_ptr<const Motion> GrowingUtterance::join(Woven& a, Woven& b) {
+  std::string key;
+  if (!a.key.empty() && !b.key.empty()) {
+    key = fmt::format("{}|{}|{}|{}", settings_key_, a.key, b.key, b.stretch.pause_before.count());
+    if (const std::shared_ptr<const MadeTransition> made = base_.transitions().find(key)) {
+      a.laid.after = 0;
+      b.laid.before = 0;
+      lay_after(a.laid, b.laid, made->cuts);
+      b.transform = made->transform;
+      return made->frames;
+    }
+  }
+  auto frames = std::make_shared<Motion>();
+  const JunctionCuts cuts = weaver_->join(a, b, *frames);
+  if (!key.empty()) {
+    base_.transitions().keep(key, std::make_shared<const MadeTransition>(MadeTransition{cuts, b.transform, frames}));
+  }
+  return frames;
 }
 
 GrowingUtterance::WovenPtr GrowingUtterance::history_of(std::int64_t next, const FrameRing& shown) const {
@@ -220,8 +243,7 @@ void GrowingUtterance::seek(std::int64_t at, std::int64_t next) {
   if (at < entry->core && entry->joined) {
     const Entry& before = entries_[index - 1];
     before.woven->laid.core = next - (at - before.core);
-    auto made = std::make_shared<Motion>();
-    weaver_->join(*before.woven, *woven, *made);
+    std::shared_ptr<const Motion> made = join(*before.woven, *woven);
     append({next, woven->laid.core}, std::move(made));
   } else {
     woven->laid.core = next + entry->core - at;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "signweave/stream/frame_ring.h"
+#include "signweave/stream/living_rest.h"
 #include "signweave/stream/open_recordings.h"
 #include "signweave/stream/player.h"
 #include "signweave/stream/signing_base.h"
@@ -101,6 +102,7 @@ class GrowingUtterance {
   void begin_header(const Stretch& stretch, const std::shared_ptr<const Contents>& contents);
   void sign_next();
   void go_to_rest();
+  std::shared_ptr<const Motion> join(Woven& a, Woven& b);
   WovenPtr living_rest() const;
   WovenPtr history_of(std::int64_t next, const FrameRing& shown) const;
   void leave(std::int64_t next, const FrameRing& shown);
@@ -129,6 +131,7 @@ class GrowingUtterance {
   std::shared_ptr<const CapturedSpans> spans_;
   std::optional<Weaver> weaver_;
   std::shared_ptr<const LivingRest> living_;
+  std::string settings_key_;  ///< what all its transitions depend on
 
   State state_ = State::nothing;
   WovenPtr tail_;                        ///< what was laid last

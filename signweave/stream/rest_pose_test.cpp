@@ -39,10 +39,10 @@ Motion taking(const std::vector<Stance>& stances, std::int64_t hold = 50) {
           .bow = std::lerp(from.bow, to.bow, t),
           .look = std::lerp(from.look, to.look, t)};
     const MutablePoseView pose = motion.pose(frame);
-    pose.rotations[joint("LeftArm")] = about(Vector3f::UnitZ(), -at.arms);
-    pose.rotations[joint("RightArm")] = about(Vector3f::UnitZ(), at.arms);
+    pose.rotations[joint("LeftArm")] = about(Vector3f::UnitX(), -at.bow) * about(Vector3f::UnitZ(), -at.arms);
+    pose.rotations[joint("RightArm")] = about(Vector3f::UnitX(), -at.bow) * about(Vector3f::UnitZ(), at.arms);
     pose.rotations[joint("Spine")] = about(Vector3f::UnitX(), at.bow);
-    pose.rotations[joint("Head")] = about(Vector3f::UnitY(), at.look);
+    pose.rotations[joint("Head")] = about(Vector3f::UnitX(), -at.bow) * about(Vector3f::UnitY(), at.look);  // looks up
   }
   return motion;
 }
@@ -86,11 +86,11 @@ TEST(RestPoseOf, StillRatherThanWalkingAndOnBothFeet) {
   const auto knee = static_cast<std::size_t>(motion.skeleton().find("LeftLeg").value_or(kNoJoint));
   for (std::int64_t frame = 0; frame < 100; ++frame) {
     motion.pose(frame).translations[0].z() = 0.01f * static_cast<float>(frame);
-    motion.pose(200 + frame).rotations[thigh] = about(Vector3f::UnitX(), -60);
-    motion.pose(200 + frame).rotations[knee] = about(Vector3f::UnitX(), 60);
+    motion.pose(100 + frame).rotations[thigh] = about(Vector3f::UnitX(), -60);
+    motion.pose(100 + frame).rotations[knee] = about(Vector3f::UnitX(), 60);
   }
   for (std::int64_t frame = 100; frame < 300; ++frame) motion.pose(frame).translations[0].z() = 0.99f;
-  EXPECT_EQ(rest_of(motion).frame / 100, 1) << rest_of(motion).frame;
+  EXPECT_EQ(rest_of(motion).frame / 100, 2) << rest_of(motion).frame;
 }
 
 TEST(RestPoseOf, TheLastFrameIsLookedAt) {

@@ -14,14 +14,23 @@ constexpr std::size_t kMostRigs = 1024;
 
 }  // namespace
 
-SigningBase::SigningBase(const Database& database) : database_(database) {}
+SigningBase::SigningBase(const Database& database, std::size_t cached_bytes)
+    : database_(database), transitions_(cached_bytes) {}
 
 SigningBase::Known& SigningBase::of(const std::shared_ptr<const Contents>& contents) {
   if (known_.contents != contents) {
+    const std::uint64_t number = known_.number + 1;
     known_ = {};
     known_.contents = contents;
+    known_.number = number;
+    transitions_.clear();
   }
   return known_;
+}
+
+std::uint64_t SigningBase::state_number(const std::shared_ptr<const Contents>& contents) {
+  const std::lock_guard lock(mutex_);
+  return of(contents).number;
 }
 
 /// `find` gives the place of a value among what is known; where it is empty, `make` makes the value, with no lock held.

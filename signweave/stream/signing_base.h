@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "signweave/database/database.h"
-#include "signweave/stream/living_rest.h"
+#include "signweave/stream/rest_pose.h"
+#include "signweave/stream/transition_cache.h"
 #include "signweave/synthesis/candidate.h"
 #include "signweave/synthesis/captured_spans.h"
 #include "signweave/synthesis/concatenate.h"
@@ -22,7 +23,8 @@ namespace signweave {
 /// change of the database. Threads may share it; it must outlive its players, and the database it.
 class SigningBase {
  public:
-  explicit SigningBase(const Database& database);
+  explicit SigningBase(const Database& database, std::size_t cached_bytes = kCachedBytes);
+  static constexpr std::size_t kCachedBytes = std::size_t{128} << 20;
 
   const Database& database() const noexcept { return database_; }
   /// Makes now what players would wait for.
@@ -48,9 +50,15 @@ class SigningBase {
   std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> declarations(
       const std::shared_ptr<const Contents>& contents);
 
+  /// Tells the states of the database apart that were asked for: what is made in one does not serve in another.
+  std::uint64_t state_number(const std::shared_ptr<const Contents>& contents);
+  /// What was made before.
+  TransitionCache& transitions() noexcept { return transitions_; }
+
  private:
   struct Known {
     std::shared_ptr<const Contents> contents;
+    std::uint64_t number = 0;
     std::map<bool, std::shared_ptr<const DurationFit>> durations;  ///< by whether they may be fitted
     std::map<std::string, std::shared_ptr<const std::vector<Candidate>>, std::less<>> candidates;  ///< by the place
     std::map<std::pair<std::string, std::int64_t>, std::shared_ptr<const SignerRig>> rigs;  ///< recording, first frame
@@ -66,6 +74,7 @@ class SigningBase {
   const Database& database_;
   std::mutex mutex_;
   Known known_;
+  TransitionCache transitions_;
 };
 
 }  // namespace signweave

@@ -20,6 +20,7 @@ struct Woven {
   std::optional<GroundTransform> transform;  ///< known once it is joined
   std::vector<std::size_t> track_of;         ///< [track of its source] which of the result's it is; kNoTrack: none
   static constexpr std::size_t kNoTrack = static_cast<std::size_t>(-1);
+  std::string key;  ///< the caller's: tells it from others; empty where no other is like it
 
   Woven() = default;
   Woven(const Woven&) = delete;

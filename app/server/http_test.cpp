@@ -1,0 +1,221 @@
+// Requests as they come from everywhere, over real sockets.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "app/server/test_server.h"
+
+namespace signweave::server {
+namespace {
+
+using testing::Answer;
+using testing::ask;
+using testing::Client;
+using testing::get;
+using ::testing::HasSubstr;
+using testing::read_answer;
+using testing::TestServer;
+using namespace std::chrono_literals;
+
+TEST(Http, SmallPagesOfTheServerItself) {
+  const TestServer server;
+  EXPECT_THAT(get(server.port(), "/").body, HasSubstr("/api/openapi.json"));
+  EXPECT_THAT(get(server.port(), "/").head, HasSubstr("Content-Security-Policy: default-src 'self'"));
+  EXPECT_EQ(get(server.port(), "/health").body, "{\"status\": \"ok\"}\n");
+  EXPECT_THAT(get(server.port(), "/metrics").body, HasSubstr("signweave_databases 1\n"));
+  EXPECT_EQ(get(server.port(), "/api/databases").status, 200);
+  EXPECT_EQ(get(server.port(), "/no-such-page").status, 404);
+}
+
+TEST(Http, MalformedRequestsAreAnsweredAndClosed) {
+  ServerOptions options;
+  options.limits.header_bytes = 4'096;
+  options.limits.target_bytes = 1'024;
+  options.limits.body_bytes = 1'000;
+  const TestServer server(options);
+  const std::string get_line = "GET / HTTP/1.1\r\nHost: localhost\r\n";
+  const std::string post = "POST /api/x HTTP/1.1\r\nHost: localhost\r\n";
+  const std::pair<std::string, int> cases[] = {
+      {"\r\n\r\n\r\n\r\ngarbage\r\n\r\n", 400},
+      {"GET\r\n\r\n", 400},
+      {"GET / HTTP/1.1\r\n\r\n", 400},
+      {"GET / HTTP/9.9\r\nHost: localhost\r\n\r\n", 505},
+      {"GET / HTTX/1.1\r\nHost: localhost\r\n\r\n", 400},
+      {"GET  / HTTP/1.1\r\nHost: localhost\r\n\r\n", 400},
+      {get_line + "Host: localhost\r\n\r\n", 400},
+      {get_line + "No colon\r\n\r\n", 400},
+      {get_line + "Na me: x\r\n\r\n", 400},
+      {get_line + "X: a\x01z\r\n\r\n", 400},
+      {get_line + "X: " + std::string(8'000, 'x') + "\r\n\r\n", 431},
+      {"GET /" + std::string(2'000, 'x') + " HTTP/1.1\r\nHost: localhost\r\n\r\n", 414},
+      {"GET /%zz HTTP/1.1\r\nHost: localhost\r\n\r\n", 400},
+      {"GET http://evil.example/ HTTP/1.1\r\nHost: localhost\r\n\r\n", 400},
+      {"BREW / HTTP/1.1\r\nHost: localhost\r\n\r\n", 405},
+      {post + "Content-Length: x\r\n\r\n", 400},
+      {post + "Content-Length: -1\r\n\r\n", 400},
+      {post + "Content-Length: 3\r\nContent-Length: 4\r\n\r\nabcd", 400},
+      {post + "Content-Length: 3\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 400},
+      {post + "Transfer-Encoding: chunked\r\n\r\nzz\r\nab\r\n", 400},
+      {post + "Content-Length: 99999999999999999999999\r\n\r\n", 400},
+      {post + "Content-Length: 1001\r\n\r\n", 413},
+      {post + "Transfer-Encoding: chunked\r\n\r\n3e9\r\n" + std::string(1'001, 'x') + "\r\n0\r\n\r\n", 413},
+      {"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\n\r\nabc", 405},
+      {"GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n", 421},
+      {post + "Origin: http://evil.example\r\nContent-Length: 0\r\n\r\n", 403},
+  };
+  for (const auto& [request, status] : cases) {
+    Client client(server.port());
+    client.send(request);
+    client.finish_sending();
+    const Answer answer = read_answer(client);
+    EXPECT_EQ(answer.status, status) << request.substr(0, 120);
+    EXPECT_THAT(answer.body, HasSubstr("{\"error\":{\"code\":")) << request.substr(0, 120);
+  }
+  EXPECT_EQ(get(server.port(), "/health").status, 200);
+}
+
+TEST(Http, ConnectionsServeRequestAfterRequest) {
+  const TestServer server;
+  Client client(server.port());
+  for (int i = 0; i < 3; ++i) {
+    client.send("GET /health HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(read_answer(client).status, 200);
+  }
+  // Several at once are answered in their order, HEAD without a body.
+  client.send(
+      "GET /health HTTP/1.1\r\nHost: localhost\r\n\r\nHEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n"
+      "GET /nothing HTTP/1.1\r\nHost: localhost\r\n\r\nGET /health HTTP/1.0\r\n\r\n");
+  EXPECT_EQ(read_answer(client).status, 200);
+  const Answer head = read_answer(client, false);
+  EXPECT_EQ(head.status, 200);
+  EXPECT_THAT(head.head, Not(HasSubstr("Content-Length: 0\r\n")));
+  EXPECT_EQ(read_answer(client).status, 404);
+  EXPECT_EQ(read_answer(client).status, 200);
+  EXPECT_EQ(client.read_all(), "") << "HTTP/1.0 closes";
+}
+
+TEST(Http, AClientThatExpectsToBeAskedForItsBodyIsAsked) {
+  const TestServer server;
+  Client client(server.port());
+  client.send("POST /api/x HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\nExpect: 100-continue\r\n\r\n");
+  EXPECT_EQ(client.read_until("\r\n\r\n"), "HTTP/1.1 100 Continue\r\n\r\n");
+  client.send("{}");
+  EXPECT_EQ(read_answer(client).status, 404);
+}
+
+TEST(Http, FilesComeWhenTheyChanged) {
+  const kv::TestFolder folder;
+  const std::string big(300'000, 'b');
+  std::ofstream(folder / "page.html") << "<p>hello";
+  std::ofstream(folder / "big.txt") << big;
+  const TestServer server({.files = folder / ""});
+  const Answer page = get(server.port(), "/page.html");
+  EXPECT_EQ(page.body, "<p>hello");
+  EXPECT_THAT(page.head, HasSubstr("Content-Type: text/html; charset=utf-8\r\n"));
+  EXPECT_THAT(page.head, HasSubstr("X-Content-Type-Options: nosniff\r\n"));
+  const std::size_t at = page.head.find("ETag: ") + 6;
+  const std::string tag = page.head.substr(at, page.head.find('\r', at) - at);
+  EXPECT_EQ(get(server.port(), "/page.html", "If-None-Match: " + tag + "\r\n").status, 304);
+  EXPECT_EQ(get(server.port(), "/page.html", "If-None-Match: \"other\"\r\n").status, 200);
+  EXPECT_EQ(get(server.port(), "/big.txt").body, big);
+  EXPECT_EQ(get(server.port(), "/../page.html").status, 404);
+  EXPECT_EQ(get(server.port(), "/").status, 404) << "the folder has no index.html";
+}
+
+TEST(Http, AllowedOriginsMayRead) {
+  const TestServer server({.allowed_origins = {"https://signs.example.org"}});
+  EXPECT_THAT(get(server.port(), "/api/databases", "Origin: https://signs.example.org\r\n").head,
+              HasSubstr("Access-Control-Allow-Origin: https://signs.example.org\r\n"));
+  EXPECT_THAT(get(server.port(), "/api/databases", "Origin: https://evil.example\r\n").head,
+              Not(HasSubstr("Access-Control")));
+}
+
+TEST(Http, ConnectionsThatNeverSpeakAreClosedAndHarmNobody) {
+  rlimit files{};
+  ::getrlimit(RLIMIT_NOFILE, &files);
+  files.rlim_cur = files.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &files);
+  const std::size_t count = std::min<std::size_t>(1'000, files.rlim_cur / 2 - 100);
+  ServerOptions options;
+  options.limits.header_time = 1'500ms;
+  const TestServer server(options);
+  std::vector<Client> silent;
+  for (std::size_t i = 0; i < count; ++i) {
+    silent.emplace_back(server.port());
+    ASSERT_TRUE(silent.back().connected());
+    if (i % 2 == 1) silent.back().send("GET / HTTP/1.1\r\nHos");  // or stop in the middle of a word
+  }
+  EXPECT_EQ(get(server.port(), "/health").status, 200);
+  for (Client& client : silent) EXPECT_EQ(client.read_all(), "");
+  EXPECT_THAT(get(server.port(), "/metrics").body, HasSubstr("\nsignweave_connections 1\n"));
+}
+
+TEST(Http, MoreConnectionsThanAllowedAreRefused) {
+  ServerOptions options;
+  options.limits.connections = 5;
+  const TestServer server(options);
+  std::vector<Client> held;
+  for (int i = 0; i < 5; ++i) {
+    held.emplace_back(server.port());
+    held.back().send("GET /health HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(read_answer(held.back()).status, 200);
+  }
+  const Answer refused = get(server.port(), "/health");
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_THAT(refused.head, HasSubstr("Retry-After: "));
+  held.clear();
+  int status = 503;
+  for (int i = 0; status == 503 && i < 100; ++i) {  // until the server has seen them go
+    status = get(server.port(), "/health").status;
+    std::this_thread::sleep_for(20ms);
+  }
+  EXPECT_EQ(status, 200);
+}
+
+TEST(Http, OneAddressMayNotTakeEverything) {
+  ServerOptions options;
+  options.limits.connections_per_address = 2;
+  options.limits.requests_per_second = 0.001;
+  options.limits.request_burst = 3;
+  const TestServer server(options);
+  Client client(server.port());
+  for (int i = 0; i < 4; ++i) {
+    client.send("GET /health HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(read_answer(client).status, i < 3 ? 200 : 429);
+  }
+  Client second(server.port());
+  second.send("GET /health HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(read_answer(second).status, 429);
+  EXPECT_EQ(get(server.port(), "/health").status, 503);
+}
+
+TEST(Http, AnUploadThatBreaksOffLeavesNothing) {
+  const TestServer server;
+  {
+    Client client(server.port());
+    client.send(
+        "PUT /api/databases/demo/uploads/1/files/x.bvh HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000\r\n\r\n");
+    client.send(std::string(200'000, 'x'));
+  }
+  for (int i = 0; i < 200 && !std::filesystem::is_empty(server.scratch / "scratch"); ++i)
+    std::this_thread::sleep_for(10ms);
+  EXPECT_TRUE(std::filesystem::is_empty(server.scratch / "scratch"));
+  EXPECT_EQ(get(server.port(), "/health").status, 200);
+}
+
+TEST(Http, ABodyThatStopsComingIsNotWaitedForForever) {
+  ServerOptions options;
+  options.limits.body_time = 300ms;
+  const TestServer server(options);
+  Client client(server.port());
+  client.send("POST /api/x HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\nabc");
+  EXPECT_EQ(client.read_all(), "");
+}
+
+}  // namespace
+}  // namespace signweave::server

@@ -1,0 +1,92 @@
+// A server as a whole: many clients at once, and its end. Run under the thread sanitizer as well.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "app/server/test_server.h"
+#include "signweave/core/error.h"
+
+namespace signweave::server {
+namespace {
+
+using testing::Client;
+using testing::get;
+using ::testing::HasSubstr;
+using testing::read_answer;
+using testing::StreamClient;
+using testing::StreamMessage;
+using testing::TestServer;
+using namespace std::chrono_literals;
+
+TEST(ServerThreads, StreamsAndRequestsAtOnce) {
+  const TestServer server;
+  std::atomic<int> good = 0;
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 4; ++i) {
+    clients.emplace_back([&] {
+      StreamClient client(server.port());
+      client.say(R"({"type":"open","rate":120})");
+      client.say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
+      for (int frame = 0; frame < 60; ++frame) {
+        if (!client.next_frames()) return;
+      }
+      ++good;
+    });
+    clients.emplace_back([&] {
+      for (int n = 0; n < 20; ++n) {
+        if (get(server.port(), n % 2 == 0 ? "/api/databases" : "/metrics").status != 200) return;
+      }
+      ++good;
+    });
+  }
+  for (std::thread& client : clients) client.join();
+  EXPECT_EQ(good, 8);
+}
+
+TEST(ServerThreads, EndsInGoodOrderWhileItStreams) {
+  TestServer server;
+  StreamClient client(server.port());
+  client.say(R"({"type":"open","rate":120})");
+  client.say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
+  ASSERT_TRUE(client.next_frames());
+  Client waiting(server.port());
+  waiting.send("GET /health HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(read_answer(waiting).status, 200);
+  server.server->stop();
+  StreamMessage message = client.next();
+  while (message.opcode == 1 || message.opcode == 2) message = client.next();
+  ASSERT_EQ(message.opcode, 8u);
+  EXPECT_THAT(message.bytes, HasSubstr("the server is being stopped"));
+  waiting.send("GET /health HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(read_answer(waiting).status, 503) << "as long as a stream is ending it tells that it drains";
+  client.client.send(StreamClient::frame(8, message.bytes));
+  server.server->wait();
+  EXPECT_FALSE(Client(server.port()).connected());
+}
+
+TEST(ServerThreads, EndsAlsoWhereClientsDoNotAnswer) {
+  ServerOptions options;
+  options.limits.drain = 500ms;
+  TestServer server(options);
+  StreamClient stalled(server.port(), {}, {}, 4'096);
+  stalled.say(R"({"type":"open","rate":2000,"batch":20})");
+  stalled.say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
+  Client half(server.port());
+  half.send("POST /api/x HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\nabc");
+  std::this_thread::sleep_for(100ms);
+  const auto begin = std::chrono::steady_clock::now();
+  server.server->stop();
+  server.server->wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 8s);
+}
+
+TEST(ServerThreads, AnAddressThatIsTakenIsAnError) {
+  TestServer server;
+  ServerOptions options{.port = server.port(), .scratch = server.scratch / "scratch"};
+  EXPECT_THROW(Server(server.databases, *server.api, options), Error);
+}
+
+}  // namespace
+}  // namespace signweave::server

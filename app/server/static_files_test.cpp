@@ -1,0 +1,105 @@
+#include "app/server/static_files.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "app/server/http_target.h"
+#include "signweave/kv/test_folder.h"
+
+namespace signweave::server {
+namespace {
+
+/// "served" with what it holds, and beside it what must stay unseen.
+struct Tree {
+  Tree() {
+    namespace fs = std::filesystem;
+    fs::create_directories(root / "sub");
+    fs::create_directories(root / ".hidden");
+    write(folder / "secret.txt", "secret");
+    write(root / "index.html", "<p>hello");
+    write(root / "sub" / "index.html", "<p>sub");
+    write(root / "a b.js", "1");
+    write(root / ".env", "secret");
+    write(root / ".hidden" / "x.txt", "secret");
+    fs::create_symlink("../secret.txt", root / "out.txt");
+    fs::create_symlink(folder / "secret.txt", root / "absolute.txt");
+    fs::create_directory_symlink("..", root / "up");
+    fs::create_directory_symlink("/", root / "slash");
+    fs::create_symlink("index.html", root / "inside.html");
+    fs::create_symlink("/proc/self/environ", root / "environ.txt");
+  }
+  static void write(const std::filesystem::path& path, std::string_view text) { std::ofstream(path) << text; }
+
+  kv::TestFolder folder;
+  std::filesystem::path root = folder / "served";
+};
+
+std::string read(const std::filesystem::path& root, std::string_view target) {
+  const auto parsed = parse_target(target);
+  if (!parsed) return "(no target)";
+  const auto file = open_static(root, parsed->path);
+  if (!file) return "(none)";
+  std::string text(file->size, '\0');
+  EXPECT_EQ(::read(file->descriptor, text.data(), text.size()), static_cast<ssize_t>(file->size));
+  ::close(file->descriptor);
+  return text;
+}
+
+TEST(StaticFiles, AreThoseOfTheFolder) {
+  const Tree tree;
+  EXPECT_EQ(read(tree.root, "/"), "<p>hello");
+  EXPECT_EQ(read(tree.root, "/index.html"), "<p>hello");
+  EXPECT_EQ(read(tree.root, "/sub/"), "<p>sub");
+  EXPECT_EQ(read(tree.root, "/sub"), "<p>sub");
+  EXPECT_EQ(read(tree.root, "/a%20b.js"), "1");
+  EXPECT_EQ(read(tree.root, "/inside.html"), "<p>hello");
+}
+
+TEST(StaticFiles, NoPathLeadsOutside) {
+  const Tree tree;
+  for (const char* path : {"/../secret.txt",
+                           "/%2e%2e/secret.txt",
+                           "/%2E%2e/secret.txt",
+                           "/..%2fsecret.txt",
+                           "/sub/../../secret.txt",
+                           "/sub/..%5c..%5csecret.txt",
+                           "/out.txt",
+                           "/absolute.txt",
+                           "/up/secret.txt",
+                           "/slash/etc/passwd",
+                           "/environ.txt",
+                           "//etc/passwd",
+                           "/.env",
+                           "/.hidden/x.txt",
+                           "/sub/.",
+                           "/./index.html",
+                           "/index.html/",
+                           "/index.html/x",
+                           "/index.html%00.txt",
+                           "/no such file",
+                           "/sub/no",
+                           "/%c0%ae%c0%ae/secret.txt"}) {
+    const std::string text = read(tree.root, path);
+    EXPECT_TRUE(text == "(none)" || text == "(no target)") << path << ": " << text;
+  }
+}
+
+TEST(StaticFiles, AChangeHasAnotherTag) {
+  const Tree tree;
+  const auto tag = [&] {
+    const auto file = open_static(tree.root, {"index.html"});
+    ::close(file->descriptor);
+    return file->etag;
+  };
+  const std::string before = tag();
+  EXPECT_EQ(tag(), before);
+  Tree::write(tree.root / "index.html", "<p>longer than it was");
+  EXPECT_NE(tag(), before);
+  EXPECT_EQ(open_static(tree.root, {"a b.js"})->content_type, "text/javascript; charset=utf-8");
+  EXPECT_EQ(http_date(784'111'777), "Sun, 06 Nov 1994 08:49:37 GMT");
+}
+
+}  // namespace
+}  // namespace signweave::server

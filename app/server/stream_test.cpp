@@ -1,0 +1,240 @@
+// Streams as their clients see them, over real sockets.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "app/server/test_server.h"
+
+namespace signweave::server {
+namespace {
+
+using testing::Answer;
+using testing::Client;
+using testing::get;
+using ::testing::HasSubstr;
+using testing::StreamClient;
+using testing::StreamMessage;
+using testing::TestServer;
+using namespace std::chrono_literals;
+
+constexpr std::string_view kFastOpen = R"({"type":"open","pace":"fast","idle":"end","batch":60,"rate":60})";
+
+TEST(Stream, HeaderThenFramesThenTheEnd) {
+  const TestServer server;
+  StreamClient client(server.port());
+  ASSERT_EQ(client.answer.status, 101);
+  client.say(kFastOpen);
+  client.say(R"({"type":"sign","utterance":"DEMAIN MATIN","id":"first"})");
+  const nlohmann::json header = client.next("header");
+  EXPECT_EQ(header["database"], "demo");
+  EXPECT_EQ(header["rate"], 60.0);
+  EXPECT_EQ(header["joints"][0]["parent"], -1);
+  EXPECT_EQ(header["translated"][0], 0);
+  EXPECT_THAT(header["declarations"].dump(), HasSubstr("placeholder")) << "every client must be told what it sees";
+  const FrameShape shape{.joints = header["joints"].size(),
+                         .translations = header["translated"].size(),
+                         .tracks = header["tracks"].size()};
+  EXPECT_EQ(header["frame_bytes"], bytes_of(shape));
+  std::uint64_t expected = 0;
+  std::size_t places = 0;
+  for (;;) {
+    const StreamMessage message = client.next();
+    if (message.opcode == 1) {
+      const nlohmann::json json = message.json();
+      if (json["type"] == "end") break;
+      ASSERT_EQ(json["type"], "place");
+      EXPECT_GE(json["frame"], expected) << "an event comes before its frame";
+      ++places;
+      continue;
+    }
+    ASSERT_EQ(message.opcode, 2u);
+    const auto* bytes = reinterpret_cast<const std::byte*>(message.bytes.data());
+    const MessageHeader frames = decode_header({bytes, message.bytes.size()}, shape);
+    EXPECT_EQ(frames.first_frame, expected);
+    EXPECT_EQ(frames.left_out, 0u);
+    expected += frames.frames;
+  }
+  EXPECT_EQ(places, 2u);
+  EXPECT_GT(expected, 60u);
+}
+
+TEST(Stream, PacedFramesComeAtTheirTime) {
+  const TestServer server;
+  StreamClient client(server.port());
+  client.say(R"({"type":"open","rate":100})");
+  client.say(R"({"type":"sign","utterance":"DEMAIN MATIN PLUIE"})");
+  ASSERT_TRUE(client.next_frames());
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 50; ++i) ASSERT_TRUE(client.next_frames());
+  const auto took = std::chrono::steady_clock::now() - begin;
+  EXPECT_GT(took, 400ms);
+  EXPECT_LT(took, 5s) << "a slow machine may be late, but catches up";
+}
+
+TEST(Stream, ErrorsAreAnsweredAndTheStreamGoesOn) {
+  const TestServer server;
+  StreamClient client(server.port());
+  client.say(kFastOpen);
+  EXPECT_EQ(client.next("ok")["frame"], 0);
+  const auto says = [&](std::string_view message, std::string_view code, std::string_view text) {
+    client.say(message);
+    const nlohmann::json error = client.next("error");
+    EXPECT_EQ(error["code"], code) << message;
+    EXPECT_THAT(error["message"].get<std::string>(), HasSubstr(std::string(text))) << message;
+    return error;
+  };
+  says("no JSON", "bad_input", "not JSON");
+  says(R"({"type":"sing"})", "bad_input", "did you mean sign?");
+  EXPECT_EQ(says(R"({"type":"sign","utterance":"DEMAINN","id":5})", "not_found", "DEMAIN")["id"], 5);
+  says(R"({"type":"open"})", "conflict", "comes first");
+  client.client.send(StreamClient::frame(2, "bytes"));
+  EXPECT_EQ(client.next("error")["code"], "bad_input");
+  client.say(R"({"type":"ping","id":"still there"})");
+  EXPECT_EQ(client.next("ok")["id"], "still there");
+  client.say(R"({"type":"sign","utterance":"DEMAIN"})");
+  EXPECT_TRUE(client.next_frames());
+}
+
+TEST(Stream, PausesAndGoesOn) {
+  const TestServer server;
+  StreamClient client(server.port());
+  client.say(R"({"type":"open","rate":200})");
+  client.say(R"({"type":"sign","utterance":"DEMAIN"})");
+  ASSERT_TRUE(client.next_frames());
+  client.say(R"({"type":"pause","id":"p"})");
+  nlohmann::json ok;
+  while (ok["id"] != "p") ok = client.next("ok");
+  client.say(R"({"type":"ping","id":"q"})");
+  const StreamMessage next = client.next();
+  ASSERT_EQ(next.opcode, 1u) << "no frame while it pauses";
+  EXPECT_EQ(next.json()["id"], "q");
+  client.say(R"({"type":"resume"})");
+  EXPECT_EQ(client.next_frames()->first_frame, ok["frame"]) << "no frame is lost by a pause";
+}
+
+TEST(Stream, ASlowClientLosesFramesAndNobodyElseDoes) {
+  ServerOptions options{.threads = 1};
+  options.limits.send_buffer = 16 * 1024;
+  const TestServer server(options);
+  StreamClient slow(server.port(), {}, {}, 4'096);
+  slow.say(R"({"type":"open","rate":2000,"batch":20})");
+  slow.say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
+  StreamClient good(server.port());
+  good.say(R"({"type":"open","rate":100})");
+  good.say(R"({"type":"sign","utterance":"MATIN PLUIE"})");
+  std::uint64_t expected = 0;
+  for (int i = 0; i < 150; ++i) {
+    const auto frames = good.next_frames();
+    ASSERT_TRUE(frames);
+    ASSERT_EQ(frames->left_out, 0u);
+    ASSERT_EQ(frames->first_frame, expected);
+    expected += frames->frames;
+  }
+  // The slow one reads again: what came through and what was left out are all there was.
+  std::uint64_t received = 0;
+  MessageHeader last;
+  while (last.left_out == 0) {
+    const auto frames = slow.next_frames();
+    ASSERT_TRUE(frames);
+    EXPECT_EQ(frames->first_frame, received + frames->left_out);
+    received += frames->frames;
+    last = *frames;
+  }
+  EXPECT_GT(last.left_out, 0u);
+  const std::string metrics = get(server.port(), "/metrics").body;
+  EXPECT_THAT(metrics, Not(HasSubstr("signweave_frames_left_out_total 0\n")));
+}
+
+TEST(Stream, AClientThatNeverReadsIsClosedAtABound) {
+  ServerOptions options;
+  options.limits.control_rate = 1e6;
+  options.limits.unread_bytes = 32 * 1024;
+  options.limits.send_buffer = 8 * 1024;
+  const TestServer server(options);
+  StreamClient client(server.port(), {}, {}, 4'096);
+  const std::string ping = R"({"type":"ping","id":")" + std::string(200, 'x') + "\"}";
+  bool open = true;
+  for (int i = 0; open && i < 20'000; ++i) open = client.say(ping);
+  EXPECT_FALSE(open);
+  EXPECT_EQ(get(server.port(), "/health").status, 200);
+}
+
+TEST(Stream, AnOversizeMessageEndsItsStreamAlone) {
+  ServerOptions options;
+  options.limits.control_bytes = 1'024;
+  const TestServer server(options);
+  StreamClient other(server.port());
+  StreamClient client(server.port());
+  client.say(R"({"type":"ping","id":")" + std::string(2'000, 'x') + "\"}");
+  StreamMessage message = client.next();
+  EXPECT_EQ(message.opcode, 8u);
+  ASSERT_GE(message.bytes.size(), 2u);
+  EXPECT_EQ(static_cast<unsigned char>(message.bytes[0]) * 256 + static_cast<unsigned char>(message.bytes[1]), 1009);
+  other.say(R"({"type":"ping"})");
+  EXPECT_EQ(other.next("ok")["type"], "ok");
+}
+
+TEST(Stream, BrokenFramesEndTheirStreamAlone) {
+  const TestServer server;
+  StreamClient other(server.port());
+  const std::string unmasked("\x81\x02{}", 4);
+  const std::string reserved("\xf1\x80\0\0\0\0", 6);
+  const std::string long_ping("\x89\xfe\x01\x00\0\0\0\0", 8);
+  const std::string huge("\x81\xff\x7f\xff\xff\xff\xff\xff\xff\xff\0\0\0\0", 14);
+  for (const std::string& bytes : {unmasked, reserved, long_ping, huge, std::string("\x8b\x80\0\0\0\0", 6)}) {
+    StreamClient client(server.port());
+    client.client.send(bytes);
+    const unsigned opcode = client.next().opcode;
+    EXPECT_TRUE(opcode == 8 || opcode == 0) << opcode;
+  }
+  other.say(R"({"type":"ping"})");
+  EXPECT_EQ(other.next("ok")["type"], "ok");
+}
+
+TEST(Stream, ASilentClientIsPingedAndThenClosed) {
+  ServerOptions options;
+  options.limits.silence = 300ms;
+  const TestServer server(options);
+  StreamClient living(server.port());
+  StreamClient half_open(server.port());
+  EXPECT_THAT(half_open.client.read_all(), HasSubstr("\x89")) << "a ping, and then the end";
+  std::thread later([&] {
+    std::this_thread::sleep_for(1s);
+    living.say(R"({"type":"ping"})");
+  });
+  EXPECT_EQ(living.next("ok")["type"], "ok") << "who answers pings stays";
+  later.join();
+}
+
+TEST(Stream, OfOneDatabaseAmongSeveral) {
+  const kv::TestFolder folder;
+  std::filesystem::copy(testing::demo_folder(), folder / "other.db", std::filesystem::copy_options::recursive);
+  const TestServer server({}, {testing::demo_folder(), folder / "other.db"});
+  EXPECT_EQ(StreamClient(server.port()).answer.status, 400);
+  EXPECT_EQ(StreamClient(server.port(), "?database=none").answer.status, 404);
+  EXPECT_EQ(StreamClient(server.port(), "?databas=demo").answer.status, 400);
+  for (const char* name : {"demo", "other"}) {
+    StreamClient client(server.port(), std::string("?database=") + name);
+    client.say(kFastOpen);
+    client.say(R"({"type":"sign","utterance":"DEMAIN"})");
+    EXPECT_EQ(client.next("header")["database"], name);
+  }
+}
+
+TEST(Stream, OnlyForTheServersOwnOriginAndToken) {
+  const std::string token = "0123456789abcdef";
+  const TestServer server({.token = token, .allowed_origins = {"https://signs.example.org"}});
+  EXPECT_EQ(StreamClient(server.port()).answer.status, 401);
+  EXPECT_EQ(StreamClient(server.port(), "?token=wrong").answer.status, 401);
+  EXPECT_EQ(StreamClient(server.port(), "?token=" + token).answer.status, 101);
+  const std::string bearer = "Authorization: Bearer " + token + "\r\n";
+  EXPECT_EQ(StreamClient(server.port(), {}, bearer).answer.status, 101);
+  EXPECT_EQ(StreamClient(server.port(), {}, bearer + "Origin: https://evil.example\r\n").answer.status, 403);
+  EXPECT_EQ(StreamClient(server.port(), {}, bearer + "Origin: https://signs.example.org\r\n").answer.status, 101);
+  EXPECT_EQ(StreamClient(server.port(), {}, bearer + "Origin: http://localhost\r\n").answer.status, 101);
+}
+
+}  // namespace
+}  // namespace signweave::server

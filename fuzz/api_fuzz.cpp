@@ -8,36 +8,11 @@
 
 #include "app/server/api.h"
 #include "signweave/database/database.h"
-#include "signweave/database/import.h"
-#include "signweave/formats/bvh.h"
-#include "signweave/kv/test_folder.h"
+#include "signweave/database/test_recording.h"
 
 using namespace signweave;
 
 namespace {
-
-constexpr std::string_view kMotion = R"(HIERARCHY
-ROOT Hips
-{
-  OFFSET 0 0 0
-  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
-  JOINT Spine
-  {
-    OFFSET 0 50 0
-    CHANNELS 3 Zrotation Xrotation Yrotation
-    End Site
-    {
-      OFFSET 0 50 0
-    }
-  }
-}
-MOTION
-Frames: 3
-Frame Time: 0.01
-0 90 0 0 0 0 1 2 3
-0 90 0 1 0 0 1 2 3
-0 90 0 2 0 0 1 2 3
-)";
 
 /// Two databases of one small recording, served: one for reading only, one to be changed.
 struct Served {
@@ -50,14 +25,7 @@ struct Served {
     for (const char* name : {"fixed.db", "open.db"}) {
       Database::create(folder / name, {});
       Database database(folder / name, kv::Access::read_write);
-      bvh::File file = bvh::read_text("a.bvh", kMotion);
-      Recording recording{.name = "a"};
-      recording.motion = MotionPart{.motion = std::move(file.motion)};
-      AnnotationDocument document;
-      document.tiers.push_back({.id = "Gloss"});
-      document.tiers.back().annotations.push_back({.id = "a1", .label = "VANNES", .span = {0ms, 30ms}});
-      recording.annotation = AnnotationPart{.document = document, .tiers = guess_tier_names(document)};
-      database.put(recording);
+      database.put(testing_database::small_recording("a", 1, {"VANNES", "LE MANS", "VANNES"}, 130));
     }
     std::filesystem::create_directory(folder / "scratch");
     databases.add(folder / "fixed.db", false);

@@ -158,6 +158,26 @@ TEST(ApiDocument, EveryAnswerToGetFitsItsSchema) {
   EXPECT_GE(seen.size(), 10u);
 }
 
+TEST(ApiDocument, EveryRouteRefusesWhatIsWrong) {
+  TestApi api(true);
+  for (const Route& route : routes()) {
+    Path path;
+    for (const std::string_view segment : segments_of(route.path)) {
+      path.emplace_back(segment.starts_with('{') ? "nowhere" : segment);
+    }
+    const bool named = route.path.find('{') != std::string_view::npos;
+    const json body = route.source == Source::body ? json::object() : json(nullptr);
+    const ApiResponse missing = api.send(std::string(route.method), path, body);
+    if (named) {
+      EXPECT_THAT(missing.status, testing::AnyOf(404, 400)) << route.id << missing.body;
+      EXPECT_THAT(faults_of(json_in(missing), "Fault"), testing::IsEmpty()) << route.id;
+    }
+    EXPECT_EQ(
+        api.api().answer({.method = std::string(route.method), .path = path, .query = {{"nonsense", "1"}}}).status, 400)
+        << route.id;
+  }
+}
+
 TEST(ApiDocument, AnswersToPostAndFaultsFitTheirSchemas) {
   TestApi api(true);
   const Path sign = {"databases", "demo", "sign"};

@@ -72,7 +72,7 @@ void IoThread::look() {
     connection->look(now);
     busy = busy || connection->busy();
   }
-  busy_ = busy;
+  if (stopping_) busy_ = busy;
   // Threads end together, so that one that has nothing to do still tells who asks that the server drains.
   busy = std::ranges::any_of(context.threads, [](const auto& thread) { return thread->busy_.load(); });
   if (stopping_ && (!busy || now >= end_)) {

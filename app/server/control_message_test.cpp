@@ -56,7 +56,7 @@ TEST(ControlMessage, WhatIsWrongIsSaidWithItsId) {
       {"{\"type\":\"sign\",\"utterance\":\"\xff\"}", "not JSON"},
       {R"({"id":1})", "needs a \"type\"", "1"},
       {R"({"type":3})", "needs a \"type\""},
-      {R"({"type":"sing","id":"x"})", "did you mean sign?", "\"x\""},
+      {R"({"type":"sing","id":"x"})", "did you mean ping or sign?", "\"x\""},
       {R"({"type":"sign","id":2})", "'sign' needs a field 'utterance'", "2"},
       {R"({"type":"sign","utterence":"A"})", "did you mean utterance?"},
       {R"({"type":"sign","utterance":7})", "'utterance' must be a text"},

@@ -44,7 +44,7 @@ TEST(Http, MalformedRequestsAreAnsweredAndClosed) {
       {"\r\n\r\n\r\n\r\ngarbage\r\n\r\n", 400},
       {"GET\r\n\r\n", 400},
       {"GET / HTTP/1.1\r\n\r\n", 400},
-      {"GET / HTTP/9.9\r\nHost: localhost\r\n\r\n", 505},
+      {"GET / HTTP/9.9\r\nHost: localhost\r\n\r\n", 400},
       {"GET / HTTX/1.1\r\nHost: localhost\r\n\r\n", 400},
       {"GET  / HTTP/1.1\r\nHost: localhost\r\n\r\n", 400},
       {get_line + "Host: localhost\r\n\r\n", 400},

@@ -111,7 +111,7 @@ std::optional<StaticFile> open_static(const std::filesystem::path& folder, const
     if (segment.starts_with('.') || segment.find_first_of(std::string_view("\\/\0", 3)) != std::string::npos) {
       return std::nullopt;
     }
-    if (!path.empty() && !segment.empty()) path += '/';
+    if (!path.empty()) path += '/';  // also before nothing: "page.html/" is no page
     path += segment;
   }
   const Descriptor root(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
@@ -121,7 +121,7 @@ std::optional<StaticFile> open_static(const std::filesystem::path& folder, const
     struct stat status {};
     if (file.get() < 0 || ::fstat(file.get(), &status) != 0) return std::nullopt;
     if (S_ISDIR(status.st_mode)) {
-      path += path.empty() ? "index.html" : "/index.html";
+      path += path.empty() || path.ends_with('/') ? "index.html" : "/index.html";
       continue;
     }
     if (!S_ISREG(status.st_mode)) return std::nullopt;

@@ -87,7 +87,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
         buffer_, [self = shared_from_this()](boost::system::error_code error, std::size_t) { self->on_read(error); });
   }
 
-  /// One token a message, which come back with time.
+  /// One token a message, and one a KiB of it; they come back with time.
   bool may_read() {
     const double rate = thread_.context.options.limits.control_rate;
     const Clock::time_point now = Clock::now();
@@ -107,6 +107,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
     }
     if (!draining_) {
       thread_.metrics.controls.add();
+      tokens_ -= static_cast<double>(buffer_.size()) / 1'024;  // long utterances take longer
       if (socket_.got_text()) {
         const auto data = buffer_.data();
         answer({static_cast<const char*>(data.data()), data.size()});

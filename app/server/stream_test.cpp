@@ -86,7 +86,7 @@ TEST(Stream, ErrorsAreAnsweredAndTheStreamGoesOn) {
     return error;
   };
   says("no JSON", "bad_input", "not JSON");
-  says(R"({"type":"sing"})", "bad_input", "did you mean sign?");
+  says(R"({"type":"sing"})", "bad_input", "did you mean ping or sign?");
   EXPECT_EQ(says(R"({"type":"sign","utterance":"DEMAINN","id":5})", "not_found", "DEMAIN")["id"], 5);
   says(R"({"type":"open"})", "conflict", "comes first");
   client.client.send(StreamClient::frame(2, "bytes"));
@@ -197,15 +197,18 @@ TEST(Stream, ASilentClientIsPingedAndThenClosed) {
   ServerOptions options;
   options.limits.silence = 300ms;
   const TestServer server(options);
-  StreamClient living(server.port());
   StreamClient half_open(server.port());
-  EXPECT_THAT(half_open.client.read_all(), HasSubstr("\x89")) << "a ping, and then the end";
+  std::thread silent(
+      [&] { EXPECT_THAT(half_open.client.read_all(), HasSubstr("\x89")) << "a ping, and then the end"; });
+  StreamClient living(server.port());
   std::thread later([&] {
     std::this_thread::sleep_for(1s);
     living.say(R"({"type":"ping"})");
   });
-  EXPECT_EQ(living.next("ok")["type"], "ok") << "who answers pings stays";
+  const nlohmann::json answer = living.next("ok");
+  EXPECT_FALSE(answer.is_null()) << "who answers pings stays";
   later.join();
+  silent.join();
 }
 
 TEST(Stream, OfOneDatabaseAmongSeveral) {

@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,8 +14,6 @@
 #include <stdexcept>
 #include <thread>
 
-extern char** environ;  // POSIX: no header declares it
-
 namespace signweave::bench {
 
 using namespace std::chrono_literals;
@@ -24,13 +22,16 @@ Process::Process(std::vector<std::string> command, std::filesystem::path errors)
   std::vector<char*> words;
   for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  const int failed = posix_spawn(&pid_, words[0], &actions, nullptr, words.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) throw std::runtime_error(fmt::format("cannot start {}", command.front()));
+  pid_ = fork();
+  if (pid_ < 0) throw std::runtime_error(fmt::format("cannot start {}", command.front()));
+  if (pid_ > 0) return;
+  // The child. It ends with this program, however that ends.
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  const int log = open(errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+  dup2(log, STDERR_FILENO);
+  execv(words[0], words.data());
+  _exit(127);
 }
 
 Process::~Process() {

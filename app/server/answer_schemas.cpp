@@ -8,7 +8,8 @@ namespace {
 constexpr const char* kDatabaseAnswers = R"json({
   "Databases": {"type": "object", "required": ["databases"], "properties": {
     "databases": {"type": "array", "items": {"type": "object", "required": ["name", "writable", "recordings"],
-      "properties": {"name": {"type": "string"}, "writable": {"type": "boolean"}, "recordings": {"type": "integer"}}}}}},
+      "properties": {"name": {"type": "string"}, "writable": {"type": "boolean"},
+        "recordings": {"type": "integer"}}}}}},
   "Database": {"type": "object",
     "required": ["engine", "engine_version", "entries", "bytes_on_disk", "layout", "usage", "access_mode", "compact_mm",
                  "weights", "recordings"],
@@ -56,8 +57,8 @@ constexpr const char* kDatabaseAnswers = R"json({
           "text": {"type": "string"}, "first_frame": {"type": "integer"}, "end_frame": {"type": "integer"}}}}}},
   "Check": {"type": "object", "required": ["recordings", "faults"], "properties": {
     "recordings": {"type": "integer"}, "faults": {"type": "array", "items": {"type": "string"}}}},
-  "FileFormats": {"type": "array", "items": {"type": "object", "required": ["ending", "reads", "writes", "holds", "lost"],
-    "properties": {"ending": {"type": "string"}, "reads": {"type": "boolean"}, "writes": {"type": "boolean"},
+  "FileFormats": {"type": "array", "items": {"type": "object",
+    "required": ["ending", "reads", "writes", "holds", "lost"], "properties": {"ending": {"type": "string"}, "reads": {"type": "boolean"}, "writes": {"type": "boolean"},
       "holds": {"type": "string"}, "lost": {"type": "string"}}}},
   "OpenApi": {"type": "object", "required": ["openapi", "info", "paths"], "properties": {
     "openapi": {"type": "string"}, "info": {"type": "object"}, "paths": {"type": "object"},
@@ -140,7 +141,8 @@ constexpr const char* kMadeAnswers = R"json({
   "Frames": {"type": "object", "required": ["begin", "end"], "properties": {
     "begin": {"type": "integer"}, "end": {"type": "integer", "description": "the one after the last"}}},
   "Synthesis": {"type": "object",
-    "required": ["frames", "frames_per_second", "signs", "stretches", "junctions", "timings", "declarations", "notices"],
+    "required": ["frames", "frames_per_second", "signs", "stretches", "junctions", "timings", "declarations",
+                 "notices"],
     "properties": {
       "frames": {"type": "integer"}, "frames_per_second": {"type": "number"},
       "signs": {"type": "array", "items": {"type": "object",
@@ -176,7 +178,10 @@ constexpr const char* kMadeAnswers = R"json({
     "job": {"type": "string"}, "kind": {"enum": ["import", "relayout"]}, "database": {"type": "string"},
     "state": {"enum": ["waiting", "running", "done", "failed", "cancelled"]},
     "fraction": {"type": "number", "minimum": 0, "maximum": 1},
-    "result": {"type": "object", "description": "of an import recordings, notices and faults, as far as it is; of a relayout recordings, changed and faults"},
+    "result": {"type": "object", "properties": {
+      "recordings": {"description": "of an import what became of each, as far as it is; of a relayout how many"},
+      "changed": {"type": "array", "items": {"type": "string"}}, "notices": {"$ref": "#/components/schemas/Notices"},
+      "faults": {"type": "array", "items": {"type": "string"}}}},
     "error": {"type": "object", "required": ["code", "message"]}}},
   "Jobs": {"type": "object", "required": ["jobs"], "properties": {
     "jobs": {"type": "array", "items": {"$ref": "#/components/schemas/Job"}}}}

@@ -58,7 +58,8 @@ constexpr const char* kDatabaseAnswers = R"json({
   "Check": {"type": "object", "required": ["recordings", "faults"], "properties": {
     "recordings": {"type": "integer"}, "faults": {"type": "array", "items": {"type": "string"}}}},
   "FileFormats": {"type": "array", "items": {"type": "object",
-    "required": ["ending", "reads", "writes", "holds", "lost"], "properties": {"ending": {"type": "string"}, "reads": {"type": "boolean"}, "writes": {"type": "boolean"},
+    "required": ["ending", "reads", "writes", "holds", "lost"], "properties": {"ending": {"type": "string"},
+      "reads": {"type": "boolean"}, "writes": {"type": "boolean"},
       "holds": {"type": "string"}, "lost": {"type": "string"}}}},
   "OpenApi": {"type": "object", "required": ["openapi", "info", "paths"], "properties": {
     "openapi": {"type": "string"}, "info": {"type": "object"}, "paths": {"type": "object"},

@@ -1,7 +1,6 @@
 // Signs typed glosses on a server (`signweave serve`) and writes the stream that it sends as BVH:
 //
 //   stream_client http://127.0.0.1:8080 [--database NAME] [--token T] [--rate FPS] [--tempo F] -o OUT.bvh [GLOSS…]
-//
 // Without a GLOSS, lines are read from standard input, and each is appended as it is typed. The utterance is printed
 // with the tokens that were chosen: given to `signweave sign`, it makes the same motion (docs/stream.md).
 #include <fmt/format.h>
@@ -49,8 +48,7 @@ Motion empty_motion(const json& header) {
 class Client {
  public:
   Client(asio::io_context& io, const Options& options) : stream_(io) {
-    asio::ip::tcp::resolver resolver(io);
-    asio::connect(stream_.next_layer(), resolver.resolve(options.host, options.port));
+    asio::connect(stream_.next_layer(), asio::ip::tcp::resolver(io).resolve(options.host, options.port));
     stream_.set_option(beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
       if (!options.token.empty()) request.set(beast::http::field::authorization, "Bearer " + options.token);
     }));
@@ -100,12 +98,10 @@ class Client {
       if (failed == beast::websocket::error::closed) throw std::runtime_error(stream_.reason().reason.c_str());
       if (failed) throw beast::system_error(failed);
       const auto data = buffer_.cdata();
-      const std::span bytes(static_cast<const std::byte*>(data.data()), data.size());
-      if (stream_.got_binary()) {
-        take_frames(bytes);
-      } else {
-        take(json::parse(static_cast<const char*>(data.data()), static_cast<const char*>(data.data()) + data.size()));
-      }
+      if (stream_.got_binary())
+        take_frames({static_cast<const std::byte*>(data.data()), data.size()});
+      else
+        take(json::parse(beast::buffers_to_string(data)));
       buffer_.consume(buffer_.size());
       close_when_done();
       read_next();
@@ -129,7 +125,7 @@ class Client {
       Place& place = signed_.places.at(message.at("place"));
       if (place.kind == Place::Kind::gloss) place.gloss = {message.at("gloss"), message.at("token")};
     } else if (type == "end") {
-      end_ = message.at("frame");  // the frames before it may still be on their way
+      end_ = message.at("frame");
     } else if (type == "notice") {
       std::cerr << "stream_client: " << message.at("text").get<std::string>() << '\n';
     }
@@ -138,9 +134,7 @@ class Client {
     const Skeleton& skeleton = motion_.skeleton();
     const FrameShape shape{skeleton.joint_count(), skeleton.translation_count(), tracks_.size()};
     const MessageHeader header = decode_header(message, shape);
-    if (header.first_frame != static_cast<std::uint64_t>(motion_.frame_count())) {
-      throw std::runtime_error("frames are missing");
-    }
+    if (std::cmp_not_equal(header.first_frame, motion_.frame_count())) throw std::runtime_error("frames are missing");
     for (std::size_t i = 0; i < header.frames; ++i) {
       decode(message.subspan(kMessageHeaderBytes + i * bytes_of(shape), bytes_of(shape)), {motion_.append(), tracks_});
     }
@@ -169,21 +163,20 @@ int main(int argc, char** argv) {
   try {
     Options options;
     CLI::App app("Signs glosses on a server and writes the stream as BVH.");
-    std::string url, rate;
-    double tempo = 1;
+    std::string url;
     app.add_option("url", url, "of the server: http://127.0.0.1:8080")->required();
     app.add_option("gloss", options.glosses, "an utterance; without one, lines of standard input");
     app.add_option("-o", options.out, "the BVH file")->required();
     app.add_option("--database", options.database, "where the server has several");
     app.add_option("--token", options.token, "that the server asks for");
-    app.add_option("--rate", rate, "frames a second");
-    app.add_option("--tempo", tempo, "0.25 to 4");
+    const auto ask = [&](const char* field) { return [&options, field](auto value) { options.open[field] = value; }; };
+    app.add_option_function<std::string>("--rate", ask("rate"), "frames a second");
+    app.add_option_function<double>("--tempo", ask("tempo"), "0.25 to 4");
     CLI11_PARSE(app, argc, argv);
-    if (!rate.empty()) options.open["rate"] = rate;
-    options.open["tempo"] = tempo;
     const std::string server = url.substr(url.starts_with("http://") ? 7 : 0);
     options.host = server.substr(0, server.find_first_of(":/"));
-    if (const auto colon = server.find(':'); colon != server.npos) options.port = server.substr(colon + 1);
+    if (const auto colon = server.find(':'); colon != server.npos)
+      options.port = std::to_string(std::stoi(server.substr(colon + 1)));
     asio::io_context io;
     Client client(io, options);
     if (!options.glosses.empty()) {

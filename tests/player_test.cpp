@@ -410,6 +410,36 @@ TEST(Player, AGlossThatIsNotThereChangesNothing) {
   expect_same(shown, synthesize(corpus(), parse_utterance("DEMAIN#1 MATIN#1")), "what it had begun");
 }
 
+TEST(Player, GoesOnForLongWithoutKeepingAllOfIt) {
+  Player player(base(), {.synthesis = {.rate = FrameRate{10, 1}}, .idle = Idle::end});
+  const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
+  std::size_t place = 0;
+  std::vector<float> tracks;
+  Motion one;
+  for (int i = 0; i < 2'500; ++i) {
+    player.append(parse_utterance(to_string(GlossRef{glosses[static_cast<std::size_t>(i) % glosses.size()], 0})));
+    while (player.prepare(16) > 0) {
+      if (one.frame_count() == 0) one = Motion(player.header()->skeleton, player.header()->rate, 1);
+      tracks.resize(player.header()->tracks.size());
+      while (player.next({one.pose(0), tracks})) {
+      }
+      while (const auto event = player.take_event()) {
+        if (event->kind != Kind::place) continue;
+        EXPECT_EQ(event->place, place++);
+      }
+    }
+  }
+  EXPECT_EQ(place, 2'500u);
+  player.seek(Milliseconds(0));  // as far back as is kept
+  ASSERT_GT(player.prepare(16), 0u);
+  const auto event = player.take_event();
+  ASSERT_TRUE(event);
+  EXPECT_GT(event->at, Milliseconds(100'000));
+  Utterance many;
+  many.places.assign(10'001, parse_utterance("DEMAIN").places.front());
+  EXPECT_THROW(player.append(many), Error);
+}
+
 TEST(Player, StopsSoon) {
   Player player(base(), {});
   player.sign(parse_utterance("DEMAIN MATIN VANNES PLUIE RENNES NUAGES"));

@@ -115,7 +115,9 @@ void Connection::send(std::string_view text) {
 
 std::span<const std::byte> Connection::receive() {
   const ssize_t got = recv(descriptor_, buffer.data(), buffer.size(), 0);
-  if (got == 0 || (got < 0 && errno != EAGAIN)) throw std::runtime_error("the server has closed the connection");
+  if (got == 0) throw std::runtime_error("the server has closed the connection");
+  if (got < 0 && errno != EAGAIN)
+    throw std::runtime_error(fmt::format("the connection broke: {}", std::strerror(errno)));
   received_at_ = now();
   return std::span(buffer).first(got > 0 ? static_cast<std::size_t>(got) : 0);
 }

@@ -49,7 +49,7 @@ struct MutableFrameView {
 //   a0 86 01 00  b0 3c ff ff  41 0d 03 00  00 00 80 3e  00 00 82 5a 00 00 82 5a
 //
 // A rotation comes out within kRotationError of what it was, a translation within kTranslationError on each axis;
-// tracks to the bit. At the demo signer's fingertips that is less than 0.1 mm (tests/stream_error_test.cpp).
+// tracks to the bit. At the demo signer's fingertips that is 0.11 mm at worst (tests/stream_error_test.cpp).
 
 inline constexpr std::size_t kMessageHeaderBytes = 16;
 /// Radians: each of four numbers is off by half a unit at most, their length away from a unit quaternion by as many as

@@ -21,28 +21,29 @@ std::string key_of(const Stretch& stretch) {
 
 }  // namespace
 
-void GrowingUtterance::check(const Utterance& utterance) {
+void GrowingUtterance::check(const Utterance& utterance, std::size_t waiting) {
   if (utterance.places.empty()) return;
-  const std::shared_ptr<const Contents> contents = base_.database().contents();
-  for (const Place& place : utterance.places) {
-    if (place.pause_before > kLongestPause) {
-      throw Error(ErrorCode::bad_input,
-                  fmt::format("a pause of {} ms is longer than {} ms; leave out some of its signs",
-                              place.pause_before.count(), kLongestPause.count()));
-    }
-    base_.candidates(contents, place);
+  if (waiting + utterance.places.size() > kMostPlaces) {
+    throw Error(ErrorCode::bad_input, fmt::format("{} signs would wait, more than {}; send the others later",
+                                                  waiting + utterance.places.size(), kMostPlaces));
   }
+  for (const Place& place : utterance.places) {
+    if (place.pause_before <= kLongestPause) continue;
+    throw Error(ErrorCode::bad_input, fmt::format("a pause of {} ms is longer than {} ms; leave out some of its signs",
+                                                  place.pause_before.count(), kLongestPause.count()));
+  }
+  base_.check(base_.database().contents(), utterance.places);
 }
 
 /// Which token fills a place: with the one decided before it, and as many places after it as are known and looked at.
 const GrowingUtterance::Decision& GrowingUtterance::decide(std::size_t place) {
-  std::optional<Decision>& decision = decisions_[place];
+  std::unique_ptr<const Decision>& decision = decisions_[place];
   if (decision) return *decision;
   const Snapshot& snapshot = open_.snapshot();
   const std::shared_ptr<const Contents>& contents = snapshot.shared_contents();
   const std::shared_ptr<const std::vector<Candidate>> own = base_.candidates(contents, places_[place]);
   if (own->size() == 1) {
-    decision = {contents, own->front()};
+    decision = std::make_unique<const Decision>(Decision{contents, own->front()});
     return *decision;
   }
   std::vector<Choice> choices;
@@ -55,7 +56,8 @@ const GrowingUtterance::Decision& GrowingUtterance::decide(std::size_t place) {
   const Seconds transition = base_.durations(contents, options_.synthesis.duration)->mean;
   const Selection selection = select(snapshot, choices, {.transition = transition});
   const std::size_t at = after_another ? 1 : 0;
-  decision = {contents, std::move(choices[at].candidates[selection.chosen[at]])};
+  decision =
+      std::make_unique<const Decision>(Decision{contents, std::move(choices[at].candidates[selection.chosen[at]])});
   return *decision;
 }
 
@@ -67,7 +69,7 @@ bool GrowingUtterance::decided_well(std::size_t place) const noexcept {
 /// True where a place follows whose token went on from this one in its recording: then both stay together as captured.
 bool GrowingUtterance::goes_on(const Candidate& candidate, std::size_t place) {
   if (place >= places_.size() || places_[place].pause_before > Milliseconds(0)) return false;
-  const bool was_decided = decisions_[place].has_value();
+  const bool was_decided = decisions_[place] != nullptr;
   try {
     const Decision& next = decide(place);
     if (next.contents == decisions_[place - 1]->contents && are_neighbours(*next.contents, candidate, next.candidate)) {
@@ -108,13 +110,19 @@ void GrowingUtterance::begin_header(const Stretch& stretch, const std::shared_pt
                                   .model = spans_ != nullptr ? spans_->model.get() : nullptr};
   weaver_.emplace(settings, base_.tracks(*contents, stretch.recording), synthesis.alignment, stretch);
   if (options_.idle == Idle::living_rest) {
-    RestPose rest = *base_.rest(open_.snapshot(), stretch, *rig_);
+    const std::shared_ptr<const KnownRest> known = base_.rest(open_.snapshot(), stretch, *rig_);
+    RestPose rest = known->rest;
     Motion alone(settings.skeleton, settings.rate);
     alone.append(rest.pose.view());
     apply(align(standing_over(alone, {0, 1}), weaver_->home()), *settings.skeleton, rest.pose.view());
-    rest.tracks.resize(weaver_->tracks().size());
+    rest.tracks.assign(weaver_->tracks().size(), 0.0f);
+    for (std::size_t i = 0; i < known->tracks.size(); ++i) {
+      const auto at = std::ranges::find(weaver_->tracks(), known->tracks[i]);
+      if (at == weaver_->tracks().end()) continue;
+      rest.tracks[static_cast<std::size_t>(at - weaver_->tracks().begin())] = known->rest.tracks[i];
+    }
     living_ = std::make_shared<const LivingRest>(settings.skeleton, settings.rate, rig_->signer.rig, std::move(rest),
-                                                 weaver_->tracks());
+                                                 weaver_->tracks(), LivingRestOptions{.seed = base_.new_seed()});
   }
   const Milliseconds fixed = synthesis.duration.fixed.value_or(Milliseconds(-1));
   settings_key_ = fmt::format("{} {} {}/{} {} {} {} {} {}", base_.state_number(contents), method->name,
@@ -232,7 +240,7 @@ void GrowingUtterance::tell_places(const Entry& entry, std::int64_t from) {
     for (const Sign& sign : candidate.left_out) {
       events_.push_back({.kind = PlayerEvent::Kind::notice,
                          .frame = static_cast<std::uint64_t>(std::max(frame, from)),
-                         .place = place,
+                         .place = place + forgotten_,
                          .recording = entry.woven->stretch.recording,
                          .text = fmt::format("'{}' at {} ms has no stroke and stands at a cut: it is left out",
                                              printable(sign.gloss), sign.span.begin.count())});
@@ -240,7 +248,7 @@ void GrowingUtterance::tell_places(const Entry& entry, std::int64_t from) {
     if (frame < from) continue;
     events_.push_back({.kind = PlayerEvent::Kind::place,
                        .frame = static_cast<std::uint64_t>(frame),
-                       .place = place,
+                       .place = place + forgotten_,
                        .gloss = candidate.signs.empty() ? std::string() : candidate.gloss(),
                        .token = candidate.token,
                        .recording = entry.woven->stretch.recording,

@@ -163,7 +163,8 @@ void GrowingUtterance::leave(std::int64_t next, const FrameRing& shown) {
 }
 
 void GrowingUtterance::add(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
-  check(utterance);
+  check(utterance, places_.size() - next_);
+  forget_places();
   places_.insert(places_.end(), utterance.places.begin(), utterance.places.end());
   decisions_.resize(places_.size());
   if (utterance.places.empty() || (state_ != State::resting && state_ != State::ended)) return;
@@ -176,11 +177,30 @@ void GrowingUtterance::add(const Utterance& utterance, std::int64_t next, const 
   }
 }
 
+/// An utterance that goes on for hours does not fill the memory.
+void GrowingUtterance::forget_places() {
+  if (loop_ || next_ < 2 * kKeptPlaces) return;
+  const std::size_t count = next_ - kKeptPlaces;
+  const auto over = static_cast<std::ptrdiff_t>(count);
+  places_.erase(places_.begin(), places_.begin() + over);
+  decisions_.erase(decisions_.begin(), decisions_.begin() + over);
+  std::erase_if(entries_, [&](const Entry& entry) { return entry.first < count; });
+  for (Entry& entry : entries_) {
+    entry.first -= count;
+    entry.last -= count;
+  }
+  if (!entries_.empty()) entries_.front().joined = false;
+  next_ -= count;
+  forgotten_ += count;
+}
+
 void GrowingUtterance::replace(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
-  check(utterance);
+  check(utterance, 0);
   const bool finished = finish_sign(next);
   places_ = utterance.places;
-  decisions_.assign(places_.size(), std::nullopt);
+  decisions_.clear();
+  decisions_.resize(places_.size());
+  forgotten_ = 0;
   entries_.clear();
   last_signs_.reset();
   next_ = 0;
@@ -232,7 +252,7 @@ bool GrowingUtterance::finish_sign(std::int64_t next) {
 void GrowingUtterance::seek(std::int64_t at, std::int64_t next) {
   if (entries_.empty()) return;
   const Entry& newest = entries_.back();
-  at = std::clamp<std::int64_t>(at, 0, newest.core + newest.woven->laid.core_frames - 1);
+  at = std::clamp<std::int64_t>(at, entries_.front().begin, newest.core + newest.woven->laid.core_frames - 1);
   auto entry = entries_.end() - 1;
   while (entry != entries_.begin() && entry->begin > at) --entry;
   const auto index = static_cast<std::size_t>(entry - entries_.begin());

@@ -24,8 +24,9 @@ class GrowingUtterance {
  public:
   GrowingUtterance(SigningBase& base, const PlayerOptions& options);
 
-  /// Throws what `candidates_for` throws for one of the places, Error{bad_input} for a pause longer than kLongestPause.
-  void check(const Utterance& utterance);
+  /// Throws what `candidates_for` throws for one of the places, Error{bad_input} for a pause longer than kLongestPause,
+  /// or where with `waiting` places there would be more than kMostPlaces.
+  void check(const Utterance& utterance, std::size_t waiting);
 
   // Each of these is told the first frame that was not taken (`next`), and the ring with those before it. What is
   // known of the timeline may end earlier afterwards, but not before `next`.
@@ -61,6 +62,9 @@ class GrowingUtterance {
   std::int64_t history() const noexcept;
 
   static constexpr Milliseconds kLongestPause{60'000};
+  /// As many places may wait; and as many that are over are kept, for `seek`.
+  static constexpr std::size_t kMostPlaces = 10'000;
+  static constexpr std::size_t kKeptPlaces = 1'000;
   /// A sign that ends within this is finished where another utterance begins.
   static constexpr Seconds kFinished{1.0};
 
@@ -107,6 +111,7 @@ class GrowingUtterance {
   WovenPtr history_of(std::int64_t next, const FrameRing& shown) const;
   void leave(std::int64_t next, const FrameRing& shown);
   void cut(std::int64_t end);
+  void forget_places();
   bool finish_sign(std::int64_t next);
   void append(FrameRange frames, WovenPtr woven);
   void append(FrameRange frames, std::shared_ptr<const Motion> made);
@@ -121,8 +126,9 @@ class GrowingUtterance {
   OpenRecordings open_;
 
   std::vector<Place> places_;
-  std::vector<std::optional<Decision>> decisions_;  ///< [place]
-  std::size_t next_ = 0;                            ///< the place that is signed next
+  std::vector<std::unique_ptr<const Decision>> decisions_;  ///< [place]; null: not yet
+  std::size_t next_ = 0;                                    ///< the place that is signed next
+  std::size_t forgotten_ = 0;                               ///< places of this utterance that came before those
 
   // Of the first decision; they stay.
   std::optional<StreamHeader> header_;

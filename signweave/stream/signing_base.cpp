@@ -4,6 +4,7 @@
 #include <set>
 
 #include "signweave/core/error.h"
+#include "signweave/stream/open_recordings.h"
 
 namespace signweave {
 namespace {
@@ -11,6 +12,8 @@ namespace {
 /// Glosses whose tokens are kept. A database may have more glosses than anybody asks for.
 constexpr std::size_t kMostKept = 8192;
 constexpr std::size_t kMostRigs = 1024;
+/// Recordings whose signers' rests are looked for ahead of time.
+constexpr std::size_t kMostRests = 64;
 
 }  // namespace
 
@@ -57,6 +60,19 @@ void SigningBase::warm_up() {
     if (contents->recordings[i].motion) snapshot.joins(i);
   }
   snapshot.join_weights();
+  OpenRecordings open(database_);
+  std::size_t looked_at = 0;
+  for (const RecordingInfo& info : contents->recordings) {
+    if (!info.motion || ++looked_at > kMostRests) continue;
+    const FrameRange all{0, info.motion->frames};
+    const Stretch stretch{.recording = info.name,
+                          .source = std::make_shared<RecordingSource>(open, info),
+                          .whole = all,
+                          .core = clamp({0, kBodyFrames}, info.motion->frames),
+                          .clock = info.clock,
+                          .signs = {}};
+    rest(snapshot, stretch, *rig(contents, stretch));
+  }
 }
 
 std::shared_ptr<const DurationFit> SigningBase::durations(const std::shared_ptr<const Contents>& contents,
@@ -65,6 +81,20 @@ std::shared_ptr<const DurationFit> SigningBase::durations(const std::shared_ptr<
   return look_up<DurationFit>(
       contents, [&](Known & known) -> auto& { return known.durations[model.fitted]; },
       [&] { return durations_of(database_, *contents, model); });
+}
+
+void SigningBase::check(const std::shared_ptr<const Contents>& contents, const std::vector<Place>& places) {
+  std::vector<const Place*> unknown;
+  {
+    const std::lock_guard lock(mutex_);
+    const Known& known = of(contents);
+    for (const Place& place : places) {
+      const bool plain = place.kind == Place::Kind::gloss && place.gloss.token == 0;
+      const auto at = plain ? known.candidates.find(place.gloss.gloss) : known.candidates.end();
+      if (at == known.candidates.end() || at->second == nullptr) unknown.push_back(&place);
+    }
+  }
+  for (const Place* place : unknown) candidates(contents, *place);
 }
 
 std::shared_ptr<const std::vector<Candidate>> SigningBase::candidates(const std::shared_ptr<const Contents>& contents,
@@ -101,14 +131,28 @@ std::shared_ptr<const CapturedSpans> SigningBase::spans(const Snapshot& snapshot
       [&] { return captured_spans(snapshot, *stretch.source->skeleton(), rig.groups); });
 }
 
-std::shared_ptr<const RestPose> SigningBase::rest(const Snapshot& snapshot, const Stretch& stretch,
-                                                  const SignerRig& rig) {
-  return look_up<RestPose>(
-      snapshot.shared_contents(), [&](Known & known) -> auto& { return known.rests[stretch.recording]; },
-      [&] {
-        const std::unique_ptr<MotionSource> motion = snapshot.motion(snapshot.contents().at(stretch.recording));
-        return rest_pose_of(*motion, rig.signer);
-      });
+std::shared_ptr<const KnownRest> SigningBase::rest(const Snapshot& snapshot, const Stretch& stretch,
+                                                   const SignerRig& rig) {
+  const RecordingInfo& info = snapshot.contents().at(stretch.recording);
+  const std::shared_ptr<const Skeleton>& skeleton = stretch.source->skeleton();
+  const auto look = [&]() -> std::shared_ptr<const KnownRest> {
+    for (const auto& known : of(snapshot.shared_contents()).rests) {
+      if (known->signer == info.signer && (known->skeleton == skeleton || *known->skeleton == *skeleton)) return known;
+    }
+    return nullptr;
+  };
+  {
+    const std::lock_guard lock(mutex_);
+    if (auto known = look()) return known;
+  }
+  const std::unique_ptr<MotionSource> motion = snapshot.motion(info);
+  const std::span<const std::string> tracks = motion->tracks();
+  auto made = std::make_shared<const KnownRest>(
+      KnownRest{info.signer, skeleton, {tracks.begin(), tracks.end()}, rest_pose_of(*motion, rig.signer)});
+  const std::lock_guard lock(mutex_);
+  if (auto known = look()) return known;
+  of(snapshot.shared_contents()).rests.push_back(made);
+  return made;
 }
 
 std::vector<std::string> SigningBase::tracks(const Contents& contents, const std::string& recording) const {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -18,13 +20,21 @@
 
 namespace signweave {
 
+/// Where a signer rests.
+struct KnownRest {
+  std::string signer;
+  std::shared_ptr<const Skeleton> skeleton;
+  std::vector<std::string> tracks;  ///< names of the pose's track values
+  RestPose rest;
+};
+
 /// What many players of one database share and what does not depend on what they sign: how long transitions last, which
 /// joint is what, where a signer rests, the tokens of a gloss. Made when it is first asked for, and again after a
 /// change of the database. Threads may share it; it must outlive its players, and the database it.
 class SigningBase {
  public:
   explicit SigningBase(const Database& database, std::size_t cached_bytes = kCachedBytes);
-  static constexpr std::size_t kCachedBytes = std::size_t{128} << 20;
+  static constexpr std::size_t kCachedBytes = std::size_t{256} << 20;
 
   const Database& database() const noexcept { return database_; }
   /// Makes now what players would wait for.
@@ -38,12 +48,14 @@ class SigningBase {
   /// As `candidates_for`; throws what it throws.
   std::shared_ptr<const std::vector<Candidate>> candidates(const std::shared_ptr<const Contents>& contents,
                                                            const Place& place);
+  /// Throws what `candidates_for` throws for one of the places.
+  void check(const std::shared_ptr<const Contents>& contents, const std::vector<Place>& places);
   /// As `signer_rig_of` for a stretch of a recording.
   std::shared_ptr<const SignerRig> rig(const std::shared_ptr<const Contents>& contents, const Stretch& stretch);
   /// As `captured_spans`, for the skeleton of a recording.
   std::shared_ptr<const CapturedSpans> spans(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
-  /// Where the signer of a recording rests.
-  std::shared_ptr<const RestPose> rest(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
+  /// Where the signer of a recording rests, in one of the signer's recordings.
+  std::shared_ptr<const KnownRest> rest(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
   /// The names of all scalar tracks of the database, those of `recording` first.
   std::vector<std::string> tracks(const Contents& contents, const std::string& recording) const;
   /// What all recordings declare of themselves, each once.
@@ -52,6 +64,8 @@ class SigningBase {
 
   /// Tells the states of the database apart that were asked for: what is made in one does not serve in another.
   std::uint64_t state_number(const std::shared_ptr<const Contents>& contents);
+  /// So that two signers do not breathe and blink as one.
+  std::uint64_t new_seed() noexcept { return ++seeds_; }
   /// What was made before.
   TransitionCache& transitions() noexcept { return transitions_; }
 
@@ -60,10 +74,10 @@ class SigningBase {
     std::shared_ptr<const Contents> contents;
     std::uint64_t number = 0;
     std::map<bool, std::shared_ptr<const DurationFit>> durations;  ///< by whether they may be fitted
-    std::map<std::string, std::shared_ptr<const std::vector<Candidate>>, std::less<>> candidates;  ///< by the place
+    std::unordered_map<std::string, std::shared_ptr<const std::vector<Candidate>>> candidates;  ///< by the place
     std::map<std::pair<std::string, std::int64_t>, std::shared_ptr<const SignerRig>> rigs;  ///< recording, first frame
     std::map<std::string, std::shared_ptr<const CapturedSpans>> spans;                      ///< by recording
-    std::map<std::string, std::shared_ptr<const RestPose>> rests;                           ///< by recording
+    std::vector<std::shared_ptr<const KnownRest>> rests;  ///< few: of each signer one for each skeleton
     std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> declarations;
   };
   /// What is known of these contents; of others than the newest nothing is kept. Call it with the lock held.
@@ -75,6 +89,7 @@ class SigningBase {
   std::mutex mutex_;
   Known known_;
   TransitionCache transitions_;
+  std::atomic<std::uint64_t> seeds_ = 0;
 };
 
 }  // namespace signweave

@@ -19,22 +19,26 @@ std::shared_ptr<const MadeTransition> TransitionCache::find(const std::string& k
     return nullptr;
   }
   ++counts_.found;
-  held_.splice(held_.begin(), held_, at->second);
-  return at->second->made;
+  return held_[at->second].made;
 }
 
 void TransitionCache::keep(const std::string& key, std::shared_ptr<const MadeTransition> made) {
   const std::size_t bytes = bytes_of(*made) + 2 * key.size();
   const std::lock_guard lock(mutex_);
   if (bytes > most_bytes_ || by_key_.contains(key)) return;
-  held_.push_front({.key = key, .made = std::move(made), .bytes = bytes});
-  by_key_.emplace(key, held_.begin());
-  counts_.bytes += bytes;
-  while (counts_.bytes > most_bytes_) {
-    counts_.bytes -= held_.back().bytes;
-    by_key_.erase(held_.back().key);
+  while (counts_.bytes + bytes > most_bytes_) {
+    const std::size_t gone = random_() % held_.size();
+    counts_.bytes -= held_[gone].bytes;
+    by_key_.erase(held_[gone].key);
+    if (gone + 1 < held_.size()) {
+      held_[gone] = std::move(held_.back());
+      by_key_[held_[gone].key] = gone;
+    }
     held_.pop_back();
   }
+  by_key_.emplace(key, held_.size());
+  held_.push_back({.key = key, .made = std::move(made), .bytes = bytes});
+  counts_.bytes += bytes;
 }
 
 void TransitionCache::clear() {

@@ -2,12 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <random>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "signweave/motion/blend.h"
 #include "signweave/motion/motion.h"
@@ -22,8 +23,9 @@ struct MadeTransition {
   std::shared_ptr<const Motion> frames;
 };
 
-/// The transitions that were made last, for all who sign the same tokens one after the other: a loop, or an utterance
-/// that many watch. Threads may share it.
+/// Transitions that were made, for all who sign the same tokens one after the other: a loop, or an utterance that many
+/// watch. Where there are too many, any of them goes: many loops that come round in turn would find nothing of theirs
+/// if the oldest went. Threads may share it.
 class TransitionCache {
  public:
   /// Holds no more than so many bytes of frames.
@@ -50,8 +52,9 @@ class TransitionCache {
 
   std::size_t most_bytes_;
   mutable std::mutex mutex_;
-  std::list<Held> held_;  ///< the one used last comes first
-  std::unordered_map<std::string, std::list<Held>::iterator> by_key_;
+  std::vector<Held> held_;
+  std::unordered_map<std::string, std::size_t> by_key_;  ///< index in held_
+  std::minstd_rand random_;
   Counts counts_;
 };
 

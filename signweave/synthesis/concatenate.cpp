@@ -76,8 +76,9 @@ Plan plan_of(const std::vector<Stretch>& stretches, const JunctionSettings& sett
   plan.laid.back().after = plan.laid.back().retraction;
   plan.laid.front().core = plan.laid.front().before;
   JunctionTimer timer(settings);
+  JunctionScratch scratch;
   for (std::size_t i = 1; i < plan.laid.size(); ++i) {
-    plan.cuts.push_back(timer.cuts_between(plan.laid[i - 1], plan.laid[i], stretches[i].pause_before));
+    plan.cuts.push_back(timer.cuts_between(plan.laid[i - 1], plan.laid[i], stretches[i].pause_before, scratch));
     lay_after(plan.laid[i - 1], plan.laid[i], plan.cuts.back());
   }
   plan.frames = plan.laid.back().end();
@@ -96,11 +97,11 @@ class Filler {
     const Laid& now = plan_.laid[i];
     const std::int64_t shared = i == 0 ? 0 : JunctionFiller::shared(plan_.laid[i - 1], now);
     const FrameRange own{now.begin() + shared, now.end()};
-    shared_.reset(out_.motion.shared_skeleton(), out_.motion.rate(), shared);
-    read_frames(now, {now.begin(), own.begin}, shared_.poses({0, shared}));
+    scratch_.shared.reset(out_.motion.shared_skeleton(), out_.motion.rate(), shared);
+    read_frames(now, {now.begin(), own.begin}, scratch_.shared.poses({0, shared}));
     read_frames(now, own, out_.motion.poses(own));
     align_to_home(i, own);
-    if (i > 0) junctions_.fill(plan_.laid[i - 1], now, plan_.cuts[i - 1].parts, {out_.motion}, shared_);
+    if (i > 0) junctions_.fill(plan_.laid[i - 1], now, plan_.cuts[i - 1].parts, {out_.motion}, scratch_);
     tell_sources(i);
   }
 
@@ -132,7 +133,8 @@ class Filler {
     if (!is_aligned(i)) return;
     const Laid& now = plan_.laid[i];
     const GroundTransform transform = align(standing_over(out_.motion, {now.core, now.core_end()}), home(i));
-    for (std::int64_t k = 0; k < shared_.frame_count(); ++k) apply(transform, out_.motion.skeleton(), shared_.pose(k));
+    for (std::int64_t k = 0; k < scratch_.shared.frame_count(); ++k)
+      apply(transform, out_.motion.skeleton(), scratch_.shared.pose(k));
     for (std::int64_t frame = own.begin; frame < own.end; ++frame)
       apply(transform, out_.motion.skeleton(), out_.motion.pose(frame));
   }
@@ -169,7 +171,7 @@ class Filler {
   const ConcatenateOptions& options_;
   JunctionFiller junctions_;
   Synthesis& out_;
-  Motion shared_;  ///< the frames of a stretch that the one before has too
+  JunctionScratch scratch_;
   std::optional<Standing> home_;
 };
 

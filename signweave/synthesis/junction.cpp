@@ -15,45 +15,54 @@ std::int64_t frames_in(Seconds time, FrameRate rate) {
   return std::llround(time.count() * rate.hertz());
 }
 
+/// Frames counted from the core's first.
+void read(const JunctionSettings& settings, const Laid& laid, FrameRange frames, Motion& out) {
+  Laid alone = laid;
+  alone.core = 0;
+  out.reset(settings.skeleton, settings.rate, frames.size());
+  read_frames(alone, frames, out.poses({0, frames.size()}));
+}
+
+/// What lies around two cuts.
+struct Sides {
+  CutSide from, to;
+};
+
+/// The same, before it is known where the cuts come to lie: at most `most` frames beside each stroke, and kContext of
+/// the strokes themselves.
+Sides read(const JunctionSettings& settings, const Laid& a, const Laid& b, std::int64_t most,
+           JunctionScratch& scratch) {
+  const std::int64_t context = std::max<std::int64_t>(1, frames_in(kContext, settings.rate));
+  const std::int64_t within_a = std::min(context, a.core_frames);
+  const std::int64_t within_b = std::min(context, b.core_frames);
+  const std::int64_t before = std::min(b.preparation, most);
+  read(settings, a, {a.core_frames - within_a, a.core_frames + std::min(a.retraction, most)}, scratch.left);
+  read(settings, b, {-before, within_b}, scratch.right);
+  return {.from = {view_of(scratch.left, {0, scratch.left.frame_count()}), within_a - 1},
+          .to = {view_of(scratch.right, {0, scratch.right.frame_count()}), before}};
+}
+
 }  // namespace
 
 JunctionTimer::JunctionTimer(const JunctionSettings& settings) : settings_(settings) {
   if (settings.method->cut == nullptr) chooser_.emplace(*settings.skeleton, settings.rig->groups);
 }
 
-/// Frames counted from the core's first.
-void JunctionTimer::read(const Laid& laid, FrameRange frames, Motion& out) {
-  Laid alone = laid;
-  alone.core = 0;
-  out.reset(settings_.skeleton, settings_.rate, frames.size());
-  read_frames(alone, frames, out.poses({0, frames.size()}));
-}
-
-/// What lies around the two cuts, before it is known where they come to lie: at most `most` frames beside each stroke,
-/// and kContext of the strokes themselves.
-void JunctionTimer::read(const Laid& a, const Laid& b, std::int64_t most) {
-  const std::int64_t context = std::max<std::int64_t>(1, frames_in(kContext, settings_.rate));
-  const std::int64_t within_a = std::min(context, a.core_frames);
-  const std::int64_t within_b = std::min(context, b.core_frames);
-  const std::int64_t before = std::min(b.preparation, most);
-  read(a, {a.core_frames - within_a, a.core_frames + std::min(a.retraction, most)}, left_);
-  read(b, {-before, within_b}, right_);
-  from_ = {view_of(left_, {0, left_.frame_count()}), within_a - 1};
-  to_ = {view_of(right_, {0, right_.frame_count()}), before};
-}
-
-JunctionCuts JunctionTimer::cuts_between(const Laid& a, const Laid& b, Milliseconds pause) {
+JunctionCuts JunctionTimer::cuts_between(const Laid& a, const Laid& b, Milliseconds pause, JunctionScratch& scratch) {
   const bool choose = chooser_.has_value();
   const bool fitted = settings_.fit != nullptr && !settings_.fit->weights.empty();
   Seconds duration = settings_.fit != nullptr ? settings_.fit->mean : Seconds(settings_.duration);
-  if (choose || fitted) read(a, b, choose ? frames_in(kLongestKept, settings_.rate) : 0);
+  Sides sides;
+  if (choose || fitted) {
+    sides = read(settings_, a, b, choose ? frames_in(kLongestKept, settings_.rate) : 0, scratch);
+  }
   if (fitted) {
     // The transition as it is where nothing of it is kept.
     const Gap whole{.skeleton = settings_.skeleton.get(),
                     .groups = &settings_.rig->groups,
                     .rate = settings_.rate,
-                    .before = view_of(left_, {0, from_.stroke + 1}),
-                    .after = view_of(right_, {to_.stroke, right_.frame_count()}),
+                    .before = view_of(scratch.left, {0, sides.from.stroke + 1}),
+                    .after = view_of(scratch.right, {sides.to.stroke, scratch.right.frame_count()}),
                     .count = 1};
     TransitionTask task = task_of(whole, settings_.rig->signer);
     for (HandTask& hand : task.hands) {  // as at tempo 1
@@ -79,9 +88,9 @@ JunctionCuts JunctionTimer::cuts_between(const Laid& a, const Laid& b, Milliseco
     return cuts;
   }
   TransitionRoom known = room;  // what was read
-  known.retraction = from_.frames.frames - 1 - from_.stroke;
-  known.preparation = to_.stroke;
-  cuts.parts = chooser_->choose(known, from_, to_);
+  known.retraction = sides.from.frames.frames - 1 - sides.from.stroke;
+  known.preparation = sides.to.stroke;
+  cuts.parts = chooser_->choose(known, sides.from, sides.to);
   return cuts;
 }
 
@@ -105,7 +114,8 @@ std::int64_t JunctionFiller::context() const noexcept {
 }
 
 void JunctionFiller::fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window,
-                          Motion& shared) {
+                          JunctionScratch& scratch) {
+  Motion& shared = scratch.shared;
   const bool as_one = std::ranges::all_of(cuts, [&](const TransitionCut& cut) { return cut == cuts.front(); });
   turn_signs(a, b, cuts, window, shared);
   if (cuts.front().overlap() > 0) {
@@ -117,7 +127,7 @@ void JunctionFiller::fill(const Laid& a, const Laid& b, const TransitionCuts& cu
   for (std::size_t part = 0; part < (as_one ? 1 : kTimed); ++part) {
     const FrameRange gap{a.core_end() + cuts[part].retraction_frames, b.core - cuts[part].preparation_frames};
     if (gap.empty()) continue;
-    fill_gap(a, b, gap, as_one ? GroupSet::all() : groups_of(kAllTimed[part]), cuts[part], window);
+    fill_gap(a, b, gap, as_one ? GroupSet::all() : groups_of(kAllTimed[part]), cuts[part], window, scratch.gap);
   }
   for (const Timed part : {Timed::left, Timed::right}) {
     const TransitionCut& cut = cuts[static_cast<std::size_t>(part)];
@@ -198,14 +208,14 @@ Gap JunctionFiller::gap_at(const Laid& a, const Laid& b, FrameRange frames, Outp
 }
 
 void JunctionFiller::fill_gap(const Laid& a, const Laid& b, FrameRange frames, GroupSet groups,
-                              const TransitionCut& cut, OutputWindow window) {
+                              const TransitionCut& cut, OutputWindow window, GapScratch& scratch) const {
   static const GapMethod* const waiting =
       find_gap_method("sine");  // from rest to rest, whatever noise the borders have
   Gap gap = gap_at(a, b, frames, window);
   gap.pause = static_cast<double>(cut.pause_frames) * gap.rate.frame_time();
   const GapMethod& method = cut.waits ? *waiting : *settings_.method->fill;
   const TransitionModel& model = settings_.model != nullptr ? *settings_.model : default_transition_model();
-  method.fill({.gap = gap, .model = model, .groups = groups, .scratch = scratch_}, window.poses(frames));
+  method.fill({.gap = gap, .model = model, .groups = groups, .scratch = scratch}, window.poses(frames));
 }
 
 }  // namespace signweave

@@ -31,21 +31,23 @@ struct JunctionCuts {
   TransitionCut tracks;  ///< of the scalar tracks, which know no poses
 };
 
-/// Times and cuts junctions, reading what lies around them. Used for many it allocates for the first ones only.
+/// Memory that junctions use; kept from one to the next, so that only the first ones allocate.
+struct JunctionScratch {
+  Motion left, right;  ///< what lies around the cuts
+  Motion shared;       ///< the frames of a stretch that the one before has too
+  GapScratch gap;
+};
+
+/// Times and cuts junctions, reading what lies around them.
 class JunctionTimer {
  public:
   explicit JunctionTimer(const JunctionSettings& settings);
 
   /// Of two stretches that are laid, wherever they lie. Throws Error{corrupt}.
-  JunctionCuts cuts_between(const Laid& a, const Laid& b, Milliseconds pause);
+  JunctionCuts cuts_between(const Laid& a, const Laid& b, Milliseconds pause, JunctionScratch& scratch);
 
  private:
-  void read(const Laid& a, const Laid& b, std::int64_t most);
-  void read(const Laid& laid, FrameRange frames, Motion& out);
-
   JunctionSettings settings_;
-  Motion left_, right_;
-  CutSide from_, to_;
   std::optional<CutChooser> chooser_;
 };
 
@@ -75,9 +77,9 @@ class JunctionFiller {
   std::int64_t context() const noexcept;
 
   /// The transition: Algorithm 1, lines 3 to 6. The window has what both sides keep of it already, and of both cores
-  /// `context()` frames or all; the frames that they share are there as a's, and in `shared` as b's. Quaternions of b
-  /// in the window may be turned to their negatives.
-  void fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, Motion& shared);
+  /// `context()` frames or all; the frames that they share are there as a's, and in `scratch.shared` as b's.
+  /// Quaternions of b in the window may be turned to their negatives.
+  void fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, JunctionScratch& scratch);
 
  private:
   void turn_signs(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, Motion& shared) const;
@@ -85,11 +87,10 @@ class JunctionFiller {
   void take_over(const Laid& b, const TransitionCuts& cuts, OutputWindow window, const Motion& shared) const;
   Gap gap_at(const Laid& a, const Laid& b, FrameRange frames, OutputWindow window) const;
   void fill_gap(const Laid& a, const Laid& b, FrameRange frames, GroupSet groups, const TransitionCut& cut,
-                OutputWindow window);
+                OutputWindow window, GapScratch& scratch) const;
 
   JunctionSettings settings_;
   BodyGuard guard_;
-  GapScratch scratch_;
 };
 
 }  // namespace signweave

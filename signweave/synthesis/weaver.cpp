@@ -9,6 +9,30 @@
 #include "signweave/synthesis/carry_tracks.h"
 
 namespace signweave {
+namespace {
+
+/// Memory of a thread for the junctions that it makes, whosever they are: it is large, and needed for a moment only.
+struct WeavingScratch {
+  JunctionScratch junction;
+  Motion window, core;
+  std::vector<ScalarTrack> tracks;
+};
+WeavingScratch& scratch() {
+  thread_local WeavingScratch kept;
+  return kept;
+}
+
+/// Where the signer stands over the core of a stretch.
+Standing standing_of(const Laid& laid, const JunctionSettings& settings) {
+  Laid alone = laid;
+  alone.core = 0;
+  Motion& core = scratch().core;
+  core.reset(settings.skeleton, settings.rate, alone.core_frames);
+  read_frames(alone, {0, alone.core_frames}, core.poses({0, alone.core_frames}));
+  return standing_over(core, {0, alone.core_frames});
+}
+
+}  // namespace
 
 Weaver::Weaver(const JunctionSettings& settings, std::vector<std::string> tracks, Alignment alignment,
                const Stretch& home)
@@ -18,11 +42,7 @@ Weaver::Weaver(const JunctionSettings& settings, std::vector<std::string> tracks
       home_recording_(home.recording),
       timer_(settings),
       filler_(settings) {
-  for (const std::string& name : tracks_) window_tracks_.push_back({name, {}});
-  Laid laid = lay(home, settings_.rate, settings_.tempo);
-  core_.reset(settings_.skeleton, settings_.rate, laid.core_frames);
-  read_frames(laid, {0, laid.core_frames}, core_.poses({0, laid.core_frames}));
-  home_ = standing_over(core_, {0, laid.core_frames});
+  home_ = standing_of(lay(home, settings_.rate, settings_.tempo), settings_);
 }
 
 void Weaver::lay_sign(Woven& woven) const {
@@ -54,15 +74,12 @@ void Weaver::lay_frames(Woven& woven) const {
 
 void Weaver::place(Woven& woven) {
   if (!woven.aligned || woven.transform) return;
-  Laid alone = woven.laid;
-  alone.core = 0;
-  core_.reset(settings_.skeleton, settings_.rate, alone.core_frames);
-  read_frames(alone, {0, alone.core_frames}, core_.poses({0, alone.core_frames}));
-  woven.transform = align(standing_over(core_, {0, alone.core_frames}), home_);
+  woven.transform = align(standing_of(woven.laid, settings_), home_);
 }
 
 JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
-  const JunctionCuts cuts = timer_.cuts_between(a.laid, b.laid, b.stretch.pause_before);
+  WeavingScratch& memory = scratch();
+  const JunctionCuts cuts = timer_.cuts_between(a.laid, b.laid, b.stretch.pause_before, memory.junction);
   a.laid.after = 0;
   b.laid.before = 0;
   lay_after(a.laid, b.laid, cuts);
@@ -70,17 +87,17 @@ JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
   const std::int64_t context = filler_.context();
   const FrameRange frames{std::max(a.laid.core, a.laid.core_end() - context),
                           std::min(b.laid.core + context, b.laid.core_end())};
-  window_.reset(settings_.skeleton, settings_.rate, frames.size());
-  const OutputWindow window{window_, frames.begin};
+  memory.window.reset(settings_.skeleton, settings_.rate, frames.size());
+  const OutputWindow window{memory.window, frames.begin};
   const std::int64_t shared = JunctionFiller::shared(a.laid, b.laid);
   const FrameRange of_a{frames.begin, a.laid.end()};
   const FrameRange both{b.laid.begin(), b.laid.begin() + shared};
   const FrameRange of_b{both.end, frames.end};
-  shared_.reset(settings_.skeleton, settings_.rate, shared);
+  memory.junction.shared.reset(settings_.skeleton, settings_.rate, shared);
   read_poses(a, of_a, window.poses(of_a));
-  read_poses(b, both, shared_.poses({0, shared}));
+  read_poses(b, both, memory.junction.shared.poses({0, shared}));
   read_poses(b, of_b, window.poses(of_b));
-  filler_.fill(a.laid, b.laid, cuts.parts, window, shared_);
+  filler_.fill(a.laid, b.laid, cuts.parts, window, memory.junction);
 
   const FrameRange between{a.laid.core_end(), b.laid.core};
   made.reset(settings_.skeleton, settings_.rate, between.size());
@@ -92,8 +109,10 @@ JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
     std::array laid = {a.laid, b.laid};
     laid[0].after = cuts.tracks.retraction_frames;
     laid[1].before = cuts.tracks.preparation_frames;
-    carry_tracks(laid, frames, window_tracks_);
-    for (const ScalarTrack& track : window_tracks_) {
+    memory.tracks.resize(tracks_.size());
+    for (std::size_t i = 0; i < tracks_.size(); ++i) memory.tracks[i].name = tracks_[i];
+    carry_tracks(laid, frames, memory.tracks);
+    for (const ScalarTrack& track : memory.tracks) {
       const float* const values = track.values.data() + (between.begin - frames.begin);
       made.add_track({track.name, std::vector<float>(values, values + between.size())});
     }

@@ -65,8 +65,6 @@ class Weaver {
   Standing home_;
   JunctionTimer timer_;
   JunctionFiller filler_;
-  Motion window_, shared_, core_;
-  std::vector<ScalarTrack> window_tracks_;
 };
 
 }  // namespace signweave

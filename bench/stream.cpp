@@ -228,9 +228,9 @@ void paced_streams(const Server& server, Utterances& utterances, const std::file
     print_paced(name + "/first_time", ours.first_time, bare);
     print_missed(name + "/bare_loop/missed_of_due", bare);
     print_lateness(name + "/bare_loop", bare);
-    fmt::print("{}: messages of {:.0f} bytes; the client took {:.2f} cores, and {:.2f} beside the bare loop\n", name,
-               ours.again.message_bytes, ours.again.client_cpu_seconds / ours.again.seconds,
-               bare.client_cpu_seconds / bare.seconds);
+    const double of_client = ours.again.client_cpu_seconds / ours.again.seconds;
+    const double beside_bare = bare.client_cpu_seconds / bare.seconds;
+    print(name + "/cores_of_the_client", of_client, "cores", beside_bare, of_client / beside_bare, "-");
   }
 }
 

@@ -84,9 +84,7 @@ void HttpSession::look(Clock::time_point now) {
   close();
 }
 
-void HttpSession::drain() {
-  keep_alive_ = false;
-}
+void HttpSession::drain() {}  // the next answer ends the connection
 
 void HttpSession::read_first() {
   state_ = State::waiting;

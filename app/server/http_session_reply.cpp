@@ -106,7 +106,7 @@ void HttpSession::after_reply() {
   reply_ = {};
   request_ = {};
   chunk_ = {};
-  if (!keep_alive_ || thread_.context.draining) return linger();
+  if (!keep_alive_) return linger();
   within(thread_.context.options.limits.keep_alive);
   read_first();
 }

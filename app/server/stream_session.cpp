@@ -58,6 +58,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
         [](websocket::response_type& response) { response.set(http::field::server, "signweave"); }));
     socket_.read_message_max(limits.control_bytes);
     socket_.async_accept(request, [self = shared_from_this()](boost::system::error_code error) {
+      self->open_ = !error;
       if (!error) self->read();
     });
   }
@@ -67,8 +68,9 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
     read();
   }
   void drain() override {
+    if (!open_) return close();  // there is no WebSocket yet that could be closed
     if (sender_) sender_->stop();
-    draining_ = true;
+    if (std::exchange(draining_, true)) return;
     socket_.async_close({websocket::close_code::going_away, "the server is being stopped"},
                         [self = shared_from_this()](boost::system::error_code) {});
   }
@@ -158,6 +160,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
   websocket::stream<StreamSocket, false> socket_;
   boost::beast::flat_buffer buffer_;
   std::optional<FrameSender> sender_;
+  bool open_ = false;  // the handshake is done
   bool draining_ = false;
   bool reading_late_ = false;
   double tokens_;

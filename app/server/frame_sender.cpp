@@ -15,6 +15,8 @@ constexpr std::size_t kRoomForHeader = 10;  // of a WebSocket frame, at most
 constexpr std::size_t kMostEvents = 16 * 1024;
 /// Later than this the clock starts anew: the machine slept, and nobody wants the frames of that time at once.
 constexpr std::chrono::seconds kMostLate{1};
+/// A frame that is so late is left out: whoever was kept waiting wants to see what is signed now.
+constexpr std::chrono::milliseconds kStale{100};
 /// How long a client that takes all it gets may keep others waiting.
 constexpr std::chrono::milliseconds kFastTurn{1};
 /// Places in a row that cannot be signed; more than that are told at the next turn.
@@ -140,7 +142,7 @@ Clock::time_point FrameSender::send_due(Clock::time_point now) noexcept {
     at = now;
   }
   while (at <= now) {
-    const bool keep = out_.idle();
+    const bool keep = out_.idle() && now - at <= kStale;
     const std::uint64_t first = player_.frame();
     const std::size_t frames = take(batch_, keep);
     if (frames == 0) {

@@ -22,6 +22,7 @@ void ServedDatabase::change(const std::function<void(Database&)>& change) {
   }
   const std::lock_guard lock(changing_);
   change(database_);
+  signing_.warm_up();  // here, not when the next stream waits for its first frame
 }
 
 void ServedDatabases::add(const std::filesystem::path& folder, bool writable) {

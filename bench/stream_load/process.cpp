@@ -22,6 +22,8 @@ Process::Process(std::vector<std::string> command, std::filesystem::path errors)
   std::vector<char*> words;
   for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
+  std::error_code ignored;
+  std::filesystem::remove(errors_, ignored);  // what an earlier program said there is not this one's
   pid_ = fork();
   if (pid_ < 0) throw std::runtime_error(fmt::format("cannot start {}", command.front()));
   if (pid_ > 0) return;

@@ -440,6 +440,152 @@ TEST(Player, GoesOnForLongWithoutKeepingAllOfIt) {
   EXPECT_THROW(player.append(many), Error);
 }
 
+TEST(Player, GoesOnAfterAnEndThatWasPassedAtAnyTempo) {
+  for (const double tempo : {0.25, 0.4, 0.5, 0.7, 1.0, 1.3, 1.7, 2.0}) {
+    Player player(base(), {.idle = Idle::end});
+    player.sign(parse_utterance("DEMAIN"));
+    player.prepare(1);
+    player.set_tempo(tempo);
+    Shown shown;
+    show(player, shown);
+    EXPECT_EQ(shown.count(Kind::end), 1u) << tempo;
+    EXPECT_GT(shown.events.back().at, Milliseconds(0));
+    EXPECT_TRUE(player.idle()) << tempo;
+    player.append(parse_utterance("MATIN"));
+    EXPECT_FALSE(player.idle());
+    show(player, shown);
+    EXPECT_EQ(shown.count(Kind::place), 2u) << tempo;
+    EXPECT_EQ(shown.count(Kind::end), 2u) << tempo;
+  }
+}
+
+TEST(Player, ASeekWithoutAnUtteranceChangesNothing) {
+  for (const Idle idle : {Idle::end, Idle::living_rest}) {
+    Player player(base(), {.idle = idle});
+    player.sign(parse_utterance("DEMAIN MATIN"));
+    Shown shown;
+    show(player, shown, 90);
+    player.stop();
+    show(player, shown, 25);
+    player.seek(Milliseconds(0));
+    show(player, shown, 1000);
+    EXPECT_EQ(shown.count(Kind::seek), 0u);
+    EXPECT_TRUE(player.idle());
+    EXPECT_LT(greatest_step(shown.motion).first, 0.5f);
+  }
+}
+
+TEST(Player, StoppingTwiceIsStoppingOnce) {
+  const std::string text = "BRETAGNE MATIN NUAGES VANNES DEMAIN PLUIE";
+  for (std::size_t at = 5; at < 500; at += 23) {
+    std::vector<std::int64_t> frames;
+    for (const std::size_t second : {0u, 1u, 5u}) {
+      Player player(base(), {.idle = Idle::end});
+      player.sign(parse_utterance(text));
+      Shown shown;
+      show(player, shown, at);
+      player.stop();
+      show(player, shown, second);
+      if (second > 0) player.stop();
+      show(player, shown);
+      EXPECT_TRUE(player.idle());
+      EXPECT_LT(greatest_step(shown.motion).first, 0.65f) << at << " " << second;
+      frames.push_back(shown.motion.frame_count());
+    }
+    EXPECT_EQ(frames[0], frames[1]) << at;
+  }
+}
+
+TEST(Player, ASignThatEndsSoonIsFinished) {
+  Player player(base(), {.idle = Idle::end});
+  player.sign(parse_utterance("DEMAIN#1 MATIN#1"));
+  Shown shown;
+  show(player, shown, 2, 2);
+  while (shown.count(Kind::place) < 1) show(player, shown, 1, 1);
+  const auto begun = static_cast<std::int64_t>(player.frame());
+  player.prepare(Player::kMostReady);
+  player.stop();
+  show(player, shown);
+  const Synthesized made = synthesize(corpus(), parse_utterance("DEMAIN#1"));
+  EXPECT_EQ(shown.motion.frame_count(), made.result.motion.frame_count()) << begun;
+}
+
+TEST(Player, ALoopMayBeginAfterTheEnd) {
+  Player player(base(), {.idle = Idle::end});
+  player.sign(parse_utterance("DEMAIN MATIN"));
+  Shown shown;
+  show(player, shown);
+  player.set_loop(true);
+  show(player, shown, 2000);
+  EXPECT_GE(shown.count(Kind::place), 6u);
+  EXPECT_LT(greatest_step(shown.motion).first, 0.65f);
+}
+
+TEST(Player, SeeksWithinARoundOfALoop) {
+  Player player(base(), {.loop = true});
+  player.sign(parse_utterance("DEMAIN MATIN NUAGES"));
+  Shown shown;
+  show(player, shown, 2);
+  Milliseconds last{0};
+  while (shown.count(Kind::place) < 3) show(player, shown, 1, 1);
+  last = shown.events.back().at;
+  player.prepare(Player::kMostReady);  // the next round
+  player.seek(last);
+  Shown again;
+  show(player, again, 400);
+  ASSERT_GE(again.events.size(), 2u);
+  EXPECT_EQ(again.events[0].kind, Kind::seek);
+  EXPECT_EQ(again.events[0].at, last);
+  EXPECT_EQ(again.events[1].place, 2u);
+}
+
+TEST(Player, SurvivesAnything) {
+  const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
+  std::mt19937 random(23);
+  for (int round = 0; round < 60; ++round) {
+    Player player(base(), {.synthesis = {.rate = FrameRate{random() % 2 == 0 ? 60 : 100, 1}},
+                           .idle = random() % 2 == 0 ? Idle::end : Idle::living_rest,
+                           .loop = random() % 4 == 0});
+    Shown shown;
+    for (int step = 0; step < 40; ++step) {
+      const std::string gloss = to_string(GlossRef{glosses[random() % glosses.size()], 0});
+      switch (random() % 9) {
+        case 0:
+          player.sign(parse_utterance(gloss + " DEMAIN MATIN"));
+          break;
+        case 1:
+        case 2:
+          player.append(parse_utterance(gloss));
+          break;
+        case 3:
+          player.stop();
+          break;
+        case 4:
+        case 5:
+          player.seek(Milliseconds(random() % 4000));
+          break;
+        case 6:
+          player.set_tempo(random() % 2 == 0 ? 1.0 : 0.25 + 0.01 * static_cast<double>(random() % 175));
+          break;
+        case 7:
+          player.set_loop(random() % 2 == 0);
+          break;
+        default:
+          break;
+      }
+      show(player, shown, random() % 80, 1 + random() % 60);
+    }
+    for (const Eigen::Quaternionf& q : shown.motion.rotations()) ASSERT_NEAR(q.norm(), 1.0f, 1e-3f) << round;
+    player.set_loop(false);
+    player.set_tempo(1);
+    player.append(parse_utterance("DEMAIN"));
+    Shown end;
+    show(player, end, 3000);
+    EXPECT_TRUE(player.idle()) << round;
+    EXPECT_GE(end.count(Kind::place), 1u) << round;
+  }
+}
+
 TEST(Player, StopsSoon) {
   Player player(base(), {});
   player.sign(parse_utterance("DEMAIN MATIN VANNES PLUIE RENNES NUAGES"));

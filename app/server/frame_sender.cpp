@@ -13,8 +13,6 @@ constexpr unsigned kBinary = 2;
 constexpr std::size_t kRoomForHeader = 10;  // of a WebSocket frame, at most
 /// A client that has more text unread is told no events.
 constexpr std::size_t kMostEvents = 16 * 1024;
-/// Later than this the clock starts anew: the machine slept, and nobody wants the frames of that time at once.
-constexpr std::chrono::seconds kMostLate{1};
 /// A frame that is so late is left out: whoever was kept waiting wants to see what is signed now.
 constexpr std::chrono::milliseconds kStale{100};
 /// How long a client that takes all it gets may keep others waiting.
@@ -128,7 +126,7 @@ void FrameSender::passed(std::size_t frames) noexcept {
 
 Clock::time_point FrameSender::tick(Clock::time_point now) noexcept {
   const Clock::time_point next = send_due(now);
-  if (next == kNever ? starved_ : ready_ < ahead_ / 2) thread_.pacer.want_work(*this);
+  if (next == kNever ? starved_ : ready_ < ahead_ / 4) thread_.pacer.want_work(*this);
   return next;
 }
 
@@ -136,13 +134,10 @@ Clock::time_point FrameSender::send_due(Clock::time_point now) noexcept {
   if (!flowing_ || stopped_) return kNever;
   Metrics& metrics = thread_.metrics;
   Clock::time_point at = due();
-  if (now - at > kMostLate) {
-    start_clock(now);
-    metrics.late.add();
-    at = now;
-  }
   while (at <= now) {
-    const bool keep = out_.idle() && now - at <= kStale;
+    const auto next =
+        at + std::chrono::duration_cast<Clock::duration>(static_cast<double>(batch_) * rate_.frame_time());
+    const bool keep = out_.idle() && (now - at <= kStale || next > now);
     const std::uint64_t first = player_.frame();
     const std::size_t frames = take(batch_, keep);
     if (frames == 0) {
@@ -248,6 +243,10 @@ void FrameSender::prepare(std::size_t frames) {
       break;
     } catch (const Error& error) {  // of one place, which is left out; the next call goes on
       out_.send_text(error_text(error.code(), error.what(), {}));
+    } catch (const std::exception& error) {  // no memory, for one: this stream has no future, the others have
+      out_.send_text(error_text(ErrorCode::io, error.what(), {}));
+      stop();
+      return;
     }
   }
   thread_.metrics.prepare.observe(Seconds(Clock::now() - begin).count());

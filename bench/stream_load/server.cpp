@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -10,8 +11,18 @@
 
 namespace signweave::bench {
 
+namespace {
+
+/// The program of this build, or another one, such as one with sanitizers.
+std::string program() {
+  const char* other = std::getenv("SIGNWEAVE_PROGRAM");
+  return other != nullptr ? other : SIGNWEAVE_PROGRAM;
+}
+
+}  // namespace
+
 Server::Server(const std::filesystem::path& database, const std::filesystem::path& work)
-    : process_({SIGNWEAVE_PROGRAM, "serve", database.string(), "--listen", "127.0.0.1:0"}, work / "server.log"),
+    : process_({program(), "serve", database.string(), "--listen", "127.0.0.1:0"}, work / "server.log"),
       port_(static_cast<std::uint16_t>(std::stoi(process_.wait_for_line("listening on http://127.0.0.1:")))) {}
 
 std::unique_ptr<Connection> Server::open(std::string_view options) const {

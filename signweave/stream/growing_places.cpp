@@ -27,6 +27,11 @@ void GrowingUtterance::check(const Utterance& utterance, std::size_t waiting) {
     throw Error(ErrorCode::bad_input, fmt::format("{} signs would wait, more than {}; send the others later",
                                                   waiting + utterance.places.size(), kMostPlaces));
   }
+  if (std::ranges::count(utterance.places, Place::Kind::piece, &Place::kind) >
+      static_cast<std::ptrdiff_t>(kMostPieces)) {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("more than {} pieces of recordings at once; send the others later", kMostPieces));
+  }
   for (const Place& place : utterance.places) {
     if (place.pause_before <= kLongestPause) continue;
     throw Error(ErrorCode::bad_input, fmt::format("a pause of {} ms is longer than {} ms; leave out some of its signs",
@@ -50,8 +55,13 @@ const GrowingUtterance::Decision& GrowingUtterance::decide(std::size_t place) {
   const bool after_another = place > 0 && decisions_[place - 1] && decisions_[place - 1]->contents == contents;
   if (after_another) choices.push_back({{decisions_[place - 1]->candidate}, Milliseconds(0)});
   const std::size_t last = std::min(place + options_.look_ahead, places_.size() - 1);
-  for (std::size_t i = place; i <= last; ++i) {
-    choices.push_back({*base_.candidates(contents, places_[i]), places_[i].pause_before});
+  choices.push_back({*own, places_[place].pause_before});
+  for (std::size_t i = place + 1; i <= last; ++i) {
+    try {
+      choices.push_back({*base_.candidates(contents, places_[i]), places_[i].pause_before});
+    } catch (const Error&) {  // told when its time comes
+      break;
+    }
   }
   const Seconds transition = base_.durations(contents, options_.synthesis.duration)->mean;
   const Selection selection = select(snapshot, choices, {.transition = transition});
@@ -157,7 +167,7 @@ void GrowingUtterance::rest_in(const std::string& recording) {
 void GrowingUtterance::sign_next() {
   if (next_ >= places_.size()) {  // a loop begins anew
     next_ = 0;
-    entries_.clear();
+    last_round_ = std::exchange(entries_, {});
     last_signs_.reset();
   }
   const std::size_t first = next_++;  // whatever happens, it is not tried again
@@ -176,7 +186,7 @@ void GrowingUtterance::sign_next() {
   while (goes_on(signs, last + 1)) go_on_with(signs, decisions_[++last]->candidate);
   woven->stretch.core = signs.core;
   woven->stretch.whole = signs.whole;
-  if (!weaver_) begin_header(woven->stretch, decision.contents);
+  if (!header_) begin_header(woven->stretch, decision.contents);
   weaver_->lay_sign(*woven);
   woven->key = key_of(woven->stretch);
 
@@ -187,6 +197,7 @@ void GrowingUtterance::sign_next() {
     tail_->laid.core = end_ - history();
   } else if (state_ == State::resting) {
     tail_->laid.core_frames = end_ - tail_->laid.core;
+    tail_->key.clear();  // the way out of it depends on the moment
   }
   if (tail_ == nullptr) {
     woven->laid.before = woven->laid.preparation;

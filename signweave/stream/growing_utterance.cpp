@@ -42,7 +42,42 @@ void GrowingUtterance::append(FrameRange frames, std::shared_ptr<const Motion> m
   end_ = frames.end;
 }
 
-bool GrowingUtterance::extend() {
+bool GrowingUtterance::extend(const FrameRing& shown) {
+  try {
+    return grow();
+  } catch (const Error&) {
+    if (tail_ != nullptr && !can_read(*tail_)) go_on_from(shown);
+    throw;
+  }
+}
+
+/// False where what is laid has been removed since, or is damaged.
+bool GrowingUtterance::can_read(const Woven& woven) const {
+  Motion one(header_->skeleton, header_->rate, 1);
+  const std::int64_t last = woven.laid.core_end() - 1;
+  try {
+    weaver_->read(woven, {last, last + 1}, one.poses({0, 1}), {});
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Nothing follows the frames that are made but what is signed next, from there: what was laid cannot be read.
+void GrowingUtterance::go_on_from(const FrameRing& made) {
+  last_sign_.reset();
+  last_signs_.reset();
+  if (made.end() > made.begin()) {
+    tail_ = history_of(made.end(), made);
+    state_ = State::at_core;
+  } else {
+    tail_.reset();
+    state_ = State::nothing;
+  }
+  cut(made.end());
+}
+
+bool GrowingUtterance::grow() {
   if (has_next()) {
     sign_next();
     return true;
@@ -57,7 +92,9 @@ bool GrowingUtterance::extend() {
       } else {
         append({end_, end_ + tail_->laid.retraction}, tail_);
         state_ = State::ended;
-        events_.push_back({.kind = PlayerEvent::Kind::end, .frame = static_cast<std::uint64_t>(end_)});
+        events_.push_back({.kind = PlayerEvent::Kind::end,
+                           .frame = static_cast<std::uint64_t>(end_),
+                           .at = end_of_last_sign() + time_of(tail_->laid.retraction)});
       }
       return true;
     case State::resting:
@@ -83,10 +120,13 @@ void GrowingUtterance::go_to_rest() {
   WovenPtr rest = living_rest();
   rest->key = "rest";
   std::shared_ptr<const Motion> made = join(*tail_, *rest);
+  const std::int64_t made_frames = made->frame_count();
   append({end_, rest->laid.core}, std::move(made));
   tail_ = std::move(rest);
   state_ = State::resting;
-  events_.push_back({.kind = PlayerEvent::Kind::rest, .frame = static_cast<std::uint64_t>(end_)});
+  events_.push_back({.kind = PlayerEvent::Kind::rest,
+                     .frame = static_cast<std::uint64_t>(end_),
+                     .at = end_of_last_sign() + time_of(made_frames)});
   append({end_, end_ + kRestFramesAtOnce}, tail_);
 }
 
@@ -141,7 +181,7 @@ void GrowingUtterance::cut(std::int64_t end) {
   while (!segments_.empty() && segments_.back().frames.begin >= end) segments_.pop_back();
   if (!segments_.empty()) segments_.back().frames.end = std::min(segments_.back().frames.end, end);
   while (!events_.empty() && events_.back().frame >= static_cast<std::uint64_t>(end)) events_.pop_back();
-  end_ = end;
+  end_ = std::min(end_, end);
 }
 
 /// Goes on from what is shown, whatever it is.
@@ -150,6 +190,7 @@ void GrowingUtterance::leave(std::int64_t next, const FrameRing& shown) {
   last_sign_.reset();
   if (state_ == State::resting && next > tail_->laid.core) {
     tail_->laid.core_frames = next - tail_->laid.core;
+    tail_->key.clear();  // the way out of it depends on the moment
   } else if (next > shown.begin()) {
     tail_ = history_of(next, shown);
   } else {  // nothing was shown yet
@@ -167,7 +208,17 @@ void GrowingUtterance::add(const Utterance& utterance, std::int64_t next, const 
   forget_places();
   places_.insert(places_.end(), utterance.places.begin(), utterance.places.end());
   decisions_.resize(places_.size());
-  if (utterance.places.empty() || (state_ != State::resting && state_ != State::ended)) return;
+  if (!utterance.places.empty()) reopen(next, shown);
+}
+
+void GrowingUtterance::set_loop(bool loop, std::int64_t next, const FrameRing& shown) {
+  loop_ = loop;
+  if (has_next()) reopen(next, shown);
+}
+
+/// Something follows after all what was thought the end.
+void GrowingUtterance::reopen(std::int64_t next, const FrameRing& shown) {
+  if (state_ != State::resting && state_ != State::ended) return;
   if (last_sign_ != nullptr && next <= last_sign_->laid.core_end()) {  // what follows it was not shown yet
     tail_ = last_sign_;
     cut(tail_->laid.core_end());
@@ -189,7 +240,11 @@ void GrowingUtterance::forget_places() {
     entry.first -= count;
     entry.last -= count;
   }
-  if (!entries_.empty()) entries_.front().joined = false;
+  if (!entries_.empty()) {
+    Entry& front = entries_.front();
+    front.joined = false;
+    front.begin = front.core - front.woven->laid.preparation;
+  }
   next_ -= count;
   forgotten_ += count;
 }
@@ -202,6 +257,7 @@ void GrowingUtterance::replace(const Utterance& utterance, std::int64_t next, co
   decisions_.resize(places_.size());
   forgotten_ = 0;
   entries_.clear();
+  last_round_.clear();
   last_signs_.reset();
   next_ = 0;
   if (finished || state_ == State::nothing) return;
@@ -212,6 +268,13 @@ void GrowingUtterance::replace(const Utterance& utterance, std::int64_t next, co
 
 /// Where a sign's core is shown, the timeline ends with that sign, or at once where it lasts long. False where none is.
 bool GrowingUtterance::finish_sign(std::int64_t next) {
+  if (entries_.empty() && last_sign_ != nullptr && next >= last_sign_->laid.core &&
+      next < last_sign_->laid.core_end()) {  // as it was cut when the last utterance began
+    tail_ = last_sign_;
+    cut(tail_->laid.core_end());
+    state_ = State::at_core;
+    return true;
+  }
   const auto shown = std::ranges::find_if(
       segments_, [&](const Segment& segment) { return next >= segment.frames.begin && next < segment.frames.end; });
   if (shown == segments_.end() || shown->woven == nullptr) return false;
@@ -249,33 +312,52 @@ bool GrowingUtterance::finish_sign(std::int64_t next) {
   return true;
 }
 
-void GrowingUtterance::seek(std::int64_t at, std::int64_t next) {
-  if (entries_.empty()) return;
-  const Entry& newest = entries_.back();
-  at = std::clamp<std::int64_t>(at, entries_.front().begin, newest.core + newest.woven->laid.core_frames - 1);
-  auto entry = entries_.end() - 1;
-  while (entry != entries_.begin() && entry->begin > at) --entry;
-  const auto index = static_cast<std::size_t>(entry - entries_.begin());
-  WovenPtr woven = entry->woven;
+bool GrowingUtterance::seek(std::int64_t at, std::int64_t next) {
+  if (entries_.empty()) return false;
+  const auto end_of = [](const Entry& entry) { return entry.core + entry.woven->laid.core_frames; };
+  // A loop that has just begun anew: the round before tells what comes later.
+  const bool earlier = at >= end_of(entries_.back()) && !last_round_.empty();
+  const std::vector<Entry>& entries = earlier ? last_round_ : entries_;
+  at = std::clamp<std::int64_t>(at, entries.front().begin, end_of(entries.back()) - 1);
+  std::size_t index = entries.size() - 1;
+  while (index > 0 && entries[index].begin > at) --index;
+  const Entry& entry = entries[index];
+  const WovenPtr woven = entry.woven;
+  std::shared_ptr<const Motion> made;
+  if (at < entry.core && entry.joined) {
+    Woven& before = *entries[index - 1].woven;
+    const Laid was = before.laid;
+    const Laid will = woven->laid;
+    before.laid.core = next - (at - entries[index - 1].core);
+    try {
+      made = join(before, *woven);
+    } catch (const Error&) {  // nothing has changed
+      before.laid = was;
+      woven->laid = will;
+      throw;
+    }
+  } else {
+    woven->laid.core = next + entry.core - at;
+  }
   cut(next);
   segments_.clear();
+  end_ = next;
   events_.push_back({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
-  if (at < entry->core && entry->joined) {
-    const Entry& before = entries_[index - 1];
-    before.woven->laid.core = next - (at - before.core);
-    std::shared_ptr<const Motion> made = join(*before.woven, *woven);
+  if (made != nullptr) {
     append({next, woven->laid.core}, std::move(made));
   } else {
-    woven->laid.core = next + entry->core - at;
     append({next, woven->laid.core}, woven);
   }
   append({std::max(next, woven->laid.core), woven->laid.core_end()}, woven);
+  if (earlier) entries_ = std::move(last_round_);
+  last_round_.clear();
   entries_.resize(index + 1);
   next_ = entries_.back().last + 1;
   tail_ = last_sign_ = woven;
   last_signs_.reset();
   state_ = State::at_core;
   tell_places(entries_.back(), next);
+  return true;
 }
 
 void GrowingUtterance::read(std::int64_t until, FrameRing& ring) {
@@ -283,10 +365,16 @@ void GrowingUtterance::read(std::int64_t until, FrameRing& ring) {
   while (ring.end() < until) {
     const auto segment =
         std::ranges::find_if(segments_, [&](const Segment& one) { return one.frames.end > ring.end(); });
+    if (segment == segments_.end()) return;
     const std::int64_t count = ring.room(std::min({until, segment->frames.end, ring.end() + kChunk}) - ring.end());
     if (count <= 0) return;
     const MutablePoses poses = ring.poses(count);
-    read_segment(*segment, {ring.end(), ring.end() + count}, ring);
+    try {
+      read_segment(*segment, {ring.end(), ring.end() + count}, ring);
+    } catch (const Error&) {
+      go_on_from(ring);
+      throw;
+    }
     if (ring.end() > ring.begin()) {
       // One rotation keeps one sign over the whole stream.
       const PoseView before = ring.at(ring.end() - 1).pose;
@@ -342,6 +430,10 @@ bool GrowingUtterance::idle(std::int64_t frame) const noexcept {
   if (has_next()) return false;
   return state_ == State::nothing || (state_ == State::ended && frame >= end_) ||
          (state_ == State::resting && frame >= tail_->laid.core);
+}
+
+Milliseconds GrowingUtterance::end_of_last_sign() const noexcept {
+  return entries_.empty() ? Milliseconds(0) : time_of(entries_.back().core + entries_.back().woven->laid.core_frames);
 }
 
 Milliseconds GrowingUtterance::time_of(std::int64_t frames) const noexcept {

@@ -37,9 +37,11 @@ class GrowingUtterance {
   void add(const Utterance& utterance, std::int64_t next, const FrameRing& shown);
   /// Rests as the signer of a recording, before anything is signed. Throws Error{not_found}.
   void rest_in(const std::string& recording);
-  /// Goes on at a moment of the utterance, in output frames from its first; clamped to what is decided.
-  void seek(std::int64_t at, std::int64_t next);
-  void set_loop(bool loop) noexcept { loop_ = loop; }
+  /// Goes on at a moment of the utterance, in output frames from its first; clamped to what is decided. False where
+  /// nothing is: then nothing has changed. The timeline then ends at `next` or later, and all of it from there on is
+  /// new.
+  bool seek(std::int64_t at, std::int64_t next);
+  void set_loop(bool loop, std::int64_t next, const FrameRing& shown);
 
   const StreamHeader* header() const noexcept { return header_ ? &*header_ : nullptr; }
 
@@ -47,7 +49,8 @@ class GrowingUtterance {
   std::int64_t end() const noexcept { return end_; }
   /// Makes the timeline longer; false where nothing more can be known. Throws Error where a place cannot be signed; it
   /// is left out then, and the next call goes on.
-  bool extend();
+  /// `shown` has the frames that are made.
+  bool extend(const FrameRing& shown);
   /// Puts frames from the ring's end on into the ring, up to `until`, which must be known. Throws Error{corrupt}.
   void read(std::int64_t until, FrameRing& ring);
   /// Lets go of the database until it is needed again, and of the timeline before a frame.
@@ -57,6 +60,8 @@ class GrowingUtterance {
   std::optional<PlayerEvent> take_event(std::int64_t frame) noexcept;
   /// True where from this frame on nothing is left to sign.
   bool idle(std::int64_t frame) const noexcept;
+  /// True where the last retraction is the end of the timeline.
+  bool ended() const noexcept { return state_ == State::ended && !has_next(); }
 
   /// As many shown frames must be kept.
   std::int64_t history() const noexcept;
@@ -65,6 +70,8 @@ class GrowingUtterance {
   /// As many places may wait; and as many that are over are kept, for `seek`.
   static constexpr std::size_t kMostPlaces = 10'000;
   static constexpr std::size_t kKeptPlaces = 1'000;
+  /// Pieces of recordings in one utterance; each is looked up by itself.
+  static constexpr std::size_t kMostPieces = 256;
   /// A sign that ends within this is finished where another utterance begins.
   static constexpr Seconds kFinished{1.0};
 
@@ -110,6 +117,11 @@ class GrowingUtterance {
   WovenPtr living_rest() const;
   WovenPtr history_of(std::int64_t next, const FrameRing& shown) const;
   void leave(std::int64_t next, const FrameRing& shown);
+  void reopen(std::int64_t next, const FrameRing& shown);
+  bool grow();
+  bool can_read(const Woven& woven) const;
+  void go_on_from(const FrameRing& made);
+  Milliseconds end_of_last_sign() const noexcept;
   void cut(std::int64_t end);
   void forget_places();
   bool finish_sign(std::int64_t next);
@@ -144,6 +156,7 @@ class GrowingUtterance {
   WovenPtr last_sign_;                   ///< what was signed last; the rest may follow
   std::optional<Candidate> last_signs_;  ///< of it: what may go on from there
   std::vector<Entry> entries_;           ///< of this utterance, or this round of a loop
+  std::vector<Entry> last_round_;        ///< of the round before
   std::deque<Segment> segments_;
   std::int64_t end_ = 0;
   std::deque<PlayerEvent> events_;  ///< `frame` counts the timeline's

@@ -50,11 +50,21 @@ struct Player::State {
     const double last = part == 0 && tempo == 1 ? there - 1 : there - 1 - 1e-9;
     return last < 0 ? (part == 0 ? 1 : 0) : static_cast<std::size_t>(last / tempo) + 1;
   }
+  /// Where the stream is: at the end also where the last frame was not a whole one.
+  std::int64_t position() const noexcept {
+    return growing.ended() && next + 1 >= growing.end() && ready() == 0 ? growing.end() : next;
+  }
   /// What is left of the ring after the timeline was changed.
   void changed() {
     ring.cut(std::min(ring.end(), growing.end()));
     if (ring.end() == next) part = 0;
   }
+};
+
+/// Lets go of the database, and of what was taken, however a call ends.
+struct Player::LetGo {
+  State& state;
+  ~LetGo() { state.growing.let_go(state.next); }
 };
 
 Player::Player(SigningBase& base, PlayerOptions options) {
@@ -92,10 +102,10 @@ void Player::seek(Milliseconds at) {
   State& state = *state_;
   if (state.growing.header() == nullptr) return;
   const double frames = Seconds(at).count() * state.growing.header()->rate.hertz();
+  const LetGo let_go{state};
+  if (!state.growing.seek(std::llround(std::clamp(frames, 0.0, 1e12)), state.next)) return;
   state.ring.cut(state.next);
-  state.growing.seek(std::llround(std::clamp(frames, 0.0, 1e12)), state.next);
   state.part = 0;
-  state.changed();
 }
 
 void Player::set_tempo(double tempo) {
@@ -110,8 +120,9 @@ void Player::set_tempo(double tempo) {
   }
 }
 
-void Player::set_loop(bool loop) noexcept {
-  state_->growing.set_loop(loop);
+void Player::set_loop(bool loop) {
+  state_->growing.set_loop(loop, state_->next, state_->ring);
+  state_->changed();
 }
 
 const StreamHeader* Player::header() const noexcept {
@@ -121,12 +132,9 @@ const StreamHeader* Player::header() const noexcept {
 std::size_t Player::prepare(std::size_t frames) {
   State& state = *state_;
   frames = std::min(frames, kMostReady);
-  struct LetGo {
-    State& state;
-    ~LetGo() { state.growing.let_go(state.ring.end()); }
-  } const let_go{state};
+  const LetGo let_go{state};
   while (state.ready() < frames) {
-    if (state.growing.end() <= state.ring.end() && !state.growing.extend()) break;
+    if (state.growing.end() <= state.ring.end() && !state.growing.extend(state.ring)) break;
     state.open_ring();
     state.ring.forget(state.next - state.growing.history());
     const auto wanted =
@@ -158,6 +166,10 @@ bool Player::next(MutableFrameView out) noexcept {
   const double whole = std::floor(to);
   state.next += static_cast<std::int64_t>(whole);
   state.part = state.tempo == 1 ? 0 : to - whole;
+  if (state.next > state.ring.end()) {  // fast over the end
+    state.next = state.ring.end();
+    state.part = 0;
+  }
   ++state.taken;
   return true;
 }
@@ -167,7 +179,7 @@ std::uint64_t Player::frame() const noexcept {
 }
 
 std::optional<PlayerEvent> Player::take_event() noexcept {
-  std::optional<PlayerEvent> event = state_->growing.take_event(state_->next);
+  std::optional<PlayerEvent> event = state_->growing.take_event(state_->position());
   if (event) event->frame = state_->taken;
   return event;
 }
@@ -177,7 +189,7 @@ bool Player::paused() const noexcept {
 }
 
 bool Player::idle() const noexcept {
-  return state_->growing.idle(state_->next);
+  return state_->growing.idle(state_->position());
 }
 
 }  // namespace signweave

@@ -87,7 +87,7 @@ class Player {
   void seek(Milliseconds at);
   /// 0.25 to 2, at once: frames pass so much faster. Throws Error{bad_input} outside.
   void set_tempo(double tempo);
-  void set_loop(bool loop) noexcept;
+  void set_loop(bool loop);
   /// Leaves out what was not begun; the signer goes to rest, or ends.
   void stop();
 
@@ -116,6 +116,7 @@ class Player {
 
  private:
   struct State;
+  struct LetGo;
   std::unique_ptr<State> state_;
 };
 

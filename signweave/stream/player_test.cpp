@@ -142,5 +142,37 @@ TEST(PlayerBesideChanges, AStretchThatIsGoneIsLeftOutAndTheRestIsSigned) {
   EXPECT_TRUE(player.idle());
 }
 
+TEST(PlayerBesideChanges, GoesOnFromWhatWasShownWhereTheRestOfASignIsGone) {
+  for (const std::size_t shown : {5u, 40u, 120u}) {
+    const Corpus corpus;
+    SigningBase base(*corpus.database);
+    Player player(base, {});
+    player.sign(parse_utterance("\"c\"@0..2500 UN"));
+    player.prepare(1);
+    Taker taker(player);
+    for (std::size_t i = 0; i < shown; ++i) {
+      ASSERT_GE(player.prepare(1), 1u);
+      taker.take(player);
+    }
+    corpus.database->remove("c");
+    int faults = 0;
+    std::vector<std::string> glosses;
+    for (int round = 0; round < 1500; ++round) {
+      try {
+        player.prepare(1);
+      } catch (const Error&) {
+        ++faults;
+      }
+      taker.take(player);
+      while (const auto event = player.take_event()) {
+        if (event->kind == PlayerEvent::Kind::place && !event->gloss.empty()) glosses.push_back(event->gloss);
+      }
+    }
+    EXPECT_EQ(faults, 1) << shown;
+    EXPECT_EQ(glosses.back(), "UN") << shown;
+    EXPECT_TRUE(player.idle()) << shown;
+  }
+}
+
 }  // namespace
 }  // namespace signweave

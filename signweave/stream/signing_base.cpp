@@ -12,6 +12,9 @@ namespace {
 /// Glosses whose tokens are kept. A database may have more glosses than anybody asks for.
 constexpr std::size_t kMostKept = 8192;
 constexpr std::size_t kMostRigs = 1024;
+/// So many glosses of an utterance that nobody asked for before are looked up with all that is known of their tokens;
+/// of more it is only told whether they are there, so that the first frame does not wait for the last gloss.
+constexpr std::size_t kLookedAtWhole = 8;
 /// Recordings whose signers' rests are looked for ahead of time.
 constexpr std::size_t kMostRests = 64;
 
@@ -65,13 +68,17 @@ void SigningBase::warm_up() {
   for (const RecordingInfo& info : contents->recordings) {
     if (!info.motion || ++looked_at > kMostRests) continue;
     const FrameRange all{0, info.motion->frames};
-    const Stretch stretch{.recording = info.name,
-                          .source = std::make_shared<RecordingSource>(open, info),
-                          .whole = all,
-                          .core = clamp({0, kBodyFrames}, info.motion->frames),
-                          .clock = info.clock,
-                          .signs = {}};
-    rest(snapshot, stretch, *rig(contents, stretch));
+    try {
+      const Stretch stretch{.recording = info.name,
+                            .source = std::make_shared<RecordingSource>(open, info),
+                            .whole = all,
+                            .core = clamp({0, kBodyFrames}, info.motion->frames),
+                            .clock = info.clock,
+                            .signs = {}};
+      rest(snapshot, stretch, *rig(contents, stretch));
+    } catch (const Error& error) {  // told when it is signed
+      if (error.code() != ErrorCode::corrupt) throw;
+    }
   }
 }
 
@@ -90,11 +97,15 @@ void SigningBase::check(const std::shared_ptr<const Contents>& contents, const s
     const Known& known = of(contents);
     for (const Place& place : places) {
       const bool plain = place.kind == Place::Kind::gloss && place.gloss.token == 0;
-      const auto at = plain ? known.candidates.find(place.gloss.gloss) : known.candidates.end();
-      if (at == known.candidates.end() || at->second == nullptr) unknown.push_back(&place);
+      if (!plain || !known.candidates.contains(place.gloss.gloss)) unknown.push_back(&place);
     }
   }
-  for (const Place* place : unknown) candidates(contents, *place);
+  std::size_t looked_at = 0;
+  for (const Place* place : unknown) {
+    const bool plain = place->kind == Place::Kind::gloss && place->gloss.token == 0;
+    if (plain && ++looked_at > kLookedAtWhole && !tokens_of(*contents, place->gloss.gloss).empty()) continue;
+    candidates(contents, *place);
+  }
 }
 
 std::shared_ptr<const std::vector<Candidate>> SigningBase::candidates(const std::shared_ptr<const Contents>& contents,
@@ -104,13 +115,17 @@ std::shared_ptr<const std::vector<Candidate>> SigningBase::candidates(const std:
   }
   std::string key = place.gloss.gloss;
   if (place.gloss.token > 0) key += '\n' + std::to_string(place.gloss.token);
-  return look_up<std::vector<Candidate>>(
-      contents,
-      [&](Known & known) -> auto& {
-        if (known.candidates.size() > kMostKept) known.candidates.clear();
-        return known.candidates[key];
-      },
-      [&] { return candidates_for(*contents, place); });
+  {
+    const std::lock_guard lock(mutex_);
+    const Known& known = of(contents);
+    const auto at = known.candidates.find(key);
+    if (at != known.candidates.end()) return at->second;
+  }
+  auto made = std::make_shared<const std::vector<Candidate>>(candidates_for(*contents, place));
+  const std::lock_guard lock(mutex_);
+  Known& known = of(contents);
+  if (known.candidates.size() > kMostKept) known.candidates.clear();
+  return known.candidates.try_emplace(std::move(key), std::move(made)).first->second;
 }
 
 std::shared_ptr<const SignerRig> SigningBase::rig(const std::shared_ptr<const Contents>& contents,
@@ -119,7 +134,7 @@ std::shared_ptr<const SignerRig> SigningBase::rig(const std::shared_ptr<const Co
       contents,
       [&](Known & known) -> auto& {
         if (known.rigs.size() > kMostRigs) known.rigs.clear();
-        return known.rigs[{stretch.recording, stretch.core.begin}];
+        return known.rigs[{stretch.recording, stretch.core.begin, std::min(stretch.core.size(), kBodyFrames)}];
       },
       [&] { return signer_rig_of(stretch, contents->at(stretch.recording).rig); });
 }

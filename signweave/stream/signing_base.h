@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -48,7 +49,8 @@ class SigningBase {
   /// As `candidates_for`; throws what it throws.
   std::shared_ptr<const std::vector<Candidate>> candidates(const std::shared_ptr<const Contents>& contents,
                                                            const Place& place);
-  /// Throws what `candidates_for` throws for one of the places.
+  /// Throws what `candidates_for` throws for one of the places. Of a long utterance, glosses whose tokens all lack a
+  /// stroke or a motion may be told later.
   void check(const std::shared_ptr<const Contents>& contents, const std::vector<Place>& places);
   /// As `signer_rig_of` for a stretch of a recording.
   std::shared_ptr<const SignerRig> rig(const std::shared_ptr<const Contents>& contents, const Stretch& stretch);
@@ -75,9 +77,10 @@ class SigningBase {
     std::uint64_t number = 0;
     std::map<bool, std::shared_ptr<const DurationFit>> durations;  ///< by whether they may be fitted
     std::unordered_map<std::string, std::shared_ptr<const std::vector<Candidate>>> candidates;  ///< by the place
-    std::map<std::pair<std::string, std::int64_t>, std::shared_ptr<const SignerRig>> rigs;  ///< recording, first frame
-    std::map<std::string, std::shared_ptr<const CapturedSpans>> spans;                      ///< by recording
-    std::vector<std::shared_ptr<const KnownRest>> rests;  ///< few: of each signer one for each skeleton
+    std::map<std::tuple<std::string, std::int64_t, std::int64_t>, std::shared_ptr<const SignerRig>>
+        rigs;  ///< recording, first frame and count of those that it is told from
+    std::map<std::string, std::shared_ptr<const CapturedSpans>> spans;  ///< by recording
+    std::vector<std::shared_ptr<const KnownRest>> rests;                ///< few: of each signer one for each skeleton
     std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> declarations;
   };
   /// What is known of these contents; of others than the newest nothing is kept. Call it with the lock held.

@@ -112,13 +112,17 @@ class Filler {
            (options_.alignment == Alignment::automatic && plan_.laid[i].stretch->recording != home);
   }
 
+  static FrameRange standing_frames(const Laid& laid) {
+    return {laid.core, std::min(laid.core_end(), laid.core + kStandingFrames)};
+  }
+
   /// Where the reference's signer stands, while stretch i is filled: the frames that tell are there already, but for a
   /// stretch before the reference.
   const Standing& home(std::size_t i) {
     if (home_) return *home_;
     const Laid& reference = plan_.laid[options_.reference];
     if (options_.reference <= i) {
-      home_ = standing_over(out_.motion, {reference.core, reference.core_end()});
+      home_ = standing_over(out_.motion, standing_frames(reference));
     } else {
       const MotionSource& source = *reference.stretch->source;
       Motion core;
@@ -132,7 +136,7 @@ class Filler {
   void align_to_home(std::size_t i, FrameRange own) {
     if (!is_aligned(i)) return;
     const Laid& now = plan_.laid[i];
-    const GroundTransform transform = align(standing_over(out_.motion, {now.core, now.core_end()}), home(i));
+    const GroundTransform transform = align(standing_over(out_.motion, standing_frames(now)), home(i));
     for (std::int64_t k = 0; k < scratch_.shared.frame_count(); ++k)
       apply(transform, out_.motion.skeleton(), scratch_.shared.pose(k));
     for (std::int64_t frame = own.begin; frame < own.end; ++frame)

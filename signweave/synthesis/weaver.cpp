@@ -17,6 +17,7 @@ struct WeavingScratch {
   Motion window, core;
   std::vector<ScalarTrack> tracks;
 };
+constexpr std::int64_t kKeptFrames = 2'048;  ///< what takes more memory gives it back
 WeavingScratch& scratch() {
   thread_local WeavingScratch kept;
   return kept;
@@ -27,9 +28,12 @@ Standing standing_of(const Laid& laid, const JunctionSettings& settings) {
   Laid alone = laid;
   alone.core = 0;
   Motion& core = scratch().core;
-  core.reset(settings.skeleton, settings.rate, alone.core_frames);
-  read_frames(alone, {0, alone.core_frames}, core.poses({0, alone.core_frames}));
-  return standing_over(core, {0, alone.core_frames});
+  const FrameRange frames{0, std::min(alone.core_frames, kStandingFrames)};
+  core.reset(settings.skeleton, settings.rate, frames.size());
+  read_frames(alone, frames, core.poses(frames));
+  const Standing standing = standing_over(core, frames);
+  if (frames.size() > kKeptFrames) core = Motion();
+  return standing;
 }
 
 }  // namespace
@@ -80,6 +84,11 @@ void Weaver::place(Woven& woven) {
 JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
   WeavingScratch& memory = scratch();
   const JunctionCuts cuts = timer_.cuts_between(a.laid, b.laid, b.stretch.pause_before, memory.junction);
+  if (cuts.tracks.length > kMostMade) {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("a transition of {} frames is longer than {}; ask for a lower rate or a shorter duration",
+                            cuts.tracks.length, kMostMade));
+  }
   a.laid.after = 0;
   b.laid.before = 0;
   lay_after(a.laid, b.laid, cuts);
@@ -117,6 +126,7 @@ JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
       made.add_track({track.name, std::vector<float>(values, values + between.size())});
     }
   }
+  if (frames.size() > kKeptFrames) memory.window = Motion();
   return cuts;
 }
 

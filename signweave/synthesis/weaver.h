@@ -48,8 +48,11 @@ class Weaver {
 
   /// Where a stretch that none is before stands.
   void place(Woven& woven);
+  /// No more frames are made between two stretches.
+  static constexpr std::int64_t kMostMade = 20'000;
   /// Lays b behind a and makes the frames between: `made` has those from a's core's end to b's core, with the tracks.
-  /// Of a, frames before its core's end stay as they are. Throws Error{corrupt}.
+  /// Of a, frames before its core's end stay as they are. Throws Error{corrupt},
+  /// Error{bad_input} where there would be more than kMostMade.
   JunctionCuts join(Woven& a, Woven& b, Motion& made);
 
   /// Output frames of a stretch that is placed: of its preparation, core or retraction. `tracks`: a span for each.

@@ -71,6 +71,37 @@ Number whole_number(const Field& field, const json& value, bool texts) {
   return number;
 }
 
+constexpr std::size_t kMostNested = 64;
+
+/// Where the text opens one list or object too many, npos where it does not. To copy and write a value takes stack for
+/// each level of it, so depth must be refused before there is a value.
+std::size_t too_deep(std::string_view text) {
+  std::size_t depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_text) {
+      if (c == '\\') ++i;
+      in_text = c != '"';
+    } else if (c == '"') {
+      in_text = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kMostNested) return i;
+    } else if ((c == ']' || c == '}') && depth > 0) {
+      --depth;
+    }
+  }
+  return std::string_view::npos;
+}
+
+[[noreturn]] void refuse_body(std::string_view text, std::size_t at, const std::string& what) {
+  const std::string_view before = text.substr(0, at);
+  const auto line = 1 + std::ranges::count(before, '\n');
+  const std::size_t start = before.find_last_of('\n') + 1;  // npos + 1 is 0
+  const auto column = 1 + std::ranges::count_if(before.substr(start), [](char c) { return (c & 0xC0) != 0x80; });
+  throw Error(ErrorCode::bad_input, fmt::format("body:{}:{}: {}", line, column, what));
+}
+
 }  // namespace
 
 FieldReader::FieldReader(json object, const Texts& given) : object_(std::move(object)), given_(&given) {
@@ -168,16 +199,15 @@ void FieldReader::read(const Field& field, const json& value, std::size_t& membe
 
 json parse_body(std::string_view text) {
   if (trimmed(text).empty()) return json::object();
+  if (const std::size_t at = too_deep(text); at != std::string_view::npos) {
+    refuse_body(text, at, fmt::format("lists and objects are nested deeper than {}", kMostNested));
+  }
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {
     const std::size_t at = std::min(error.byte == 0 ? 0 : error.byte - 1, text.size());
-    const std::string_view before = text.substr(0, at);
-    const auto line = 1 + std::ranges::count(before, '\n');
-    const std::size_t start = before.find_last_of('\n') + 1;  // npos + 1 is 0
-    const auto column = 1 + std::ranges::count_if(before.substr(start), [](char c) { return (c & 0xC0) != 0x80; });
-    throw Error(ErrorCode::bad_input, fmt::format("body:{}:{}: this is no JSON; {}", line, column,
-                                                  at >= text.size() ? "it ends too early" : "look at this place"));
+    refuse_body(text, at,
+                fmt::format("this is no JSON; {}", at >= text.size() ? "it ends too early" : "look at this place"));
   } catch (const json::exception&) {  // a number that is out of range
     throw Error(ErrorCode::bad_input, "body:1:1: this is no JSON that can be read: a number is out of range");
   }

@@ -60,7 +60,8 @@ Call read_call(const Source& source, const Texts& given = {}) {
   return call;
 }
 
-/// A JSON document, empty text being an empty object. Throws Error{bad_input, "body:LINE:COLUMN: …"}.
+/// A JSON document, empty text being an empty object; lists and objects at most 64 deep. Throws Error{bad_input,
+/// "body:LINE:COLUMN: …"}.
 nlohmann::json parse_body(std::string_view text);
 
 }  // namespace signweave::calls

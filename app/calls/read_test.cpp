@@ -90,6 +90,21 @@ TEST(ParseBody, FaultsHaveLineAndColumn) {
   EXPECT_EQ(parse_body(" \n"), json::object());
 }
 
+TEST(ParseBody, WhatIsNestedTooDeepIsRefusedBeforeItIsRead) {
+  const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  EXPECT_EQ(parse_body(nested(64)).size(), 1u);
+  EXPECT_EQ(parse_body("{\"\\\"" + nested(200'000) + "\": \"" + nested(100) + "\"}").size(), 1u) << "in texts";
+  for (const std::string& text : {nested(65), std::string(200'000, '['), "{\"a\":\n" + nested(200'000) + "}"}) {
+    try {
+      parse_body(text);
+      ADD_FAILURE() << text.substr(0, 100);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::bad_input);
+      EXPECT_THAT(error.what(), HasSubstr("nested deeper than 64"));
+    }
+  }
+}
+
 TEST(SchemaOfCall, TellsTypesBoundsAndDefaults) {
   const SchemaWriter sign = schema_of_call<SignCall>();
   EXPECT_EQ(sign.required, std::vector<std::string>{"utterance"});

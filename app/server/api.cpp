@@ -106,6 +106,25 @@ ApiResponse answer_call(ApiState& state, const ApiRequest& request, std::string&
   return response;
 }
 
+/// What `make` gives, or the answer to what it throws.
+template <class Make>
+ApiResponse guarded(const ApiState& state, const std::string& allowed, Make make) {
+  const auto redact = [&](std::string text) { return redacted(state, std::move(text)); };
+  try {
+    return make();
+  } catch (const StatusError& error) {
+    ApiResponse response = error_answer(error, redact);
+    if (error.status() == 405) response.headers.emplace_back("Allow", allowed);
+    return response;
+  } catch (const Error& error) {
+    return error_answer(error, redact);
+  } catch (const std::bad_alloc&) {
+    return error_answer(StatusError(503, "no_memory", "not enough memory for this; ask for less"), redact);
+  } catch (const std::exception& error) {
+    return error_answer(Error(ErrorCode::io, error.what()), redact);
+  }
+}
+
 }  // namespace
 
 Api::Api(ServedDatabases& databases, ApiLimits limits, std::filesystem::path scratch) {
@@ -128,22 +147,26 @@ bool Api::takes_file(const ApiRequest& request) const {
   });
 }
 
-ApiResponse Api::answer(ApiRequest request) {
-  const auto redact = [this](std::string text) { return redacted(*state_, std::move(text)); };
+std::optional<ApiResponse> Api::refusal(const ApiRequest& request) {
   std::string allowed;
-  ApiResponse response;
-  try {
-    response = answer_call(*state_, request, allowed);
-  } catch (const StatusError& error) {
-    response = error_answer(error, redact);
-    if (error.status() == 405) response.headers.emplace_back("Allow", allowed);
-  } catch (const Error& error) {
-    response = error_answer(error, redact);
-  } catch (const std::bad_alloc&) {
-    response = error_answer(StatusError(503, "no_memory", "not enough memory for this; ask for less"), redact);
-  } catch (const std::exception& error) {
-    response = error_answer(Error(ErrorCode::io, error.what()), redact);
-  }
+  bool wanted = false;
+  ApiResponse response = guarded(*state_, allowed, [&] {
+    const Route& route = route_of(request, allowed);
+    const Call call{.state = *state_, .request = request, .route = route, .names = *match(route, request.path)};
+    check_request(call);
+    if (route.takes_file) {
+      state_->uploads.require_open(call.database().name(), call.names.at("upload"), call.names.at("file"));
+    }
+    wanted = true;
+    return ApiResponse{};
+  });
+  if (wanted) return std::nullopt;
+  return response;
+}
+
+ApiResponse Api::answer(ApiRequest request) {
+  std::string allowed;
+  ApiResponse response = guarded(*state_, allowed, [&] { return answer_call(*state_, request, allowed); });
   if (!request.body_file.empty()) {  // where it was not taken
     std::error_code ignored;
     std::filesystem::remove(request.body_file, ignored);

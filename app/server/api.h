@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,7 @@ struct ApiLimits {
   std::size_t answers = 100'000;               ///< a query gives no more
   Milliseconds sign_time{30'000};              ///< nor any other call, as far as it can be stopped
   std::size_t glosses = 10'000;                ///< of one utterance
+  std::int64_t frames = 500'000;               ///< of one result: above an hour at 100 frames a second
   std::uint64_t upload_bytes = 2'000'000'000;  ///< of all files of one upload
   std::size_t uploads = 16;                    ///< open at once
   Seconds upload_idle{3'600};                  ///< an upload that nobody touches goes away after so long
@@ -55,6 +57,9 @@ class Api {
   ApiResponse answer(ApiRequest request);
   /// True where the body of such a request belongs in a file (`body_file`): the server need not hold it.
   bool takes_file(const ApiRequest& request) const;
+  /// The answer to a request whose body need not come, for no body could make it good: the database is not writable,
+  /// there is no such upload. None where the body is wanted.
+  std::optional<ApiResponse> refusal(const ApiRequest& request);
   /// The OpenAPI 3.1 document, which `answer` gives at /api/openapi.json.
   static std::string openapi();
 

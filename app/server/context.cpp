@@ -76,6 +76,7 @@ void IoThread::look() {
   // Threads end together, so that one that has nothing to do still tells who asks that the server drains.
   busy = std::ranges::any_of(context.threads, [](const auto& thread) { return thread->busy_.load(); });
   if (stopping_ && (!busy || now >= end_)) {
+    context.over = true;
     for (Connection* connection : all) connection->close();
     boost::asio::post(io, [this] { io.stop(); });
     return;

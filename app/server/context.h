@@ -34,10 +34,13 @@ struct Context {
   std::atomic<std::size_t> calls = 0;  ///< being answered or waiting for it
   std::atomic<std::size_t> connections = 0;
   std::atomic<std::size_t> streams = 0;
+  std::atomic<bool> over = false;        ///< the drain time is: what waits is answered no more
+  std::atomic<std::uint64_t> held = 0;   ///< bytes of long bodies and answers in memory
   std::atomic<std::uint64_t> files = 0;  ///< numbers the files in `scratch`
-  boost::asio::thread_pool workers;      ///< answer calls
-  boost::asio::thread_pool disk{1};      ///< reads and writes files, so that a slow disk delays no stream
   std::vector<std::unique_ptr<IoThread>> threads;
+  // After the threads, for what waits in these holds connections of theirs.
+  boost::asio::thread_pool workers;  ///< answer calls
+  boost::asio::thread_pool disk{1};  ///< reads and writes files, so that a slow disk delays no stream
 
   /// The text of /metrics.
   std::string metrics() const;
@@ -69,11 +72,11 @@ class IoThread {
  public:
   explicit IoThread(Context& context);
 
-  boost::asio::io_context io{1};
   Context& context;
   Metrics metrics;
-  Pacer pacer;
   std::set<Connection*> connections;
+  boost::asio::io_context io{1};  // after these, for what waits in it holds connections
+  Pacer pacer;
 
   /// Runs until it is told to stop; the whole life of a thread.
   void run();

@@ -60,8 +60,8 @@ json import_files(Database& database, const Pairing& pairing, const ImportOption
       }
     }
     if (one.contains("not_measured")) one["not_measured"] = plain(one["not_measured"].get<std::string>());
-    const RecordingInfo* info = database.contents()->find(imported.name);
-    one["declarations"] = info == nullptr ? json::object() : calls::declarations_json(info->declarations);
+    const std::optional<RecordingInfo> info = database.info(imported.name);
+    one["declarations"] = !info ? json::object() : calls::declarations_json(info->declarations);
     recordings.push_back(std::move(one));
     job.tell(told());
   });

@@ -10,7 +10,7 @@ namespace signweave::server {
 namespace {
 
 Reply method_not_allowed(std::string_view method, std::string_view allowed) {
-  Reply reply = error_reply(405, "bad_input", fmt::format("{} is not possible here", printable(method)));
+  Reply reply = error_reply(405, "method_not_allowed", fmt::format("{} is not possible here", printable(method)));
   reply.headers.emplace_back("Allow", allowed);
   return reply;
 }

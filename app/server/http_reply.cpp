@@ -67,6 +67,7 @@ std::string head_of(const Reply& reply, const ReplyForm& form) {
   if (reply.content_type.starts_with("text/html")) add(out, "Content-Security-Policy", kPolicy);
   if (!form.origin.empty()) {
     add(out, "Access-Control-Allow-Origin", form.origin);
+    add(out, "Access-Control-Expose-Headers", "Signweave-Declarations, Signweave-Notices, ETag");
     add(out, "Vary", "Origin");
   }
   for (const auto& [name, value] : reply.headers) add(out, name, value);

@@ -37,6 +37,16 @@ RequestHead head_of_request(const http::request<http::buffer_body>& request) {
           .upgrade = boost::beast::websocket::is_upgrade(request)};
 }
 
+Reply too_long(std::uint64_t most) {
+  return error_reply(413, "too_large", fmt::format("a body must not be longer than {} bytes", most));
+}
+
+Reply no_room() {
+  Reply refusal = error_reply(503, "busy", "too many long bodies and answers at once; try again");
+  refusal.headers.emplace_back("Retry-After", "1");
+  return refusal;
+}
+
 }  // namespace
 
 HttpSession::HttpSession(IoThread& thread, boost::asio::ip::tcp::socket socket)
@@ -48,6 +58,7 @@ HttpSession::~HttpSession() {
   if (body_file_ >= 0) ::close(body_file_);
   std::error_code ignored;
   if (in_file_) std::filesystem::remove(request_.body_file, ignored);
+  release();
 }
 
 void HttpSession::start() {
@@ -132,6 +143,12 @@ void HttpSession::on_header(Error error) {
     refusal.headers.emplace_back("Retry-After", "1");
     return reply(std::move(refusal));
   }
+  const auto coding = http::field::transfer_encoding;
+  const auto& fields = parser_->get();
+  if (fields.count(coding) > 1 || (fields.count(coding) == 1 && !boost::beast::iequals(fields[coding], "chunked"))) {
+    keep_alive_ = false;  // where the body ends cannot be known
+    return reply(error_reply(400, "bad_input", "the only Transfer-Encoding that is understood is chunked"));
+  }
   if (decision_.reply) return reply(*std::exchange(decision_.reply, {}));
   go_on();
 }
@@ -168,23 +185,38 @@ void HttpSession::go_on() {
               .accept = std::string(text_of(head[http::field::accept])),
               .body = {},
               .body_file = {}};
-  in_file_ = context.api.takes_file(request_);
-  const std::uint64_t most = in_file_ ? context.options.limits.file_bytes : context.options.limits.body_bytes;
-  if (parser_->content_length() && *parser_->content_length() > most) {
-    in_file_ = false;
-    return reply(error_reply(413, "bad_input", fmt::format("a body must not be longer than {} bytes", most)));
-  }
+  const bool to_file = context.api.takes_file(request_);
+  const std::uint64_t most = to_file ? context.options.limits.file_bytes : context.options.limits.body_bytes;
+  if (parser_->content_length() && *parser_->content_length() > most) return reply(too_long(most));
   body_size_ = 0;
   state_ = State::body;
-  if (in_file_) {
-    request_.body_file = context.options.scratch / fmt::format("body-{}", ++context.files);
-    body_file_ = ::open(request_.body_file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
-    if (body_file_ < 0) {
-      in_file_ = false;
-      return reply(error_reply(500, "io", "no room for the body of the request"));
+  within(context.options.limits.body_time);
+  to_file ? open_file() : ask_for_body();
+}
+
+/// A file is made only where the call may take it, or anybody could fill the disk.
+void HttpSession::open_file() {
+  boost::asio::post(thread_.context.disk, [self = shared_from_this()]() mutable {
+    IoThread& thread = self->thread_;
+    ApiRequest& request = self->request_;
+    std::optional<ApiResponse> refusal = thread.context.api.refusal(request);
+    if (!refusal) {
+      request.body_file = thread.context.options.scratch / fmt::format("body-{}", ++thread.context.files);
+      self->body_file_ = ::open(request.body_file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+      self->in_file_ = self->body_file_ >= 0;
     }
-  }
-  if (parser_->is_done() || !boost::beast::iequals(head[http::field::expect], "100-continue")) return read_body();
+    // The session must end on its own thread, so nothing here may keep it.
+    boost::asio::post(thread.io, [self = std::move(self), refusal = std::move(refusal)]() mutable {
+      if (refusal) return self->answered(*std::move(refusal));
+      if (self->in_file_) return self->ask_for_body();
+      self->reply(error_reply(500, "io", "no room for the body of the request"));
+    });
+  });
+}
+
+void HttpSession::ask_for_body() {
+  const bool asked = boost::beast::iequals(parser_->get()[http::field::expect], "100-continue");
+  if (parser_->is_done() || !asked) return read_body();
   constexpr std::string_view kGoOn = "HTTP/1.1 100 Continue\r\n\r\n";
   boost::asio::async_write(socket_, boost::asio::buffer(kGoOn), [self = shared_from_this()](Error error, std::size_t) {
     if (!error) self->read_body();
@@ -192,6 +224,7 @@ void HttpSession::go_on() {
 }
 
 void HttpSession::read_body() {
+  if (!socket_.is_open()) return;  // closed meanwhile, such as by a stop
   if (parser_->is_done()) {
     if (body_file_ >= 0) ::close(std::exchange(body_file_, -1));
     return call();
@@ -213,13 +246,16 @@ void HttpSession::read_body() {
 }
 
 void HttpSession::store_body(std::size_t bytes) {
+  if (!socket_.is_open()) return;
   const ServerLimits& limits = thread_.context.options.limits;
   body_size_ += bytes;
   const std::uint64_t most = in_file_ ? limits.file_bytes : limits.body_bytes;
-  if (body_size_ > most) {
-    return reply(error_reply(413, "bad_input", fmt::format("a body must not be longer than {} bytes", most)));
-  }
+  if (body_size_ > most) return reply(too_long(most));
   if (!in_file_) {
+    if (body_size_ > kChunk && !hold(bytes)) {
+      thread_.metrics.refused.add();
+      return reply(no_room());
+    }
     request_.body.append(chunk_, 0, bytes);
     return read_body();
   }
@@ -233,7 +269,6 @@ void HttpSession::store_body(std::size_t bytes) {
       written += static_cast<std::size_t>(n);
     }
     IoThread& thread = self->thread_;
-    // The session must end on its own thread, so nothing here may keep it.
     boost::asio::post(thread.io, [self = std::move(self), good = written == bytes] {
       if (good) return self->read_body();
       self->reply(error_reply(507, "io", "the body of the request could not be kept; is the disk full?"));
@@ -241,7 +276,24 @@ void HttpSession::store_body(std::size_t bytes) {
   });
 }
 
+/// Counts bytes that are held in memory; false where all connections together hold too many.
+bool HttpSession::hold(std::uint64_t bytes) {
+  Context& context = thread_.context;
+  const std::uint64_t before = context.held.fetch_add(bytes);
+  if (before > 0 && before + bytes > context.options.limits.held_bytes) {  // one alone may be as long as it is
+    context.held -= bytes;
+    return false;
+  }
+  held_ += bytes;
+  return true;
+}
+
+void HttpSession::release() {
+  thread_.context.held -= std::exchange(held_, 0);
+}
+
 void HttpSession::call() {
+  if (!socket_.is_open()) return;
   Context& context = thread_.context;
   if (context.calls >= context.options.limits.calls) {
     thread_.metrics.refused.add();
@@ -254,15 +306,30 @@ void HttpSession::call() {
   in_file_ = false;  // the call takes it away
   boost::asio::post(context.workers, [self = shared_from_this(), request = std::move(request_)]() mutable {
     IoThread& thread = self->thread_;
-    ApiResponse answer = thread.context.api.answer(std::move(request));
+    ApiResponse answer;
+    if (!thread.context.over) {
+      answer = thread.context.api.answer(std::move(request));
+    } else if (!request.body_file.empty()) {  // nobody is there any more
+      std::error_code ignored;
+      std::filesystem::remove(request.body_file, ignored);
+    }
     --thread.context.calls;
     boost::asio::post(thread.io, [self = std::move(self), answer = std::move(answer)]() mutable {
-      self->reply({.status = answer.status,
-                   .content_type = std::move(answer.content_type),
-                   .headers = std::move(answer.headers),
-                   .body = std::move(answer.body)});
+      self->answered(std::move(answer));
     });
   });
+}
+
+void HttpSession::answered(ApiResponse answer) {
+  release();  // the body went with the call
+  if (answer.body.size() > kChunk && !hold(answer.body.size())) {
+    thread_.metrics.refused.add();
+    return reply(no_room());
+  }
+  reply({.status = answer.status,
+         .content_type = std::move(answer.content_type),
+         .headers = std::move(answer.headers),
+         .body = std::move(answer.body)});
 }
 
 void HttpSession::upgrade() {

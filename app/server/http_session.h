@@ -41,9 +41,14 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   void read_header();
   void on_header(Error error);
   void go_on();
+  void open_file();
+  void ask_for_body();
   void read_body();
   void store_body(std::size_t bytes);
   void call();
+  void answered(ApiResponse answer);
+  bool hold(std::uint64_t bytes);
+  void release();
   void serve_file();
   void upgrade();
   void reply(Reply reply);
@@ -72,7 +77,8 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   bool in_file_ = false;  // the body goes into request_.body_file
   int body_file_ = -1;
   std::uint64_t body_size_ = 0;
-  std::string chunk_;  // of a body or a file
+  std::uint64_t held_ = 0;  // bytes of the body or the answer that count with those of all connections
+  std::string chunk_;       // of a body or a file
 
   Reply reply_;
   std::string head_;

@@ -53,6 +53,10 @@ void HttpSession::reply(Reply reply) {
   const bool read_whole = parser_ && parser_->is_done();
   keep_alive_ = keep_alive_ && read_whole && !reply_.close && !thread_.context.draining;
   if (body_file_ >= 0) ::close(std::exchange(body_file_, -1));
+  if (std::exchange(in_file_, false)) {  // no call has taken it
+    std::error_code ignored;
+    std::filesystem::remove(request_.body_file, ignored);
+  }
   const auto route = static_cast<std::size_t>(decision_.route);
   thread_.metrics.requests[route][static_cast<std::size_t>(reply_.status / 100)].add();
   head_ = head_of(reply_, {.length = length_,
@@ -75,6 +79,7 @@ void HttpSession::send_head() {
 }
 
 void HttpSession::send_next() {
+  if (!socket_.is_open()) return;
   if (sent_ >= length_) return after_reply();
   within(thread_.context.options.limits.body_time);
   const auto chunk = static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, length_ - sent_));
@@ -105,6 +110,7 @@ void HttpSession::after_reply() {
   thread_.metrics.latency[static_cast<std::size_t>(decision_.route)].observe(took.count());
   reply_ = {};
   request_ = {};
+  release();
   chunk_ = {};
   if (!keep_alive_) return linger();
   within(thread_.context.options.limits.keep_alive);

@@ -19,7 +19,9 @@ using testing::Client;
 using testing::get;
 using ::testing::HasSubstr;
 using testing::read_answer;
+using testing::Serve;
 using testing::TestServer;
+using testing::upload_line;
 using namespace std::chrono_literals;
 
 TEST(Http, SmallPagesOfTheServerItself) {
@@ -62,6 +64,9 @@ TEST(Http, MalformedRequestsAreAnsweredAndClosed) {
       {post + "Content-Length: 3\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 400},
       {post + "Transfer-Encoding: chunked\r\n\r\nzz\r\nab\r\n", 400},
       {post + "Content-Length: 99999999999999999999999\r\n\r\n", 400},
+      {post + "Transfer-Encoding: gzip\r\n\r\n" + get_line + "\r\n", 400},
+      {post + "Transfer-Encoding: identity\r\n\r\n", 400},
+      {post + "Transfer-Encoding: gzip, chunked\r\n\r\n0\r\n\r\n", 400},
       {post + "Content-Length: 1001\r\n\r\n", 413},
       {post + "Transfer-Encoding: chunked\r\n\r\n3e9\r\n" + std::string(1'001, 'x') + "\r\n0\r\n\r\n", 413},
       {"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\n\r\nabc", 405},
@@ -75,6 +80,13 @@ TEST(Http, MalformedRequestsAreAnsweredAndClosed) {
     const Answer answer = read_answer(client);
     EXPECT_EQ(answer.status, status) << request.substr(0, 120);
     EXPECT_THAT(answer.body, HasSubstr("{\"error\":{\"code\":")) << request.substr(0, 120);
+    if (status == 405) {
+      EXPECT_THAT(answer.body, HasSubstr("\"method_not_allowed\""));
+    }
+    if (status == 413) {
+      EXPECT_THAT(answer.body, HasSubstr("\"too_large\""));
+    }
+    EXPECT_EQ(client.read_all(), "") << "what follows might be anything, after " << request.substr(0, 120);
   }
   EXPECT_EQ(get(server.port(), "/health").status, 200);
 }
@@ -131,6 +143,8 @@ TEST(Http, AllowedOriginsMayRead) {
   const TestServer server({.allowed_origins = {"https://signs.example.org"}});
   EXPECT_THAT(get(server.port(), "/api/databases", "Origin: https://signs.example.org\r\n").head,
               HasSubstr("Access-Control-Allow-Origin: https://signs.example.org\r\n"));
+  EXPECT_THAT(get(server.port(), "/api/databases", "Origin: https://signs.example.org\r\n").head,
+              HasSubstr("Access-Control-Expose-Headers: Signweave-Declarations, Signweave-Notices, ETag\r\n"));
   EXPECT_THAT(get(server.port(), "/api/databases", "Origin: https://evil.example\r\n").head,
               Not(HasSubstr("Access-Control")));
 }
@@ -200,17 +214,82 @@ TEST(Http, OneAddressMayNotTakeEverything) {
 }
 
 TEST(Http, AnUploadThatBreaksOffLeavesNothing) {
-  const TestServer server;
+  const TestServer server({}, {testing::demo_folder()}, Serve::for_changes);
+  const std::string line = upload_line(server.port());
   {
     Client client(server.port());
-    client.send(
-        "PUT /api/databases/demo/uploads/1/files/x.bvh HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000\r\n\r\n");
-    client.send(std::string(200'000, 'x'));
+    client.send(line + "Content-Length: 1000000\r\n\r\n" + std::string(200'000, 'x'));
+    for (int i = 0; i < 200 && server.bodies() == 0; ++i) std::this_thread::sleep_for(10ms);
+    EXPECT_EQ(server.bodies(), 1u);
   }
-  for (int i = 0; i < 200 && !std::filesystem::is_empty(server.scratch / "scratch"); ++i)
-    std::this_thread::sleep_for(10ms);
-  EXPECT_TRUE(std::filesystem::is_empty(server.scratch / "scratch"));
+  for (int i = 0; i < 200 && server.bodies() > 0; ++i) std::this_thread::sleep_for(10ms);
+  EXPECT_EQ(server.bodies(), 0u);
   EXPECT_EQ(get(server.port(), "/health").status, 200);
+}
+
+TEST(Http, AnUploadThatIsRefusedLeavesNothing) {
+  ServerOptions options;
+  options.limits.file_bytes = 100'000;
+  const TestServer server(options, {testing::demo_folder()}, Serve::for_changes);
+  const std::string chunked = upload_line(server.port()) + "Transfer-Encoding: chunked\r\n\r\n";
+  EXPECT_EQ(ask(server.port(), chunked + "3\r\nabc\r\nZZZ\r\n").status, 400);
+  EXPECT_EQ(ask(server.port(), chunked + "186a1\r\n" + std::string(100'001, 'x') + "\r\n0\r\n\r\n").status, 413);
+  EXPECT_EQ(server.bodies(), 0u);
+  EXPECT_EQ(ask(server.port(), chunked + "3\r\nabc\r\n0\r\n\r\n").status, 200);
+}
+
+TEST(Http, AnUploadThatNobodyOpenedIsRefusedBeforeItsBody) {
+  const std::string file = "PUT /api/databases/demo/uploads/1/files/x.bvh HTTP/1.1\r\nHost: localhost\r\n";
+  const std::string nowhere = "PUT /api/databases/none/uploads/1/files/x.bvh HTTP/1.1\r\nHost: localhost\r\n";
+  const std::string length = "Content-Length: 1000000\r\nExpect: 100-continue\r\n\r\n";
+  const TestServer reading;
+  EXPECT_EQ(ask(reading.port(), file + length).status, 403);
+  EXPECT_EQ(ask(reading.port(), nowhere + length).status, 404);
+  const TestServer writing({}, {testing::demo_folder()}, Serve::for_changes);
+  EXPECT_EQ(ask(writing.port(), file + length).status, 404);
+  EXPECT_EQ(writing.bodies(), 0u);
+}
+
+/// Asks again until the answer has this status, 5 s at most.
+void expect_soon(std::uint16_t port, const std::string& target, int status) {
+  int got = 0;
+  for (int i = 0; got != status && i < 100; ++i) {
+    got = get(port, target).status;
+    if (got != status) std::this_thread::sleep_for(50ms);
+  }
+  EXPECT_EQ(got, status) << target;
+}
+
+TEST(Http, AnswersThatNobodyTakesHoldBoundedMemory) {
+  ServerOptions options;
+  options.limits.held_bytes = 100'000;
+  const TestServer server(options);
+  const std::string motion = "/api/databases/demo/recordings/meteo/motion?format=csv";
+  {
+    Client slow(server.port(), 4'096);
+    slow.send("GET " + motion + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_THAT(slow.read_until("\r\n"), HasSubstr("200 OK")) << "alone it may be as long as it is";
+    const Answer refused = get(server.port(), motion);
+    EXPECT_EQ(refused.status, 503);
+    EXPECT_THAT(refused.body, HasSubstr("\"busy\""));
+    EXPECT_EQ(get(server.port(), "/health").status, 200);
+  }
+  expect_soon(server.port(), motion, 200);
+}
+
+TEST(Http, BodiesThatDoNotEndHoldBoundedMemory) {
+  ServerOptions options;
+  options.limits.held_bytes = 200'000;
+  const TestServer server(options);
+  const std::string head =
+      "POST /api/databases/demo/query HTTP/1.1\r\nHost: localhost\r\nContent-Length: 500000\r\n\r\n";
+  {
+    Client first(server.port());
+    first.send(head + std::string(200'000, ' '));
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(ask(server.port(), head + std::string(200'000, ' ')).status, 503);
+  }
+  expect_soon(server.port(), "/api/databases/demo", 200);
 }
 
 TEST(Http, ABodyThatStopsComingIsNotWaitedForForever) {

@@ -20,9 +20,10 @@ struct ServerLimits {
   // Requests.
   std::uint32_t header_bytes = 16 * 1024;
   std::size_t target_bytes = 8 * 1024;
-  std::uint64_t body_bytes = 16 << 20;  ///< of a body that is held in memory
+  std::uint64_t body_bytes = 1 << 20;  ///< of a body that is held in memory
   std::uint64_t file_bytes = 2'000'000'000;
-  std::size_t calls = 64;  ///< being answered or waiting for it
+  std::uint64_t held_bytes = 512 << 20;  ///< of all bodies and answers that are held in memory; an answer may go alone
+  std::size_t calls = 64;                ///< being answered or waiting for it
   std::chrono::milliseconds header_time{
       10'000};  ///< from the connection, or the request's first byte, to the last of its header
   std::chrono::milliseconds body_time{30'000};   ///< without a byte of a body, or without one taken of an answer
@@ -30,12 +31,13 @@ struct ServerLimits {
 
   // Streams.
   std::size_t streams = 2'000;
-  std::size_t control_bytes = 64 * 1024;      ///< of one control message
-  double control_rate = 200;                  ///< control messages a second, in the mean; more wait to be read
-  std::size_t unread_bytes = 256 * 1024;      ///< of answers that a client does not read, before it is closed
-  std::size_t message_bytes = 256 * 1024;     ///< of one message of frames: a batch is cut to it
-  int send_buffer = 64 * 1024;                ///< SO_SNDBUF; the kernel doubles it
-  std::chrono::milliseconds silence{60'000};  ///< of a stream's client, pongs counted, before it is closed
+  std::size_t control_bytes = 64 * 1024;        ///< of one control message
+  double control_rate = 200;                    ///< control messages a second, in the mean; more wait to be read
+  std::size_t unread_bytes = 256 * 1024;        ///< of answers that a client does not read, before it is closed
+  std::size_t message_bytes = 256 * 1024;       ///< of one message of frames: a batch is cut to it
+  int send_buffer = 64 * 1024;                  ///< SO_SNDBUF; the kernel doubles it
+  std::chrono::milliseconds silence{60'000};    ///< of a stream's client, pongs counted, before it is closed
+  std::chrono::milliseconds close_time{5'000};  ///< for a stream that is being closed, until its client has taken all
 
   std::chrono::milliseconds drain{10'000};  ///< for what runs when the server is stopped
 };

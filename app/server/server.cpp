@@ -139,10 +139,16 @@ void Server::wait() {
   }
   state_->context.workers.join();
   state_->context.disk.join();
-  // What was closed runs to its end, here where nobody else runs.
-  for (const auto& thread : state_->context.threads) {
-    thread->io.restart();
-    thread->io.poll();
+  // What was closed runs to its end, here where nobody else runs; so does what came in at the last moment.
+  std::size_t ran = 1;
+  while (ran > 0) {
+    ran = 0;
+    for (const auto& thread : state_->context.threads) {
+      const std::vector<Connection*> left(thread->connections.begin(), thread->connections.end());
+      for (Connection* connection : left) connection->close();
+      thread->io.restart();
+      ran += thread->io.poll();
+    }
   }
 }
 

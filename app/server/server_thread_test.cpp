@@ -15,9 +15,11 @@ using testing::Client;
 using testing::get;
 using ::testing::HasSubstr;
 using testing::read_answer;
+using testing::Serve;
 using testing::StreamClient;
 using testing::StreamMessage;
 using testing::TestServer;
+using testing::upload_line;
 using namespace std::chrono_literals;
 
 TEST(ServerThreads, StreamsAndRequestsAtOnce) {
@@ -80,6 +82,58 @@ TEST(ServerThreads, EndsAlsoWhereClientsDoNotAnswer) {
   server.server->stop();
   server.server->wait();
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 8s);
+}
+
+TEST(ServerThreads, EndsWhileFilesAreSent) {
+  ServerOptions options;
+  options.limits.drain = 100ms;
+  for (int round = 0; round < 3; ++round) {
+    TestServer server(options, {testing::demo_folder()}, Serve::for_changes);
+    const std::string line = upload_line(server.port()) + "Transfer-Encoding: chunked\r\n\r\n";
+    std::string chunks;
+    for (int i = 0; i < 10'000; ++i) chunks += "1\r\nx\r\n";
+    std::vector<std::thread> senders;
+    for (int i = 0; i < 4; ++i) {
+      senders.emplace_back([&] {
+        Client client(server.port());
+        if (!client.send(line)) return;
+        for (int n = 0; n < 1'000 && client.send(chunks); ++n) {
+        }
+      });
+    }
+    std::this_thread::sleep_for(200ms);
+    server.server->stop();
+    server.server->wait();
+    for (std::thread& sender : senders) sender.join();
+    server.server.reset();
+    EXPECT_EQ(server.bodies(), 0u);
+  }
+}
+
+TEST(ServerThreads, EndsWithoutAnsweringAllThatWait) {
+  ServerOptions options{.workers = 1};
+  options.limits.drain = 50ms;
+  TestServer server(options);
+  std::string utterance = "DEMAIN";
+  for (int i = 0; i < 60; ++i) utterance += " MATIN DEMAIN";
+  const std::string body = R"({"format":"csv","rate":300,"tempo":0.5,"utterance":")" + utterance + "\"}";
+  const std::string request =
+      "POST /api/databases/demo/sign HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
+      "application/json\r\nContent-Length: " +
+      std::to_string(body.size()) + "\r\n\r\n" + body;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(testing::ask(server.port(), request).status, 200);
+  const auto one = std::chrono::steady_clock::now() - begin;
+  std::vector<Client> clients;
+  for (int i = 0; i < 30; ++i) {
+    clients.emplace_back(server.port());
+    clients.back().send(request);
+  }
+  std::this_thread::sleep_for(50ms);
+  const auto stopped = std::chrono::steady_clock::now();
+  server.server->stop();
+  server.server->wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - stopped, 8 * one + 1s);
 }
 
 TEST(ServerThreads, AnAddressThatIsTakenIsAnError) {

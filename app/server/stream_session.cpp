@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
@@ -28,7 +29,8 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
         address_(address),
         socket_(std::move(socket), thread.context.options.limits.unread_bytes),
         buffer_(2 * thread.context.options.limits.control_bytes),
-        tokens_(thread.context.options.limits.control_rate) {
+        tokens_(thread.context.options.limits.control_rate),
+        late_(thread.io) {
     thread_.metrics.streams.add();
     ++thread_.context.streams;
   }
@@ -63,31 +65,47 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
     });
   }
 
-  void look(Clock::time_point) override {
-    if (!std::exchange(reading_late_, false)) return;
-    read();
+  void look(Clock::time_point now) override {
+    if (!closing_until_ || now < *closing_until_) return;
+    thread_.metrics.timeouts.add();
+    close();
   }
   void drain() override {
     if (!open_) return close();  // there is no WebSocket yet that could be closed
     if (sender_) sender_->stop();
+    late_.cancel();
     if (std::exchange(draining_, true)) return;
     socket_.async_close({websocket::close_code::going_away, "the server is being stopped"},
                         [self = shared_from_this()](boost::system::error_code) {});
   }
   bool busy() const override { return true; }
-  void close() override { socket_.next_layer().close(); }
+  void close() override {
+    closing_until_.reset();
+    late_.cancel();
+    socket_.next_layer().close();
+  }
 
  private:
   void say(std::string_view text) { socket_.next_layer().send_text(text); }
 
   void read() {
-    if (!may_read()) {
-      reading_late_ = true;  // it is read a moment later; until then the client's own socket fills
-      return;
-    }
+    if (!may_read()) return read_late();
     socket_.async_read(
         buffer_, [self = shared_from_this()](boost::system::error_code error, std::size_t) { self->on_read(error); });
   }
+
+  /// Reads on when there is a token again; until then the client's own socket fills. The timer keeps the stream alive.
+  void read_late() {
+    const double rate = thread_.context.options.limits.control_rate;
+    const std::chrono::duration<double> wait(std::clamp((1 - tokens_) / rate, 0.005, 10.0));
+    late_.expires_after(std::chrono::duration_cast<Clock::duration>(wait));
+    late_.async_wait([self = shared_from_this()](boost::system::error_code error) {
+      if (!error) self->read();
+    });
+  }
+
+  /// A client that takes nothing of what is left for it is not waited for.
+  void close_soon() { closing_until_ = Clock::now() + thread_.context.options.limits.close_time; }
 
   /// One token a message, and one a KiB of it; they come back with time.
   bool may_read() {
@@ -104,7 +122,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
     if (error) {
       if (error == boost::beast::error::timeout) thread_.metrics.timeouts.add();
       if (sender_) sender_->stop();
-      if (error != websocket::error::closed) close();
+      error == websocket::error::closed ? close_soon() : close();
       return;
     }
     if (!draining_) {
@@ -149,6 +167,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
       refuse(ErrorCode::io, error.what(), id);
       if (sender_) sender_->stop();
       draining_ = true;
+      close_soon();
       socket_.async_close({websocket::close_code::internal_error, "a fault of the server"},
                           [self = shared_from_this()](boost::system::error_code) {});
     }
@@ -162,8 +181,9 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
   std::optional<FrameSender> sender_;
   bool open_ = false;  // the handshake is done
   bool draining_ = false;
-  bool reading_late_ = false;
   double tokens_;
+  boost::asio::steady_timer late_;                  // until more is read
+  std::optional<Clock::time_point> closing_until_;  // then it is closed, whether the client has taken all or not
   Clock::time_point counted_at_ = Clock::now();
 };
 

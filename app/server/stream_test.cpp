@@ -161,6 +161,37 @@ TEST(Stream, AClientThatNeverReadsIsClosedAtABound) {
   EXPECT_EQ(get(server.port(), "/health").status, 200);
 }
 
+TEST(Stream, MessagesBeyondTheRateAreReadLater) {
+  ServerOptions options;
+  options.limits.control_rate = 20;
+  const TestServer server(options);
+  StreamClient client(server.port());
+  for (int i = 0; i < 30; ++i) client.say(R"({"type":"ping","id":)" + std::to_string(i) + "}");
+  for (int i = 0; i < 30; ++i) {
+    const nlohmann::json ok = client.next("ok");
+    ASSERT_FALSE(ok.is_null()) << i;
+    EXPECT_EQ(ok["id"], i);
+  }
+}
+
+TEST(Stream, AClientThatClosesAndReadsNothingIsNotKept) {
+  ServerOptions options;
+  options.limits.send_buffer = 8 * 1024;
+  options.limits.close_time = 300ms;
+  const TestServer server(options);
+  StreamClient client(server.port(), {}, {}, 4'096);
+  client.say(R"({"type":"open","rate":2000,"batch":600,"recording":"meteo"})");
+  client.say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
+  std::this_thread::sleep_for(500ms);
+  client.client.send(StreamClient::frame(8, std::string("\x03\xe8", 2)));
+  std::string metrics;
+  for (int i = 0; metrics.find("\nsignweave_streams 0\n") == std::string::npos && i < 100; ++i) {
+    std::this_thread::sleep_for(50ms);
+    metrics = get(server.port(), "/metrics").body;
+  }
+  EXPECT_THAT(metrics, HasSubstr("\nsignweave_streams 0\n"));
+}
+
 TEST(Stream, AnOversizeMessageEndsItsStreamAlone) {
   ServerOptions options;
   options.limits.control_bytes = 1'024;

@@ -32,9 +32,19 @@ inline const std::filesystem::path& demo_folder() {
   return database;
 }
 
+enum class Serve { for_reading, for_changes };
+
 struct TestServer {
-  explicit TestServer(ServerOptions options = {}, const std::vector<std::filesystem::path>& folders = {demo_folder()}) {
-    for (const auto& one : folders) databases.add(one, false);
+  explicit TestServer(ServerOptions options = {}, const std::vector<std::filesystem::path>& folders = {demo_folder()},
+                      Serve serve = Serve::for_reading) {
+    for (const auto& one : folders) {
+      std::filesystem::path served = one;
+      if (serve == Serve::for_changes) {  // a copy, for the others are shared
+        served = scratch / one.filename();
+        std::filesystem::copy(one, served, std::filesystem::copy_options::recursive);
+      }
+      databases.add(served, serve == Serve::for_changes);
+    }
     options.port = 0;
     options.scratch = scratch / "scratch";
     std::filesystem::create_directories(options.scratch);
@@ -42,6 +52,14 @@ struct TestServer {
     server = std::make_unique<Server>(databases, *api, std::move(options));
   }
   std::uint16_t port() const { return server->port(); }
+  /// Bodies of requests that lie on the disk.
+  std::size_t bodies() const {
+    std::size_t count = 0;
+    for (const auto& one : std::filesystem::directory_iterator(scratch / "scratch")) {
+      count += one.path().filename().string().starts_with("body-") ? 1 : 0;
+    }
+    return count;
+  }
 
   kv::TestFolder scratch;
   ServedDatabases databases;
@@ -150,6 +168,14 @@ inline Answer ask(std::uint16_t port, std::string_view request) {
 
 inline Answer get(std::uint16_t port, const std::string& target, const std::string& headers = {}) {
   return ask(port, "GET " + target + " HTTP/1.1\r\nHost: localhost\r\n" + headers + "\r\n");
+}
+
+/// A new upload for the database "demo", and the begin of a request that sends it a file: headers are to follow.
+inline std::string upload_line(std::uint16_t port) {
+  const Answer answer =
+      ask(port, "POST /api/databases/demo/uploads HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
+  const std::string id = nlohmann::json::parse(answer.body)["upload"];
+  return "PUT /api/databases/demo/uploads/" + id + "/files/x.bvh HTTP/1.1\r\nHost: localhost\r\n";
 }
 
 /// A message of a stream.

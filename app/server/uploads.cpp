@@ -78,6 +78,18 @@ Uploads::Upload& Uploads::at(const std::string& database, const std::string& id)
   return const_cast<Upload&>(std::as_const(*this).at(database, id));
 }
 
+const Uploads::Upload& Uploads::at_open(const std::string& database, const std::string& id) const {
+  const Upload& upload = at(database, id);
+  if (upload.held) throw Error(ErrorCode::conflict, "the upload is being imported; open another one");
+  return upload;
+}
+
+void Uploads::require_open(const std::string& database, const std::string& id, const std::string& name) const {
+  require_plain(name);
+  const std::lock_guard lock(mutex_);
+  at_open(database, id);
+}
+
 std::string Uploads::open(const std::string& database) {
   sweep();
   const std::lock_guard lock(mutex_);
@@ -97,8 +109,8 @@ nlohmann::json Uploads::put(const std::string& database, const std::string& id, 
                             const fs::path& from, std::string_view body) {
   require_plain(name);
   const std::lock_guard lock(mutex_);
+  at_open(database, id);
   Upload& upload = at(database, id);
-  if (upload.held) throw Error(ErrorCode::conflict, "the upload is being imported; open another one");
   const std::uint64_t bytes = from.empty() ? body.size() : fs::file_size(from);
   std::uint64_t all = bytes;
   for (const auto& [other, size] : upload.files) all += other == name ? 0 : size;
@@ -125,11 +137,9 @@ nlohmann::json Uploads::describe(const std::string& database, const std::string&
 }
 
 void Uploads::discard(const std::string& database, const std::string& id) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (at(database, id).held) throw Error(ErrorCode::conflict, "the upload is being imported; cancel its job first");
-  }
-  release(id, true);
+  const std::lock_guard lock(mutex_);
+  if (at(database, id).held) throw Error(ErrorCode::conflict, "the upload is being imported; cancel its job first");
+  remove(uploads_.find(id));
 }
 
 fs::path Uploads::hold(const std::string& database, const std::string& id) {
@@ -147,10 +157,13 @@ void Uploads::release(const std::string& id, bool remove) {
   if (found == uploads_.end()) return;
   found->second.held = false;
   found->second.touched = std::chrono::steady_clock::now();
-  if (!remove) return;
+  if (remove) this->remove(found);
+}
+
+void Uploads::remove(std::map<std::string, Upload>::iterator upload) {
   std::error_code ignored;
-  fs::remove_all(found->second.folder, ignored);
-  uploads_.erase(found);
+  fs::remove_all(upload->second.folder, ignored);
+  uploads_.erase(upload);
 }
 
 void Uploads::sweep() {

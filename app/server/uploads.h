@@ -30,6 +30,8 @@ class Uploads {
   /// while it is imported.
   nlohmann::json put(const std::string& database, const std::string& id, const std::string& name,
                      const std::filesystem::path& from, std::string_view body);
+  /// Throws what `put` would, but for sizes: asked before a long file is sent.
+  void require_open(const std::string& database, const std::string& id, const std::string& name) const;
   nlohmann::json describe(const std::string& database, const std::string& id) const;
   /// Removes it. Throws Error{not_found}, Error{conflict} while it is imported.
   void discard(const std::string& database, const std::string& id);
@@ -54,6 +56,8 @@ class Uploads {
 
   Upload& at(const std::string& database, const std::string& id);
   const Upload& at(const std::string& database, const std::string& id) const;
+  const Upload& at_open(const std::string& database, const std::string& id) const;
+  void remove(std::map<std::string, Upload>::iterator upload);
 
   std::filesystem::path folder_;
   std::size_t most_;

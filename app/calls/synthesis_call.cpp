@@ -71,11 +71,13 @@ SynthesisOptions options_of(const SynthesisChoices& choices) {
   return options;
 }
 
-Synthesized run(const Database& database, const SignCall& call) {
-  return synthesize(database, parse_utterance(call.utterance), options_of(call.how));
+Synthesized run(const Database& database, const SignCall& call, std::int64_t most_frames) {
+  SynthesisOptions options = options_of(call.how);
+  options.most_frames = most_frames;
+  return synthesize(database, parse_utterance(call.utterance), options);
 }
 
-Synthesized run(const Database& database, const EditCall& call) {
+Synthesized run(const Database& database, const EditCall& call, std::int64_t most_frames) {
   Edit edit;
   for (const std::string& text : call.replace) edit.replacements.push_back(parse_replacement(text));
   if (!call.swap.empty()) edit.swap = parse_swap(call.swap);
@@ -85,7 +87,9 @@ Synthesized run(const Database& database, const EditCall& call) {
   if (!edit.replacements.empty() && edit.swap) {
     throw Error(ErrorCode::bad_input, "replace and swap exclude each other: make two edits");
   }
-  return synthesize(database, call.recording, edit, options_of(call.how));
+  SynthesisOptions options = options_of(call.how);
+  options.most_frames = most_frames;
+  return synthesize(database, call.recording, edit, options);
 }
 
 std::string title_of(const SignCall& call) {

@@ -98,10 +98,10 @@ void fields(Visit& visit, EditCall& call) {
 /// Of checked fields.
 SynthesisOptions options_of(const SynthesisChoices& choices);
 
-/// Both throw what `synthesize` and the parsers of utterances and edits throw; an edit without a change is
-/// Error{bad_input}.
-Synthesized run(const Database& database, const SignCall& call);
-Synthesized run(const Database& database, const EditCall& call);
+/// `most_frames`: a result that would have more is refused. Both throw what `synthesize` and the parsers of utterances
+/// and edits throw; an edit without a change is Error{bad_input}.
+Synthesized run(const Database& database, const SignCall& call, std::int64_t most_frames = kMostFrames);
+Synthesized run(const Database& database, const EditCall& call, std::int64_t most_frames = kMostFrames);
 std::string title_of(const SignCall& call);
 std::string title_of(const EditCall& call);
 

@@ -103,7 +103,7 @@ TEST(Api, ABodyIsJsonAndSaysSo) {
   request.body = "[1]";
   EXPECT_THAT(fault_of(reading().api().answer(request)), StartsWith("400 bad_input: expected a JSON object"));
   request.body = std::string(100'000, '[');
-  EXPECT_THAT(fault_of(reading().api().answer(request)), StartsWith("400 bad_input: body:1:100001"));
+  EXPECT_THAT(fault_of(reading().api().answer(request)), StartsWith("400 bad_input: body:1:65"));
 }
 
 TEST(Api, SignsAReportOrAFile) {
@@ -174,6 +174,7 @@ TEST(Api, LimitsAreKept) {
                        .answers = 3,
                        .sign_time = Milliseconds(0),
                        .glosses = 2,
+                       .frames = 300,
                        .upload_bytes = 10,
                        .uploads = 1});
   const ApiResponse bounded = small.get(at({"query"}), {{"text", "phase = stroke"}});
@@ -181,6 +182,8 @@ TEST(Api, LimitsAreKept) {
   EXPECT_THAT(header_of(bounded, "Signweave-Notices"), HasSubstr("the first"));
   EXPECT_THAT(fault_of(small.send("POST", at({"sign"}), {{"utterance", "VANNES VANNES VANNES"}})),
               StartsWith("413 too_large"));
+  EXPECT_THAT(fault_of(small.send("POST", at({"sign"}), {{"utterance", "VANNES VANNES"}, {"rate", "2000"}})),
+              HasSubstr("more than 300 frames"));
   EXPECT_THAT(fault_of(small.get(at({"evaluate"}))), StartsWith("503 cancelled"));
   const std::string id = json_in(small.send("POST", at({"uploads"})))["upload"];
   EXPECT_THAT(fault_of(small.send("POST", at({"uploads"}))), StartsWith("503 busy"));

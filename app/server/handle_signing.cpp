@@ -107,7 +107,7 @@ ApiResponse sign_utterance(Call& call) {
   }
   const Database& database = call.database().database();
   calls::tell_damage(database, call.listener());
-  return deliver(call, calls::run(database, sign), sign.how, calls::title_of(sign), format);
+  return deliver(call, calls::run(database, sign, call.state.limits.frames), sign.how, calls::title_of(sign), format);
 }
 
 ApiResponse edit_recording(Call& call) {
@@ -120,7 +120,7 @@ ApiResponse edit_recording(Call& call) {
   }
   const Database& database = call.database().database();
   calls::tell_damage(database, call.listener());
-  return deliver(call, calls::run(database, edit), edit.how, calls::title_of(edit), format);
+  return deliver(call, calls::run(database, edit, call.state.limits.frames), edit.how, calls::title_of(edit), format);
 }
 
 ApiResponse export_motion(Call& call) {

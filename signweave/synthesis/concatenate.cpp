@@ -45,17 +45,14 @@ const std::string& name_at_begin(const Stretch& stretch) {
   return stretch.signs.empty() ? stretch.recording : stretch.signs.front().gloss;
 }
 
-/// A day of signing at a hundred frames a second. Frame rates come from files: a wrong one must not ask for a terabyte.
-constexpr std::int64_t kMostFrames = 24 * 60 * 60 * 100;
-
-void check_length(const std::vector<Stretch>& stretches, std::int64_t frames, FrameRate rate) {
-  if (frames >= 0 && frames <= kMostFrames) return;
+void check_length(const std::vector<Stretch>& stretches, std::int64_t frames, FrameRate rate, std::int64_t most) {
+  if (frames >= 0 && frames <= most) return;
   const auto slowest =
       std::ranges::min_element(stretches, {}, [](const Stretch& stretch) { return stretch.source->rate().hertz(); });
   throw Error(ErrorCode::bad_input,
               fmt::format("the result would have more than {} frames at {} frames a second ('{}' has {}); sign fewer "
                           "signs, or give a lower --rate",
-                          kMostFrames, to_string(rate), slowest->recording, to_string(slowest->source->rate())));
+                          most, to_string(rate), slowest->recording, to_string(slowest->source->rate())));
 }
 
 /// Where everything will lie: Algorithm 1 before any frame is touched.
@@ -65,13 +62,13 @@ struct Plan {
   std::int64_t frames = 0;
 };
 
-Plan plan_of(const std::vector<Stretch>& stretches, const JunctionSettings& settings) {
+Plan plan_of(const std::vector<Stretch>& stretches, const JunctionSettings& settings, std::int64_t most) {
   Plan plan;
   plan.laid.reserve(stretches.size());
   plan.cuts.reserve(stretches.size());
   for (const Stretch& stretch : stretches) plan.laid.push_back(lay(stretch, settings.rate, settings.tempo));
   for (const Laid& laid : plan.laid) plan.frames += laid.core_frames;
-  check_length(stretches, plan.frames, settings.rate);  // before any frame is read
+  check_length(stretches, plan.frames, settings.rate, most);  // before any frame is read
   plan.laid.front().before = plan.laid.front().preparation;
   plan.laid.back().after = plan.laid.back().retraction;
   plan.laid.front().core = plan.laid.front().before;
@@ -82,7 +79,7 @@ Plan plan_of(const std::vector<Stretch>& stretches, const JunctionSettings& sett
     lay_after(plan.laid[i - 1], plan.laid[i], plan.cuts.back());
   }
   plan.frames = plan.laid.back().end();
-  check_length(stretches, plan.frames, settings.rate);
+  check_length(stretches, plan.frames, settings.rate, most);
   return plan;
 }
 
@@ -209,7 +206,7 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
                                   .duration = options.duration,
                                   .tempo = options.tempo,
                                   .model = options.model};
-  const Plan plan = plan_of(stretches, settings);
+  const Plan plan = plan_of(stretches, settings, options.most_frames);
 
   Synthesis out;
   std::vector<ScalarTrack> used_tracks = used.motion.take_tracks();

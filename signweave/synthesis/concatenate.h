@@ -92,6 +92,9 @@ struct SignerRig {
 /// Told from at most kBodyFrames of a stretch's core. `names`: what a mapping file says.
 SignerRig signer_rig_of(const Stretch& stretch, const RigNames& names = {});
 
+/// A day of signing at a hundred frames a second. Frame rates come from files: a wrong one must not ask for a terabyte.
+inline constexpr std::int64_t kMostFrames = std::int64_t{24} * 60 * 60 * 100;
+
 struct ConcatenateOptions {
   const TransitionMethod* method = nullptr;  ///< null: the default
   Milliseconds duration{0};                  ///< of each transition at tempo 1, without pauses
@@ -103,6 +106,7 @@ struct ConcatenateOptions {
   double tempo = 1;                ///< above 1 is faster; positive
   FrameRate rate{0, 1};            ///< of the output; 0: the highest of the sources
   Alignment alignment = Alignment::automatic;
+  std::int64_t most_frames = kMostFrames;  ///< a result that would have more is refused before a frame is read
   std::size_t reference = 0;  ///< the stretch that gives skeleton and standing: in an edit, one of the edited recording
 };
 

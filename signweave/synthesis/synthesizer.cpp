@@ -131,6 +131,7 @@ Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<
                              .tempo = options.tempo,
                              .rate = options.rate.value_or(FrameRate{0, 1}),
                              .alignment = options.alignment,
+                             .most_frames = options.most_frames,
                              .reference = reference},
                             std::move(used));
   made.result.notices = std::move(notices);

@@ -21,7 +21,8 @@ struct SynthesisOptions {
   double tempo = 1;               ///< 0.25 to 4
   std::optional<FrameRate> rate;  ///< the highest of the sources where not given
   Alignment alignment = Alignment::automatic;
-  bool explain = false;  ///< fill Selection::explained
+  std::int64_t most_frames = kMostFrames;  ///< a result that would have more is refused before a frame is read
+  bool explain = false;                    ///< fill Selection::explained
 };
 
 /// Throws Error{bad_input} where an option is out of range.

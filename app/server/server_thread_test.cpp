@@ -115,8 +115,8 @@ TEST(ServerThreads, EndsWithoutAnsweringAllThatWait) {
   options.limits.drain = 50ms;
   TestServer server(options);
   std::string utterance = "DEMAIN";
-  for (int i = 0; i < 60; ++i) utterance += " MATIN DEMAIN";
-  const std::string body = R"({"format":"csv","rate":300,"tempo":0.5,"utterance":")" + utterance + "\"}";
+  for (int i = 0; i < 12; ++i) utterance += " MATIN DEMAIN";
+  const std::string body = R"({"format":"csv","rate":200,"utterance":")" + utterance + "\"}";
   const std::string request =
       "POST /api/databases/demo/sign HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
       "application/json\r\nContent-Length: " +

@@ -34,6 +34,7 @@ struct Served {
                                         server::ApiLimits{.query_time = Milliseconds(1'000),
                                                           .sign_time = Milliseconds(1'000),
                                                           .glosses = 20,
+                                                          .frames = 2'000,
                                                           .upload_bytes = 100'000},
                                         folder / "scratch");
     entries = databases.at("fixed").database().engine().entries;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/server/error_name.h"
 #include "signweave/core/text.h"
 #include "signweave/query/parse.h"
 
@@ -20,28 +21,6 @@ constexpr FileFormat kFormats[] = {
     {"face.csv", ".face.csv", "text/csv; charset=utf-8"},
     {"svg", ".svg", "image/svg+xml"},
 };
-
-std::string_view name_of(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::bad_input:
-      return "bad_input";
-    case ErrorCode::not_found:
-      return "not_found";
-    case ErrorCode::already_exists:
-      return "already_exists";
-    case ErrorCode::conflict:
-      return "conflict";
-    case ErrorCode::corrupt:
-      return "corrupt";
-    case ErrorCode::unsupported:
-      return "unsupported";
-    case ErrorCode::io:
-      return "io";
-    case ErrorCode::cancelled:
-      return "cancelled";
-  }
-  return "io";
-}
 
 /// One line, its options named as the API's fields are: "--replace-motion" is "replace_motion".
 std::string message_of(const std::string& text) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "app/server/control_message.h"
+#include "app/server/error_name.h"
 #include "signweave/stream/player.h"
 
 namespace signweave::server {
@@ -19,8 +20,5 @@ std::string ok_text(std::string_view id, std::uint64_t frame);
 std::string error_text(ErrorCode code, std::string_view message, std::string_view id);
 /// {"type": "place" | "rest" | "end" | "seek" | "notice", …}
 std::string event_text(const PlayerEvent& event);
-
-/// As it stands in JSON errors: "bad_input".
-std::string_view name_of(ErrorCode code) noexcept;
 
 }  // namespace signweave::server

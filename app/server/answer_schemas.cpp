@@ -133,7 +133,10 @@ constexpr const char* kSearchAnswers = R"json({
       "spans_left_out": {"type": "integer"}, "seed": {"type": "integer"}, "confidence": {"type": "number"},
       "tasks": {"type": "array", "items": {"type": "object", "required": ["task", "groups"], "properties": {
         "task": {"type": "string"}, "groups": {"type": "array", "items": {"type": "object"}}}}},
-      "spans": {"type": "array", "items": {"type": "object"}}}}
+      "spans": {"type": "array", "items": {"type": "object"}},
+      "plot": {"type": "string", "description": "the summary with intervals, an SVG document"},
+      "declarations": {"$ref": "#/components/schemas/Declarations"},
+      "notices": {"$ref": "#/components/schemas/Notices"}}}
 })json";
 
 constexpr const char* kMadeAnswers = R"json({
@@ -175,14 +178,15 @@ constexpr const char* kMadeAnswers = R"json({
     "file": {"type": "string"}, "bytes": {"type": "integer"}, "upload_bytes": {"type": "integer"}}},
   "Discarded": {"type": "object", "required": ["discarded"], "properties": {"discarded": {"type": "string"}}},
   "JobBegun": {"type": "object", "required": ["job"], "properties": {"job": {"type": "string"}}},
+  "Changed": {"type": "object", "properties": {
+    "recordings": {"description": "of an import what became of each, as far as it is; of a relayout how many"},
+    "changed": {"type": "array", "items": {"type": "string"}}, "notices": {"$ref": "#/components/schemas/Notices"},
+    "faults": {"type": "array", "items": {"type": "string"}}}},
   "Job": {"type": "object", "required": ["job", "kind", "database", "state", "fraction"], "properties": {
-    "job": {"type": "string"}, "kind": {"enum": ["import", "relayout"]}, "database": {"type": "string"},
+    "job": {"type": "string"}, "kind": {"enum": ["import", "relayout", "evaluate"]}, "database": {"type": "string"},
     "state": {"enum": ["waiting", "running", "done", "failed", "cancelled"]},
     "fraction": {"type": "number", "minimum": 0, "maximum": 1},
-    "result": {"type": "object", "properties": {
-      "recordings": {"description": "of an import what became of each, as far as it is; of a relayout how many"},
-      "changed": {"type": "array", "items": {"type": "string"}}, "notices": {"$ref": "#/components/schemas/Notices"},
-      "faults": {"type": "array", "items": {"type": "string"}}}},
+    "result": {"anyOf": [{"$ref": "#/components/schemas/Changed"}, {"$ref": "#/components/schemas/Evaluation"}]},
     "error": {"type": "object", "required": ["code", "message"]}}},
   "Jobs": {"type": "object", "required": ["jobs"], "properties": {
     "jobs": {"type": "array", "items": {"$ref": "#/components/schemas/Job"}}}}

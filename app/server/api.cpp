@@ -131,7 +131,6 @@ Api::Api(ServedDatabases& databases, ApiLimits limits, std::filesystem::path scr
   auto* state = new State{{.databases = databases,
                            .limits = limits,
                            .scratch = scratch,
-                           .evaluating = {},
                            .uploads = {scratch / "uploads", limits.uploads, limits.upload_bytes, limits.upload_idle},
                            .jobs = {[this](std::string text) { return redacted(*state_, std::move(text)); },
                                     [this] { state_->uploads.sweep(); }}}};

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <mutex>
-
 #include "app/server/api.h"
 #include "app/server/jobs.h"
 #include "app/server/uploads.h"
@@ -13,7 +11,6 @@ struct ApiState {
   ServedDatabases& databases;
   ApiLimits limits;
   std::filesystem::path scratch;
-  std::mutex evaluating;  ///< one at a time: it takes long, and the threads that answer are few
   Uploads uploads;
   Jobs jobs;  ///< the last: its thread ends before what it uses
 };

@@ -18,21 +18,22 @@ ApiResponse relayout_database(Call& call) {
     throw Error(ErrorCode::bad_input, fault);
   }
   for (const std::string& name : parameters.recordings) served.database().contents()->at(name);
-  const std::string id = call.state.jobs.start("relayout", served.name(), [&served, parameters](JobContext& job) {
-    json report;
-    served.change([&](Database& database) {
-      json faults = json::array();
-      const calls::Listener listener{.notice = {},
-                                     .fault = [&](const std::string& line) { faults.push_back(line); },
-                                     .stage = {},
-                                     .progress = [&](double fraction) { job.advance(fraction); }};
-      const calls::Relayouted done = calls::run(database, parameters, listener);
-      calls::learn(database, listener);
-      report = calls::json_of(done);
-      report["faults"] = std::move(faults);
-    });
-    return report;
-  });
+  const std::string id =
+      call.state.jobs.start({.name = "relayout"}, served.name(), [&served, parameters](JobContext& job) {
+        json report;
+        served.change([&](Database& database) {
+          json faults = json::array();
+          const calls::Listener listener{.notice = {},
+                                         .fault = [&](const std::string& line) { faults.push_back(line); },
+                                         .stage = {},
+                                         .progress = [&](double fraction) { job.advance(fraction); }};
+          const calls::Relayouted done = calls::run(database, parameters, listener);
+          calls::learn(database, listener);
+          report = calls::json_of(done);
+          report["faults"] = std::move(faults);
+        });
+        return report;
+      });
   return json_answer(json{{"job", id}}, 202);
 }
 

@@ -39,7 +39,7 @@ calls::SchemaWriter stats_fields() {
   return calls::schema_of_call<WithFormat<calls::StatsCall>>();
 }
 calls::SchemaWriter evaluate_fields() {
-  return calls::schema_of_call<WithFormat<calls::EvaluateCall>>();
+  return calls::schema_of_call<calls::EvaluateCall>();
 }
 calls::SchemaWriter segment_fields() {
   return calls::schema_of_call<WithFormat<calls::SegmentCall>>();
@@ -106,15 +106,29 @@ ApiResponse propose_segments(Call& call) {
 }
 
 ApiResponse evaluate_methods(Call& call) {
-  const auto [parameters, format] = read_parameters<WithFormat<calls::EvaluateCall>>(call);
-  const std::unique_lock one(call.state.evaluating, std::try_to_lock);
-  if (!one) throw StatusError(503, "busy", "another evaluation is under way; try again when it is over");
-  const Database& database = call.database().database();
-  const calls::Evaluated made = calls::run(database, parameters, call.listener());
-  call.declare_all(*database.contents());
-  Bootstrap bootstrap(parameters.seed);
-  if (format == "svg") return file_answer(file_format("svg"), "evaluation", plot_of(made.tasks, bootstrap));
-  return json_answer(json_of(made, parameters, bootstrap));
+  const auto parameters = read_parameters<calls::EvaluateCall>(call);
+  ServedDatabase& served = call.database();
+  call.declare_all(*served.database().contents());
+  const auto evaluate = [&served, parameters, declarations = call.declarations](JobContext& job) {
+    std::vector<Notice> notices;
+    const calls::Listener listener{.notice = [&](const Notice& notice) { notices.push_back(notice); },
+                                   .fault =
+                                       [&](const std::string& line) {
+                                         notices.push_back({"", line});
+                                       },
+                                   .stage = {},
+                                   .progress = [&](double fraction) { job.advance(fraction); }};
+    const calls::Evaluated made = calls::run(served.database(), parameters, listener);
+    Bootstrap bootstrap(parameters.seed);
+    nlohmann::json report = json_of(made, parameters, bootstrap);
+    report["plot"] = plot_of(made.tasks, bootstrap);
+    report["declarations"] = declarations;
+    report["notices"] = calls::json_of(notices);
+    return report;
+  };
+  const std::string id =
+      call.state.jobs.start({.name = "evaluate", .changes = false, .alone = true}, served.name(), evaluate);
+  return json_answer(nlohmann::json{{"job", id}}, 202);
 }
 
 }  // namespace signweave::server

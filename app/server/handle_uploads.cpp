@@ -114,7 +114,7 @@ ApiResponse import_upload(Call& call) {
         parameters, parameters.pairs.empty() ? std::vector{folder} : std::vector<std::filesystem::path>{});
     if (pairing.jobs.empty()) throw Error(ErrorCode::bad_input, "the upload has no motion or annotation file");
     const std::string id = call.state.jobs.start(
-        "import", served.name(), [&served, &uploads, upload, folder, options, pairing](JobContext& job) {
+        {.name = "import"}, served.name(), [&served, &uploads, upload, folder, options, pairing](JobContext& job) {
           json result;
           try {
             served.change([&](Database& database) {

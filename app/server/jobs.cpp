@@ -14,7 +14,7 @@ using nlohmann::json;
 
 struct Jobs::Job {
   std::string id;
-  std::string kind;
+  JobKind kind;
   std::string database;
   Work work;
   State state = State::waiting;
@@ -63,11 +63,16 @@ Jobs::~Jobs() {
   if (thread_.joinable()) thread_.join();
 }
 
-std::string Jobs::start(std::string kind, std::string database, Work work) {
+std::string Jobs::start(JobKind kind, std::string database, Work work) {
   const std::lock_guard lock(mutex_);
   const auto waiting = std::ranges::count_if(jobs_, [](const auto& job) { return !job->over(); });
   if (static_cast<std::size_t>(waiting) >= kMostWaiting) {
     throw Error(ErrorCode::conflict, fmt::format("{} jobs are waiting already; try again when one is over", waiting));
+  }
+  for (const std::shared_ptr<Job>& job : jobs_) {
+    if (!kind.alone || job->over() || job->kind.name != kind.name) continue;
+    throw Error(ErrorCode::conflict,
+                fmt::format("job {} is such a one, and there is one at a time; try again when it is over", job->id));
   }
   auto job = std::make_shared<Job>();
   job->id = std::to_string(next_++);
@@ -94,7 +99,7 @@ std::shared_ptr<Jobs::Job> Jobs::at(const std::string& id) const {
 json Jobs::json_of(const Job& job) const {
   constexpr const char* kNames[] = {"waiting", "running", "done", "failed", "cancelled"};
   json one = {{"job", job.id},
-              {"kind", job.kind},
+              {"kind", job.kind.name},
               {"database", job.database},
               {"state", kNames[static_cast<std::size_t>(job.state)]},
               {"fraction", job.fraction.load(std::memory_order_relaxed)}};
@@ -123,7 +128,7 @@ void Jobs::cancel(const std::string& id) {
 std::optional<std::string> Jobs::changing(const std::string& database) const {
   const std::lock_guard lock(mutex_);
   for (const std::shared_ptr<Job>& job : jobs_) {
-    if (!job->over() && job->database == database) return job->id;
+    if (!job->over() && job->kind.changes && job->database == database) return job->id;
   }
   return std::nullopt;
 }

@@ -27,8 +27,15 @@ class JobContext {
   virtual void tell(const nlohmann::json& result) = 0;
 };
 
-/// Work that is not done when its request is answered: imports, relayouts. One after the other, on a thread of their
-/// own. Threads may share it.
+/// What a job is.
+struct JobKind {
+  std::string name;
+  bool changes = true;  ///< the database: what else changes it has to wait
+  bool alone = false;   ///< there is one of them at a time, over all databases
+};
+
+/// Work that is not done when its request is answered: imports, relayouts, evaluations. One after the other, on a
+/// thread of their own. Threads may share it.
 class Jobs {
  public:
   /// Returns the result.
@@ -44,8 +51,8 @@ class Jobs {
 
   /// Starts the thread: call it once, when what the callbacks use is there.
   void begin();
-  /// A new job's number. Throws Error{conflict} where kMostWaiting are waiting already.
-  std::string start(std::string kind, std::string database, Work work);
+  /// A new job's number. Throws Error{conflict} where kMostWaiting are waiting already, or one that has to be alone.
+  std::string start(JobKind kind, std::string database, Work work);
   /// As JSON: job, kind, database, state (waiting, running, done, failed, cancelled), fraction, result, error. Throws
   /// Error{not_found}.
   nlohmann::json describe(const std::string& id) const;

@@ -52,6 +52,7 @@ int listen_anywhere() {
 }  // namespace
 
 int run_bare_sender(std::size_t streams, std::size_t bytes, double rate) {
+  const bool waits = rate == 0;
   const int listener = listen_anywhere();
   if (listener < 0 || bytes < 4 + kMessageHeaderBytes || bytes > 65'000) return 1;
   const int epoll = epoll_create1(0);
@@ -76,21 +77,21 @@ int run_bare_sender(std::size_t streams, std::size_t bytes, double rate) {
       Receiver& to = receivers[which];
       encode(MessageHeader{.frames = 1, .left_out = 0, .first_frame = to.frame},
              std::span(to.message).subspan(4, kMessageHeaderBytes));
-      if (send(to.descriptor, to.message.data(), to.message.size(), MSG_NOSIGNAL | MSG_DONTWAIT) < 0 &&
+      if (send(to.descriptor, to.message.data(), to.message.size(), MSG_NOSIGNAL | (waits ? 0 : MSG_DONTWAIT)) < 0 &&
           errno != EAGAIN) {
         ++gone;
         close(to.descriptor);
         continue;
       }
       ++to.frame;
-      due.push({to.start + static_cast<double>(to.frame) / rate, which});
+      due.push({waits ? to.start : to.start + static_cast<double>(to.frame) / rate, which});
     }
     const int patience = due.empty() ? 1000 : static_cast<int>(std::ceil(1e3 * std::max(0.0, due.top().at - now())));
     const int ready = epoll_wait(epoll, events.data(), static_cast<int>(events.size()), patience);
     for (int i = 0; i < ready; ++i) {
       const std::size_t which = events[static_cast<std::size_t>(i)].data.u64;
       if (which == streams) {
-        const int descriptor = accept4(listener, nullptr, nullptr, SOCK_NONBLOCK);
+        const int descriptor = accept4(listener, nullptr, nullptr, waits ? 0 : SOCK_NONBLOCK);
         if (descriptor < 0 || receivers.size() == streams) continue;
         const int on = 1;
         setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);

@@ -26,7 +26,7 @@ using testing_database::TestFolder;
 
 const Database& corpus() {
   static const TestFolder folder;
-  static const std::unique_ptr<const Database> database = demo_database(folder / "db", demo::corpus_scripts(4));
+  static const std::unique_ptr<const Database> database = demo_database(folder / "db", 4);
   return *database;
 }
 

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "demo/corpus.h"
 #include "signweave/annotation/tier_name.h"
@@ -26,6 +30,31 @@ inline std::unique_ptr<const Database> demo_database(const std::filesystem::path
       writer.put(recording);
     }
   }
+  return std::make_unique<const Database>(folder, kv::Access::read_only);
+}
+
+/// A copy, in a folder, of the demo corpus of so many minutes. Each test is a process of its own, and making the corpus
+/// takes longer than most tests do: the first process of a program keeps it beside the program, under the time of the
+/// program's last change, and the others copy it from there. Nobody may have it open.
+inline void copy_demo_database(const std::filesystem::path& folder, double minutes) {
+  namespace fs = std::filesystem;
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const fs::path kept = program.parent_path().parent_path() / "test_databases" / program.filename() /
+                        fmt::format("{}-{}", fs::last_write_time(program).time_since_epoch().count(), minutes);
+  if (!fs::exists(kept)) {
+    const fs::path mine = kept.string() + fmt::format(".{}", getpid());
+    fs::create_directories(mine.parent_path());
+    demo_database(mine, demo::corpus_scripts(minutes)).reset();
+    std::error_code somebody_was_first;
+    fs::rename(mine, kept, somebody_was_first);
+    if (somebody_was_first) fs::remove_all(mine);
+  }
+  fs::copy(kept, folder, fs::copy_options::recursive);
+}
+
+/// The same, opened.
+inline std::unique_ptr<const Database> demo_database(const std::filesystem::path& folder, double minutes) {
+  copy_demo_database(folder, minutes);
   return std::make_unique<const Database>(folder, kv::Access::read_only);
 }
 

@@ -19,7 +19,7 @@ using testing_database::TestFolder;
 /// The demo corpus in a database, made once.
 const Database& corpus() {
   static const TestFolder folder;
-  static const std::unique_ptr<const Database> database = demo_database(folder / "db", demo::corpus_scripts(6));
+  static const std::unique_ptr<const Database> database = demo_database(folder / "db", 6);
   return *database;
 }
 

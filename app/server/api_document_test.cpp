@@ -162,7 +162,7 @@ TEST(ApiDocument, EveryAnswerToGetFitsItsSchema) {
   EXPECT_GE(seen.size(), 10u);
 }
 
-TEST(ApiDocument, AnEvaluationFitsItsSchema) {
+TEST(ApiDocument, AnEvaluationIsAJobWhoseResultFitsItsSchema) {
   TestApi api(false);
   const Path evaluate{"databases", "demo", "evaluate"};
   const std::string job = json_in(api.send("POST", evaluate, {{"method", {"hermite"}}}))["job"];
@@ -172,7 +172,13 @@ TEST(ApiDocument, AnEvaluationFitsItsSchema) {
     state = json_in(api.get({"jobs", job}));
     EXPECT_THAT(faults_of(state, "Job"), testing::IsEmpty());
   } while (state["state"] == "waiting" || state["state"] == "running");
-  EXPECT_THAT(faults_of(state["result"], "Evaluation"), testing::IsEmpty());
+  ASSERT_EQ(state["state"], "done") << state;
+  const json& result = state["result"];
+  EXPECT_THAT(faults_of(result, "Evaluation"), testing::IsEmpty());
+  EXPECT_EQ(result["recordings"], 2);
+  EXPECT_EQ(result["tasks"][0]["task"], "given");
+  EXPECT_THAT(result["plot"].get<std::string>(), HasSubstr("<svg"));
+  EXPECT_THAT(result["declarations"].dump(), HasSubstr("not LSF"));
 }
 
 TEST(ApiDocument, EveryRouteRefusesWhatIsWrong) {

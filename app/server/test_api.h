@@ -51,7 +51,7 @@ class TestApi {
   static const std::filesystem::path& made() {
     static const kv::TestFolder folder;
     static const std::filesystem::path path = [] {
-      demo_database(folder / "demo.db", demo::corpus_scripts(2));
+      copy_demo_database(folder / "demo.db", 2);
       return folder / "demo.db";
     }();
     return path;

@@ -26,7 +26,7 @@ inline const std::filesystem::path& demo_folder() {
   static const kv::TestFolder folder;
   static const std::filesystem::path database = [] {
     std::filesystem::path path = folder / "demo.db";
-    demo_database(path, demo::corpus_scripts(1)).reset();
+    copy_demo_database(path, 1);
     return path;
   }();
   return database;

@@ -310,16 +310,18 @@ double tcp_memory() {
 
 void stalled_clients(const Server& server, Utterances& utterances, const Size& size) {
   constexpr double kMiB = 1 << 20;
+  // All sign the same: the transitions that the server keeps are not a client's.
+  const std::string text = utterances.of(kOfPaced);
   std::vector<std::unique_ptr<Connection>> reading;
   reading.push_back(server.open(kLoop));
-  reading.back()->send(control("sign", utterances.of(kOfPaced)));
+  reading.back()->send(control("sign", text));
   wait_for_frames(*reading.back());
   const double before = server.process().resident_bytes();
   const double tcp_before = tcp_memory();
   std::vector<std::unique_ptr<Connection>> stalled;
   for (std::size_t i = 0; i < size.stalled; ++i) {
     stalled.push_back(server.open(kLoop));
-    stalled.back()->send(control("sign", utterances.of(kOfPaced)));
+    stalled.back()->send(control("sign", text));
   }
   const Paced beside =
       receive_paced(reading, kRate, size.settle, size.stalled_seconds, [&] { return server.process().cpu_seconds(); });

@@ -10,13 +10,13 @@
 namespace signweave::cli {
 
 Run create(CLI::App& verb) {
-  struct Options {
+  struct CreateArguments {
     std::string folder;
     std::string engine = "lmdb";
     std::string mode = "by_frame";
     std::optional<double> compact;  ///< millimetres
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CreateArguments>();
   verb.add_option("DB", options->folder, "folder to make; must not exist or be empty")->required();
   verb.add_option("--engine", options->engine, "key-value engine")
       ->check(CLI::IsMember(kv::engines()))

@@ -9,12 +9,12 @@
 namespace signweave::cli {
 
 Run edit(CLI::App& verb) {
-  struct Options {
+  struct EditArguments {
     std::string folder;
     calls::EditCall call;
     Delivery delivery;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EditArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next == "transition") add_outputs(verb, options->delivery.outputs);

@@ -15,7 +15,7 @@
 namespace signweave::cli {
 namespace {
 
-struct Options {
+struct EvaluateArguments {
   std::vector<std::string> paths;
   calls::EvaluateCall call;
   std::vector<std::string> measures;
@@ -38,7 +38,7 @@ std::string check_measure(const std::string& name) {
 }
 
 /// Those that were asked for, in the order of asking; none: each task's own.
-std::vector<Measure> measures_of(const Options& options) {
+std::vector<Measure> measures_of(const EvaluateArguments& options) {
   std::vector<Measure> chosen;
   for (const std::string& name : options.measures) {
     for (const MeasureInfo& info : measures()) {
@@ -54,7 +54,7 @@ void draw(const std::string& path, const std::vector<EvaluatedTask>& tasks, Boot
   file.commit();
 }
 
-void run_evaluate(const Options& options, Io& io) {
+void run_evaluate(const EvaluateArguments& options, Io& io) {
   std::unique_ptr<Progress> progress;
   calls::Listener listener = listener_of(io);
   listener.stage = [&](std::string_view what) { progress = std::make_unique<Progress>(io, std::string(what)); };
@@ -90,7 +90,7 @@ void run_evaluate(const Options& options, Io& io) {
 }  // namespace
 
 Run evaluate(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EvaluateArguments>();
   verb.add_option("PATH", options->paths, "databases, motion files (.bvh), or folders of them")->required();
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next != "seed") return;

@@ -9,12 +9,12 @@
 namespace signweave::cli {
 
 Run export_recording(CLI::App& verb) {
-  struct Options {
+  struct ExportArguments {
     std::string folder;
     std::vector<std::string> outputs;
     calls::ExportCall call;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next == "from") add_outputs(verb, options->outputs);

@@ -13,7 +13,7 @@
 namespace signweave::cli {
 namespace {
 
-struct Options {
+struct ImportArguments {
   std::string folder;
   std::vector<std::string> inputs;
   calls::ImportCall call;
@@ -44,7 +44,7 @@ void print(const calls::Imported& imported, Io& io) {
   io.out << line << '\n';
 }
 
-void run_import(const Options& options, Io& io) {
+void run_import(const ImportArguments& options, Io& io) {
   const ImportOptions how = options_of(options.call);
   Database database(options.folder, kv::Access::read_write);
   const std::vector<std::filesystem::path> inputs(options.inputs.begin(), options.inputs.end());
@@ -69,7 +69,7 @@ void run_import(const Options& options, Io& io) {
 }  // namespace
 
 Run import(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ImportArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   verb.add_option("FILE", options->inputs,
                   "motion files (.bvh), annotation files (.eaf), face captures (.face.csv), folders of them");

@@ -150,13 +150,13 @@ void info_of_eaf(const std::string& path, Io& io) {
 }  // namespace
 
 Run info(CLI::App& verb) {
-  struct Options {
+  struct InfoArguments {
     std::string path;
     std::string recording;
     std::string rig;
     calls::MotionReading motion;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InfoArguments>();
   verb.add_option("PATH", options->path,
                   "a database, a motion file (.bvh), an annotation file (.eaf) or a face capture (.face.csv)")
       ->required();

@@ -11,13 +11,13 @@
 namespace signweave::cli {
 namespace {
 
-struct Options {
+struct QueryArguments {
   std::string folder;
   std::string format = "table";
   calls::QueryCall call;
 };
 
-void run_query(const Options& options, Io& io) {
+void run_query(const QueryArguments& options, Io& io) {
   parse(options.call.text);  // what is wrong with the query is told before anything is opened
   const Database database(options.folder, kv::Access::read_only);
   report_damage(database, io);
@@ -37,7 +37,7 @@ void run_query(const Options& options, Io& io) {
 }  // namespace
 
 Run query(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<QueryArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next != "limit") return;

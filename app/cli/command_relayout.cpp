@@ -14,11 +14,11 @@
 namespace signweave::cli {
 
 Run relayout(CLI::App& verb) {
-  struct Options {
+  struct RelayoutArguments {
     std::string folder;
     calls::RelayoutCall call;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RelayoutArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call);
   return [options](Io& io) {

@@ -9,11 +9,11 @@
 namespace signweave::cli {
 
 Run remove(CLI::App& verb) {
-  struct Options {
+  struct RemoveArguments {
     std::string folder;
     calls::RemoveCall call;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RemoveArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call);
   return [options](Io& io) {

@@ -18,7 +18,7 @@
 namespace signweave::cli {
 namespace {
 
-struct Options {
+struct SegmentArguments {
   std::string motion;
   std::string output;
   std::string rig;
@@ -60,7 +60,7 @@ void require_new(const std::string& path) {
               path + ": is there already, and may hold a person's annotation; give another name, or --overwrite");
 }
 
-void run_segment(const Options& options, Io& io) {
+void run_segment(const SegmentArguments& options, Io& io) {
   if (!options.output.empty() && !options.overwrite) require_new(options.output);
   bvh::ReadOptions reading = read_options(options.reading);
   Progress progress(io, "reading");
@@ -87,7 +87,7 @@ void run_segment(const Options& options, Io& io) {
 }  // namespace
 
 Run segment(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SegmentArguments>();
   verb.add_option("MOTION", options->motion, "a motion file (.bvh)")->required();
   verb.add_option("-o,--output", options->output, "annotation file to write (.eaf); without it phases are only counted")
       ->check([](const std::string& path) {

@@ -20,7 +20,7 @@
 namespace signweave::cli {
 namespace {
 
-struct Options {
+struct ServeArguments {
   std::vector<std::string> folders;
   std::string listen = "127.0.0.1:8080";
   bool writable = false;
@@ -92,7 +92,7 @@ void raise_file_limit() {
   ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-void run_serve(const Options& given, Io& io) {
+void run_serve(const ServeArguments& given, Io& io) {
   server::ServerOptions options = given.server;
   const Listen listen = *parse_listen(given.listen);
   options.address = listen.address;
@@ -127,7 +127,7 @@ void run_serve(const Options& given, Io& io) {
 }  // namespace
 
 Run serve(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ServeArguments>();
   server::ServerOptions& server = options->server;
   verb.add_option("DB", options->folders, "databases; each is served under its folder's name without ending")
       ->required();

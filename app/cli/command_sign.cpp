@@ -9,12 +9,12 @@
 namespace signweave::cli {
 
 Run sign(CLI::App& verb) {
-  struct Options {
+  struct SignArguments {
     std::string folder;
     calls::SignCall call;
     Delivery delivery;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SignArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next == "transition") add_outputs(verb, options->delivery.outputs);

@@ -15,9 +15,9 @@
 namespace signweave::cli {
 namespace {
 
-constexpr std::size_t kMostRows = 40;  ///< of a table of pairs, glosses or n-grams: the rest is counted
+constexpr std::size_t kMostTableRows = 40;  ///< of a table of pairs, glosses or n-grams: the rest is counted
 
-struct Options {
+struct StatsArguments {
   std::string folder;
   std::string format = "table";
   std::string plot;
@@ -30,10 +30,10 @@ void print_some(Rows rows, const std::string& noun, Io& io) {
     io.out << "no " << noun << '\n';
     return;
   }
-  rows.resize(std::min(rows.size(), kMostRows + 1));
+  rows.resize(std::min(rows.size(), kMostTableRows + 1));
   io.out << format_table(rows);
-  if (count > kMostRows) {
-    io.out << fmt::format("and {} more, see --format csv\n", calls::counted(count - kMostRows, noun));
+  if (count > kMostTableRows) {
+    io.out << fmt::format("and {} more, see --format csv\n", calls::counted(count - kMostTableRows, noun));
   }
 }
 
@@ -57,7 +57,7 @@ void print_tables(const calls::StatsCall& options, const calls::Counted& counted
   }
 }
 
-void run_stats(const Options& options, Io& io) {
+void run_stats(const StatsArguments& options, Io& io) {
   const bool csv = options.format == "csv" && !io.json;
   if (const std::string fault = csv ? calls::csv_fault(options.call) : ""; !fault.empty()) {
     throw CLI::ValidationError("--format", fault);
@@ -83,7 +83,7 @@ void run_stats(const Options& options, Io& io) {
 }  // namespace
 
 Run stats(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StatsArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call);
   verb.add_option("--plot", options->plot, "draw the transitions, split into retraction and preparation (.svg)")

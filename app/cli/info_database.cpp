@@ -85,7 +85,7 @@ void info_of_database(const std::string& folder, Io& io) {
 
 void info_of_recording(const std::string& folder, const std::string& name, Io& io) {
   const Database database(folder, kv::Access::read_only);
-  const calls::RecordingDetails found = calls::run(database, {.recording = name});
+  const calls::RecordingDetails found = calls::run(database, calls::RecordingCall{.recording = name});
   if (io.json) {
     io.out << text_of(json_of(found));
     return;

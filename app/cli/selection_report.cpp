@@ -12,7 +12,7 @@
 namespace signweave::cli {
 namespace {
 
-constexpr std::size_t kMostRows = 5;  ///< of one place: the rest is counted
+constexpr std::size_t kMostOfPlace = 5;  ///< of one place: the rest is counted
 
 std::string label_of(const Candidate& candidate) {
   if (candidate.signs.empty() || !candidate.at_strokes) return "(piece)";
@@ -92,7 +92,7 @@ void print_selection(const Synthesized& made, Io& io) {
   std::vector<std::vector<std::string>> rows = {head_of()};
   for (std::size_t place = 0; place < made.choices.size(); ++place) {
     const std::vector<std::size_t> order = cheapest_first(selection.explained[place], selection.chosen[place]);
-    const std::size_t shown = order.size() > kMostRows + 1 ? kMostRows : order.size();
+    const std::size_t shown = order.size() > kMostOfPlace + 1 ? kMostOfPlace : order.size();
     for (std::size_t i = 0; i < shown; ++i) rows.push_back(row_of(made, place, order[i]));
     if (shown == order.size()) continue;
     std::vector<std::string> rest = {std::to_string(place + 1), "", fmt::format("and {} more", order.size() - shown)};

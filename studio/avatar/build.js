@@ -1,0 +1,19 @@
+// Builds one character: gathered once, written in as many ways as are asked for.
+import { gather } from './shape/character.js';
+import { writeGlb } from './glb/write.js';
+import { extrasOf } from './rig/extras.js';
+import { materialsOf } from './surface/materials.js';
+
+/**
+ * @param {string} name `woman` or `man`
+ * @param {Array<{ small: boolean }>} kinds small: meshopt, whole numbers, WebP; else nothing that a plain glTF reader does not know
+ * @returns {Promise<Uint8Array[]>} one GLB for each kind
+ */
+export async function buildCharacter(name, kinds) {
+  const character = gather(name);
+  const extras = extrasOf(character);
+  const materials = materialsOf(character);
+  const out = [];
+  for (const { small } of kinds) out.push(await writeGlb(character, { small, extras, materials }));
+  return out;
+}

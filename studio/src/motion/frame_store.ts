@@ -1,0 +1,190 @@
+import { frameBytes, kRotationUnit, kTranslationUnit, type FrameBlock } from './frames'
+import { Kinematics } from './kinematics'
+import { restPose, type Pose } from './pose'
+import { chainTo, type Rig, type Skeleton } from './skeleton'
+
+const kPageBits = 7
+const kPageFrames = 1 << kPageBits
+
+/** 128 frames in the layout of docs/stream.md, looked at as three kinds of number. */
+interface Page {
+  readonly ints: Int32Array
+  readonly floats: Float32Array
+  readonly shorts: Int16Array
+  /** 1 where the frame has come. */
+  readonly there: Uint8Array
+  /** [6 · frame]: left wrist, right wrist, metres, model space. */
+  readonly hands: Float32Array
+}
+
+/** The frames of a motion as far as they have come, in any order. Reading allocates nothing. */
+export class FrameStore {
+  readonly skeleton: Skeleton
+  /** Frames a second. */
+  readonly rate: number
+  /** Which parts of the hands `hand` tells of; false where the rig has no such joint. */
+  readonly hasHand: readonly [boolean, boolean]
+  /** How many frames the motion has; of a stream, how many have come. */
+  length: number
+  /** How many frames have come. */
+  arrived = 0
+  private readonly pages: (Page | undefined)[] = []
+  private readonly bytes: number
+  private readonly kinematics: Kinematics
+  private readonly scratch: Pose
+  private readonly wrists: readonly [number, number]
+  private readonly chain: readonly number[]
+  private readonly moved: Int32Array
+
+  constructor(skeleton: Skeleton, rate: number, rig: Rig, length = 0) {
+    this.skeleton = skeleton
+    this.rate = rate
+    this.length = length
+    this.bytes = frameBytes(skeleton)
+    this.kinematics = new Kinematics(skeleton)
+    this.scratch = restPose(skeleton)
+    this.wrists = [rig.left_hand?.joint ?? -1, rig.right_hand?.joint ?? -1]
+    this.hasHand = [this.wrists[0] >= 0, this.wrists[1] >= 0]
+    const joints = new Set(this.wrists.flatMap((wrist) => (wrist < 0 ? [] : chainTo(skeleton, wrist))))
+    this.chain = [...joints].sort((a, b) => a - b)
+    this.moved = Int32Array.from(skeleton.translated)
+  }
+
+  /** Seconds from the first frame to the last. */
+  get seconds(): number {
+    return Math.max(0, this.length - 1) / this.rate
+  }
+
+  put(block: FrameBlock): void {
+    const from = new Uint8Array(block.buffer, block.offset, block.count * this.bytes)
+    for (let i = 0; i < block.count; ++i) {
+      const frame = block.first + i
+      const page = (this.pages[frame >> kPageBits] ??= this.page())
+      const at = frame & (kPageFrames - 1)
+      new Uint8Array(page.ints.buffer, at * this.bytes, this.bytes).set(from.subarray(i * this.bytes, (i + 1) * this.bytes))
+      if (!page.there[at]) {
+        page.there[at] = 1
+        ++this.arrived
+      }
+      this.measure(page, frame)
+    }
+    this.length = Math.max(this.length, block.first + block.count)
+  }
+
+  /** Gives up whole pages of frames before `frame`: a stream goes on for hours, and nobody looks back that far. */
+  forgetBefore(frame: number): void {
+    for (let page = (frame >> kPageBits) - 1; page >= 0 && this.pages[page]; --page) {
+      for (const there of this.pages[page]!.there) this.arrived -= there
+      this.pages[page] = undefined
+    }
+  }
+
+  has(frame: number): boolean {
+    const page = this.pages[frame >> kPageBits]
+    return page !== undefined && page.there[frame & (kPageFrames - 1)] === 1
+  }
+
+  /** The first frame at or after `frame` that has not come, or `length`. */
+  firstMissing(frame: number): number {
+    let f = Math.max(0, frame)
+    while (f < this.length && this.has(f)) ++f
+    return f
+  }
+
+  /** One number of a wrist's place in metres: `hand` 0 is left, 1 right; `axis` 0 x, 1 y, 2 z. NaN where it has not come. */
+  hand(frame: number, hand: 0 | 1, axis: 0 | 1 | 2): number {
+    const page = this.pages[frame >> kPageBits]
+    const at = frame & (kPageFrames - 1)
+    return page && page.there[at] ? page.hands[6 * at + 3 * hand + axis] : NaN
+  }
+
+  /** Metres a second of a wrist at a frame, from the frames before and after it; NaN where they have not come. */
+  speed(frame: number, hand: 0 | 1): number {
+    const before = Math.max(0, frame - 1), after = Math.min(this.length - 1, frame + 1)
+    const dx = this.hand(after, hand, 0) - this.hand(before, hand, 0)
+    const dy = this.hand(after, hand, 1) - this.hand(before, hand, 1)
+    const dz = this.hand(after, hand, 2) - this.hand(before, hand, 2)
+    return (Math.sqrt(dx * dx + dy * dy + dz * dz) * this.rate) / Math.max(1, after - before)
+  }
+
+  /**
+   * The pose at a time in seconds from frame 0, between the two frames around it. Where one of them has not come the nearest
+   * earlier one that has stands in. False, and the pose as it was, where there is none.
+   */
+  sample(seconds: number, pose: Pose): boolean {
+    const at = Math.min(Math.max(0, seconds * this.rate), Math.max(0, this.length - 1))
+    let frame = Math.floor(at + 1e-6)
+    let part = Math.max(0, at - frame)
+    if (!this.has(frame)) {
+      part = 0
+      while (frame >= 0 && !this.has(frame)) --frame
+      if (frame < 0) return false
+    }
+    this.read(frame, pose, 1, true)
+    if (part > 1e-6 && this.has(frame + 1)) this.read(frame + 1, pose, part, false)
+    this.normalize(pose)
+    return true
+  }
+
+  /** Lets the pose go over to a frame by `part`; `fresh` overwrites it. Rotations keep to one side and are not unit yet. */
+  private read(frame: number, pose: Pose, part: number, fresh: boolean): void {
+    const page = this.pages[frame >> kPageBits]!
+    const words = ((frame & (kPageFrames - 1)) * this.bytes) >> 2
+    const { rotations, positions, tracks } = pose
+    const keep = fresh ? 0 : 1 - part
+    let word = words
+    for (let t = 0; t < this.moved.length; ++t) {
+      const j = 3 * this.moved[t]
+      for (let k = 0; k < 3; ++k, ++word) positions[j + k] = keep * positions[j + k] + part * page.ints[word] * kTranslationUnit
+    }
+    for (let t = 0; t < tracks.length; ++t, ++word) tracks[t] = keep * tracks[t] + part * page.floats[word]
+    let short = word << 1
+    for (let j = 0; j < rotations.length; j += 4, short += 4) {
+      const x = page.shorts[short] * kRotationUnit, y = page.shorts[short + 1] * kRotationUnit
+      const z = page.shorts[short + 2] * kRotationUnit, w = page.shorts[short + 3] * kRotationUnit
+      // q and -q are one rotation: the blend takes the short way round.
+      const dot = fresh ? 1 : rotations[j] * x + rotations[j + 1] * y + rotations[j + 2] * z + rotations[j + 3] * w
+      const to = dot < 0 ? -part : part
+      rotations[j] = keep * rotations[j] + to * x
+      rotations[j + 1] = keep * rotations[j + 1] + to * y
+      rotations[j + 2] = keep * rotations[j + 2] + to * z
+      rotations[j + 3] = keep * rotations[j + 3] + to * w
+    }
+  }
+
+  private normalize(pose: Pose): void {
+    const q = pose.rotations
+    for (let j = 0; j < q.length; j += 4) {
+      const length = Math.sqrt(q[j] * q[j] + q[j + 1] * q[j + 1] + q[j + 2] * q[j + 2] + q[j + 3] * q[j + 3])
+      if (length < 1e-6) {
+        q[j] = q[j + 1] = q[j + 2] = 0
+        q[j + 3] = 1
+        continue
+      }
+      for (let k = 0; k < 4; ++k) q[j + k] /= length
+    }
+  }
+
+  private measure(page: Page, frame: number): void {
+    const at = frame & (kPageFrames - 1)
+    this.read(frame, this.scratch, 1, true)
+    this.normalize(this.scratch)
+    this.kinematics.update(this.scratch, this.chain)
+    for (let hand = 0; hand < 2; ++hand) {
+      for (let k = 0; k < 3; ++k) {
+        page.hands[6 * at + 3 * hand + k] = this.wrists[hand] < 0 ? NaN : this.kinematics.positions[3 * this.wrists[hand] + k]
+      }
+    }
+  }
+
+  private page(): Page {
+    const buffer = new ArrayBuffer(kPageFrames * this.bytes)
+    return {
+      ints: new Int32Array(buffer),
+      floats: new Float32Array(buffer),
+      shorts: new Int16Array(buffer),
+      there: new Uint8Array(kPageFrames),
+      hands: new Float32Array(6 * kPageFrames),
+    }
+  }
+}

@@ -1,0 +1,43 @@
+/** A joint of a skeleton. */
+export interface Joint {
+  readonly name: string
+  /** Index of the parent, which comes before it; −1 for the root. */
+  readonly parent: number
+  /** From the parent, in metres, Y up, right-handed. */
+  readonly offset: readonly [number, number, number]
+}
+
+/** What all frames of a motion share. */
+export interface Skeleton {
+  /** Parents before children. */
+  readonly joints: readonly Joint[]
+  /** Joints that have a translation in every frame, which stands instead of their offset, in the order of a frame's bytes. */
+  readonly translated: readonly number[]
+  /** Names of the scalar tracks (face weights), in the order of a frame's bytes. */
+  readonly tracks: readonly string[]
+}
+
+/** Where a part of the body is: a joint, or a tip, which is an offset (metres) from its joint. */
+export interface Part {
+  readonly joint: number
+  readonly offset?: readonly [number, number, number]
+}
+
+/** Which joint plays which part, by the names of docs/rig.md, such as `left_hand` or `right_index_tip`. */
+export type Rig = { readonly [part: string]: Part | undefined }
+
+/** The joints from the root to `joint`, both included. */
+export function chainTo(skeleton: Skeleton, joint: number): number[] {
+  const chain: number[] = []
+  for (let j = joint; j >= 0; j = skeleton.joints[j].parent) chain.unshift(j)
+  return chain
+}
+
+/** Positions of all joints in model space with every local rotation identity: [3 · joint], metres. */
+export function restPositions(skeleton: Skeleton): Float32Array {
+  const rest = new Float32Array(3 * skeleton.joints.length)
+  skeleton.joints.forEach((joint, j) => {
+    for (let k = 0; k < 3; ++k) rest[3 * j + k] = joint.offset[k] + (joint.parent < 0 ? 0 : rest[3 * joint.parent + k])
+  })
+  return rest
+}

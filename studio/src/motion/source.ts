@@ -1,0 +1,39 @@
+import type { ReportSign } from '../api/client'
+import type { FrameStore } from './frame_store'
+import type { Rig } from './skeleton'
+
+/** What a recording says of itself, by name: must be shown wherever its motion is. */
+export type Declarations = Readonly<Record<string, string>>
+
+/** Something that gives the frames of a motion, in pieces. */
+export interface MotionSource {
+  /** What it is called on the screen. */
+  readonly title: string
+  /** Whether it is known only at the end how long it is. */
+  readonly grows: boolean
+  /** Whether all frames have come. */
+  readonly complete: boolean
+  /** Resolves as soon as there is something to show; rejects where there never will be. Called once. */
+  open(): Promise<OpenedMotion>
+  /** Says where the picture is (seconds from frame 0), so that what is needed next comes next. */
+  want?(seconds: number): void
+  /** Gives up what is under way. */
+  close(): void
+  /** Called after each piece, and after the last with `complete` true. */
+  onProgress?: (complete: boolean) => void
+  /** Called where a piece could not be had: what is there stays. */
+  onFault?: (fault: Error) => void
+}
+
+/** A motion of which the first frames are there. */
+export interface OpenedMotion {
+  readonly store: FrameStore
+  readonly rig: Rig
+  /** Annotation time of frame 0, in ms. */
+  readonly originMs: number
+  readonly declarations: Declarations
+  /** Of a motion that was made: its signs and where they were recorded. */
+  readonly signs?: readonly ReportSign[]
+  /** The recording whose skeleton it is. */
+  readonly recording: string
+}

@@ -1,0 +1,131 @@
+import { rigOf, type Api } from '../api/client'
+import { ApiError, StudioFault } from '../api/fault'
+import { FrameStore } from './frame_store'
+import { decodeMessage, type FrameBlock } from './frames'
+import type { Declarations, MotionSource, OpenedMotion } from './source'
+import type { Skeleton } from './skeleton'
+
+interface Header {
+  readonly recording: string
+  readonly declarations: readonly { name: string; value: string }[]
+  readonly rate: number
+  readonly layout: number
+  readonly frame_bytes: number
+  readonly joints: readonly { name: string; parent: number; offset: [number, number, number] }[]
+  readonly translated: readonly number[]
+  readonly tracks: readonly string[]
+}
+
+/** `fast`: as quickly as the page takes it, and then it ends. `live`: at the pace of the signing, then a living rest. */
+export type Pace = 'fast' | 'live'
+
+/** Seconds of a live stream that are kept. */
+const kKept = 600
+
+/** An utterance signed over the WebSocket of docs/stream.md. */
+export class StreamSource implements MotionSource {
+  readonly grows = true
+  complete = false
+  onProgress?: (complete: boolean) => void
+  onFault?: (fault: Error) => void
+  /** A gloss whose stroke begins at a frame, or none where the signer goes to rest. */
+  onPlace?: (frame: number, gloss?: string) => void
+  /** Something was refused or left out, and the stream goes on. */
+  onNotice?: (fault: Error) => void
+  /** Frames that the server left out because this page was slow. */
+  leftOut = 0
+  private socket?: WebSocket
+  private header?: Header
+  private store?: FrameStore
+  /** Frames that came while the rig was still asked for. */
+  private waiting: FrameBlock[] = []
+  private over = false
+
+  constructor(private readonly api: Api, private readonly database: string, readonly title: string, private readonly pace: Pace) {}
+
+  open(): Promise<OpenedMotion> {
+    return new Promise((resolve, reject) => {
+      const socket = (this.socket = new WebSocket(this.api.streamUrl(this.database)))
+      socket.binaryType = 'arraybuffer'
+      const fail = (fault: Error) => {
+        this.close()
+        if (this.store) this.onFault?.(fault)
+        else reject(fault)
+      }
+      socket.onopen = () => {
+        const fast = this.pace === 'fast'
+        this.send({ type: 'open', pace: this.pace, idle: fast ? 'end' : 'rest', batch: fast ? 60 : 2 })
+        this.sign(this.title)
+      }
+      // A socket that fails tells no reason to a page, and closes.
+      socket.onclose = ({ reason, code }) => {
+        if (!this.over) fail(this.header ? new StudioFault('streamClosed', reason || String(code)) : new StudioFault('streamRefused', reason))
+      }
+      socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => {
+        if (this.over) return
+        try {
+          if (typeof data === 'string') this.told(JSON.parse(data), fail)
+          else if (this.header) this.take(decodeMessage(data, this.header.frame_bytes), this.header, resolve, fail)
+        } catch (fault) {
+          fail(fault as Error)
+        }
+      }
+    })
+  }
+
+  /** Another utterance instead of what is left, going over from where the signer is. */
+  sign(utterance: string): void {
+    this.send({ type: 'sign', utterance })
+  }
+
+  close(): void {
+    this.over = true
+    this.socket?.close(1000)
+  }
+
+  private take(block: FrameBlock & { leftOut: number }, header: Header, resolve: (opened: OpenedMotion) => void, fail: (fault: Error) => void): void {
+    this.leftOut = block.leftOut
+    if (!this.store) {
+      if (this.waiting.push(block) === 1) this.begin(header, resolve).catch(fail)
+      return
+    }
+    this.store.put(block)
+    if (this.pace === 'live') this.store.forgetBefore(this.store.length - Math.round(kKept * header.rate))
+    this.onProgress?.(false)
+  }
+
+  private async begin(header: Header, resolve: (opened: OpenedMotion) => void): Promise<void> {
+    const skeleton: Skeleton = { joints: header.joints, translated: header.translated, tracks: header.tracks }
+    const declarations: Declarations = Object.fromEntries(header.declarations.map(({ name, value }) => [name, value]))
+    const rig = rigOf(await this.api.recording(this.database, header.recording))
+    const store = new FrameStore(skeleton, header.rate, rig)
+    for (const block of this.waiting) store.put(block)
+    this.waiting = []
+    this.store = store
+    resolve({ store, rig, originMs: 0, declarations, recording: header.recording })
+  }
+
+  private told(message: { type: string; frame?: number } & Record<string, unknown>, fail: (fault: Error) => void): void {
+    const { type, frame = 0 } = message
+    if (type === 'header') {
+      const header = message as unknown as Header
+      if (header.layout !== 1) fail(new StudioFault('badAnswer', `layout ${header.layout}`))
+      this.header = header
+    } else if (type === 'error') {
+      const fault = new ApiError(String(message.message), 0, String(message.code))
+      // Before the first frame there is nothing else to come; later the stream goes on.
+      if (this.header) this.onNotice?.(fault)
+      else fail(fault)
+    } else if (type === 'place') this.onPlace?.(frame, String(message.gloss))
+    else if (type === 'rest') this.onPlace?.(frame)
+    else if (type === 'end') {
+      this.complete = true
+      this.close()
+      this.onProgress?.(true)
+    }
+  }
+
+  private send(message: object): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message))
+  }
+}

@@ -1,0 +1,60 @@
+import { en, type Text } from '../text/en'
+import { fr } from '../text/fr'
+
+export type Language = 'en' | 'fr'
+export type Theme = 'dark' | 'light'
+
+const kTexts: Record<Language, Text> = { en, fr }
+
+/** What was chosen before, where it is one of `possible`. */
+function stored<T extends string>(key: string, possible: readonly T[]): T | undefined {
+  try {
+    const value = localStorage.getItem(`signweave.${key}`)
+    return possible.find((one) => one === value)
+  } catch {
+    return undefined // a page that may store nothing works with what the system prefers
+  }
+}
+function store(key: string, value: string): void {
+  try {
+    localStorage.setItem(`signweave.${key}`, value)
+  } catch {
+    // as above
+  }
+}
+
+/** Language, theme and keys: as chosen before, else as the system has them. */
+class Preferences {
+  language = $state<Language>(stored('language', ['en', 'fr']) ?? (navigator.language.startsWith('fr') ? 'fr' : 'en'))
+  theme = $state<Theme>(stored('theme', ['dark', 'light']) ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark'))
+  /** Whether keys that are letters, digits or signs do something. Who speaks to a computer instead of typing switches them off. */
+  characterKeys = $state(stored('keys', ['off']) === undefined)
+  text = $derived(kTexts[this.language])
+
+  setLanguage(language: Language): void {
+    this.language = language
+    store('language', language)
+  }
+  setCharacterKeys(on: boolean): void {
+    this.characterKeys = on
+    store('keys', on ? 'on' : 'off')
+  }
+  setTheme(theme: Theme): void {
+    this.theme = theme
+    store('theme', theme)
+  }
+}
+
+export const preferences = new Preferences()
+
+/** A text with its `{…}` filled in. */
+export function filled(text: string, values: Readonly<Record<string, string | number>>): string {
+  return text.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole))
+}
+
+/** A number as the language writes it. */
+export function number(value: number, digits = 0): string {
+  return value.toLocaleString(preferences.language, { minimumFractionDigits: digits, maximumFractionDigits: digits })
+}
+
+export { clock } from './clock'

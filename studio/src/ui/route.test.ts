@@ -1,0 +1,17 @@
+import { expect, it } from 'vitest'
+import { addressOf, parseRoute, type Route } from './route'
+
+it('says in the address what is shown, and reads it back', () => {
+  const routes: Route[] = [
+    { page: 'recordings', database: 'demo' },
+    { page: 'make', database: 'demo' },
+    { page: 'recording', database: 'a/b', recording: 'ISL Thanks?', beside: 'été', at: 1.5 },
+    { page: 'sign', database: 'demo', utterance: 'VANNES , "LE MANS"#2', pace: 'live' },
+    { page: 'edit', database: 'demo', recording: 'meteo', replace: ['A=B', 'MATIN#2="LE MANS"'], swap: undefined },
+  ]
+  for (const route of routes) expect(parseRoute(addressOf(route))).toEqual(route)
+})
+
+it('shows the recordings where the address says nothing that it knows', () => {
+  for (const hash of ['', '#', '#/', '#/%E0%A4%A', '#/demo/nothing/x']) expect(parseRoute(hash).page).toBe('recordings')
+})

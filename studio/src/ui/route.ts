@@ -1,0 +1,54 @@
+/** What is shown, as the address says it behind `#`, so that every view can be linked and the back key works. */
+export type Route =
+  | { readonly page: 'recordings'; readonly database?: string }
+  | { readonly page: 'make'; readonly database?: string }
+  | { readonly page: 'recording'; readonly database: string; readonly recording: string; readonly beside?: string; readonly at: number }
+  | { readonly page: 'sign'; readonly database: string; readonly utterance: string; readonly pace: 'fast' | 'live' }
+  | { readonly page: 'edit'; readonly database: string; readonly recording: string; readonly replace: readonly string[]; readonly swap?: string }
+
+export function parseRoute(hash: string): Route {
+  const [path, query = ''] = hash.replace(/^#\/?/, '').split('?', 2)
+  const parameters = new URLSearchParams(query)
+  let parts: string[]
+  try {
+    parts = path.split('/').filter(Boolean).map(decodeURIComponent)
+  } catch {
+    parts = []
+  }
+  const [database, page, name] = parts
+  if (database && page === 'recording' && name) {
+    return { page, database, recording: name, beside: parameters.get('beside') ?? undefined, at: Math.max(0, Number(parameters.get('at')) || 0) }
+  }
+  if (database && page === 'sign' && name) {
+    return { page, database, utterance: name, pace: parameters.get('pace') === 'live' ? 'live' : 'fast' }
+  }
+  if (database && page === 'edit' && name) {
+    return { page, database, recording: name, replace: parameters.getAll('replace'), swap: parameters.get('swap') ?? undefined }
+  }
+  return { page: page === 'make' ? 'make' : 'recordings', database }
+}
+
+export function addressOf(route: Route): string {
+  const parts = (...names: string[]) => '#/' + names.map(encodeURIComponent).join('/')
+  const query = new URLSearchParams()
+  switch (route.page) {
+    case 'recordings': return parts(...(route.database ? [route.database] : []))
+    case 'make': return route.database ? parts(route.database, 'make') : parts()
+    case 'recording':
+      if (route.beside) query.set('beside', route.beside)
+      if (route.at) query.set('at', String(route.at))
+      return withQuery(parts(route.database, 'recording', route.recording), query)
+    case 'sign':
+      if (route.pace === 'live') query.set('pace', 'live')
+      return withQuery(parts(route.database, 'sign', route.utterance), query)
+    case 'edit':
+      for (const one of route.replace) query.append('replace', one)
+      if (route.swap) query.set('swap', route.swap)
+      return withQuery(parts(route.database, 'edit', route.recording), query)
+  }
+}
+
+function withQuery(path: string, query: URLSearchParams): string {
+  const text = query.toString()
+  return text ? `${path}?${text}` : path
+}

@@ -1,0 +1,120 @@
+import { PerspectiveCamera, Vector3 } from 'three'
+import type { Kinematics } from '../motion/kinematics'
+import type { Proportions } from './proportions'
+
+export const kViews = ['front', 'left', 'right', 'hands', 'face', 'whole'] as const
+export type View = (typeof kViews)[number]
+
+const kLens = 28 // degrees, vertical: long enough that hands before the body are not enlarged
+
+/** Seconds in which the camera goes two thirds of its way. */
+const kFollow = 0.13
+
+/** Frames the signer as sign language is filmed: from the hips to above the head, with room for the arms. */
+export class SignerCamera {
+  readonly camera = new PerspectiveCamera(kLens, 1, 0.05, 50)
+  /** Radians about the vertical from the front, to the signer's left; and up. */
+  azimuth = 0
+  elevation = 0
+  /** Times as near as the view asks for. */
+  zoom = 1
+  view: View = 'front'
+  private readonly target = new Vector3()
+  private readonly wanted = new Vector3()
+  private readonly offset = new Vector3()
+  private readonly along = new Vector3()
+  private distance = 1
+  /** Metres that the distance still lacks. */
+  private away = 0
+  private fresh = true
+  private readonly height: number
+  private readonly half: { width: number; height: number }
+  private readonly wholeHeight: number
+  private readonly wholeHalf: number
+  private readonly wrists: readonly [number, number]
+  private readonly root: number
+  private readonly head: number
+  /** From the head's joint to the middle of the face, metres. */
+  private readonly toFace: number
+
+  constructor(private readonly signer: Proportions) {
+    const at = (part: string) => signer.at(part)?.dot(signer.up)
+    const feet = Math.min(at('left_foot') ?? 0, at('right_foot') ?? 0)
+    const pelvis = at('pelvis') ?? 0.9 * signer.scale
+    const top = at('head_top') ?? (at('head') ?? pelvis + 0.6 * signer.scale) + 0.19 * signer.scale
+    // Relative to the pelvis, which the camera follows slowly and level.
+    const low = -0.16 * signer.scale, high = top - pelvis + 0.13 * signer.scale
+    this.height = (low + high) / 2
+    this.half = { width: 0.56 * signer.scale, height: (high - low) / 2 }
+    this.wholeHeight = (feet - pelvis - 0.08 * signer.scale + high) / 2
+    this.wholeHalf = (high - (feet - pelvis - 0.08 * signer.scale)) / 2
+    this.wrists = [signer.joint('left_hand'), signer.joint('right_hand')]
+    this.root = Math.max(0, signer.joint('pelvis'))
+    this.head = signer.joint('head')
+    this.toFace = 0.42 * Math.max(0.12 * signer.scale, top - (at('head') ?? top - 0.19 * signer.scale))
+  }
+
+  look(view: View): void {
+    this.view = view
+    this.zoom = 1
+    this.elevation = view === 'hands' ? 0.12 : 0
+    this.azimuth = view === 'left' ? Math.PI / 2 : view === 'right' ? -Math.PI / 2 : 0
+    this.fresh = true
+  }
+
+  orbit(azimuth: number, elevation: number): void {
+    this.azimuth = ((this.azimuth + azimuth + Math.PI) % (2 * Math.PI) + 2 * Math.PI) % (2 * Math.PI) - Math.PI
+    this.elevation = Math.min(1.4, Math.max(-1.2, this.elevation + elevation))
+  }
+
+  /** Moves the camera for a picture of this shape, `elapsed` seconds after the one before; `model` must be up to date. */
+  update(model: Kinematics, aspect: number, elapsed: number): void {
+    const { signer, wanted } = this
+    const place = model.positions
+    let halfHeight = this.half.height, halfWidth = this.half.width
+    if (this.view === 'hands' && this.wrists[0] >= 0 && this.wrists[1] >= 0) {
+      const [l, r] = this.wrists
+      wanted.set(place[3 * l] + place[3 * r], place[3 * l + 1] + place[3 * r + 1], place[3 * l + 2] + place[3 * r + 2]).multiplyScalar(0.5)
+      wanted.addScaledVector(signer.up, 0.04 * signer.scale)
+      this.along.set(place[3 * l] - place[3 * r], place[3 * l + 1] - place[3 * r + 1], place[3 * l + 2] - place[3 * r + 2])
+      halfHeight = 0.18 * signer.scale + 0.5 * Math.abs(this.along.y)
+      halfWidth = 0.17 * signer.scale + 0.5 * Math.hypot(this.along.x, this.along.z)
+    } else if (this.view === 'face' && this.head >= 0) {
+      const head = 3 * this.head
+      wanted.set(place[head], place[head + 1], place[head + 2]).addScaledVector(signer.up, this.toFace)
+      halfHeight = 0.17 * signer.scale
+      halfWidth = 0.14 * signer.scale
+    } else {
+      const root = 3 * this.root
+      wanted.set(place[root], place[root + 1], place[root + 2])
+      wanted.addScaledVector(signer.up, this.view === 'whole' ? this.wholeHeight : this.height)
+      if (this.view === 'whole') halfHeight = this.wholeHalf
+    }
+    const lens = Math.tan((kLens * Math.PI) / 360)
+    const distance = Math.max(halfHeight / lens, halfWidth / (lens * aspect)) / this.zoom + 0.15 * signer.scale
+    // Follows softly, so that a view of the hands does not shake; as fast where few pictures are drawn.
+    const follow = this.fresh ? 1 : 1 - Math.exp(-elapsed / kFollow)
+    this.target.lerp(wanted, follow)
+    this.distance += (distance - this.distance) * follow
+    this.away = Math.abs(distance - this.distance)
+    this.fresh = false
+    const flat = Math.cos(this.elevation)
+    this.offset.set(0, 0, 0)
+      .addScaledVector(signer.left, Math.sin(this.azimuth) * flat)
+      .addScaledVector(signer.front, Math.cos(this.azimuth) * flat)
+      .addScaledVector(signer.up, Math.sin(this.elevation))
+    this.camera.position.copy(this.target).addScaledVector(this.offset, this.distance)
+    this.camera.up.copy(signer.up)
+    this.camera.lookAt(this.target)
+    if (this.camera.aspect !== aspect) {
+      this.camera.aspect = aspect
+      this.camera.updateProjectionMatrix()
+    }
+    this.camera.updateMatrixWorld()
+  }
+
+  /** Whether following has come to rest, so that a picture that stands still need not be drawn again. */
+  get settled(): boolean {
+    return this.away < 1e-4 && this.target.distanceToSquared(this.wanted) < 1e-8
+  }
+}

@@ -1,0 +1,61 @@
+import { Bone, Group, Matrix4, MeshStandardMaterial, Skeleton as SkinSkeleton, SkinnedMesh } from 'three'
+import type { Pose } from '../motion/pose'
+import type { Rig, Skeleton } from '../motion/skeleton'
+import type { Body } from './body'
+import { DrawnFace } from './drawn_face'
+import { drawnGeometry } from './drawn_solids'
+import { Proportions } from './proportions'
+
+/** A signer drawn from the skeleton itself: there at once, for any skeleton, whatever its names. */
+export class DrawnBody implements Body {
+  readonly object = new Group()
+  readonly hasFace: boolean
+  readonly shines = false
+  private readonly bones: Bone[]
+  private readonly mesh: SkinnedMesh
+  private readonly face?: DrawnFace
+
+  constructor(skeleton: Skeleton, rig: Rig) {
+    const proportions = new Proportions(skeleton, rig)
+    this.bones = skeleton.joints.map(({ name, offset }) => {
+      const bone = new Bone()
+      bone.name = name
+      bone.position.set(...offset)
+      return bone
+    })
+    skeleton.joints.forEach(({ parent }, j) => (parent < 0 ? this.object : this.bones[parent]).add(this.bones[j]))
+    const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.78, metalness: 0 })
+    this.mesh = new SkinnedMesh(drawnGeometry(proportions), material)
+    const inverses = skeleton.joints.map((_, j) => {
+      const at = proportions.ofJoint(j)
+      return new Matrix4().makeTranslation(-at.x, -at.y, -at.z)
+    })
+    this.mesh.bind(new SkinSkeleton(this.bones, inverses), new Matrix4())
+    this.mesh.frustumCulled = false
+    this.object.add(this.mesh)
+    const head = proportions.joint('head')
+    if (head >= 0) {
+      this.face = new DrawnFace(proportions, skeleton.tracks)
+      this.bones[head].add(this.face.object)
+    }
+    this.hasFace = this.face?.moves ?? false
+    this.object.traverse((one) => {
+      one.castShadow = one.receiveShadow = true
+    })
+  }
+
+  show(pose: Pose): void {
+    for (let j = 0; j < this.bones.length; ++j) {
+      this.bones[j].quaternion.set(pose.rotations[4 * j], pose.rotations[4 * j + 1], pose.rotations[4 * j + 2], pose.rotations[4 * j + 3])
+      this.bones[j].position.set(pose.positions[3 * j], pose.positions[3 * j + 1], pose.positions[3 * j + 2])
+    }
+    this.face?.show(pose)
+  }
+
+  dispose(): void {
+    this.mesh.geometry.dispose()
+    ;(this.mesh.material as MeshStandardMaterial).dispose()
+    this.mesh.skeleton.dispose()
+    this.face?.dispose()
+  }
+}

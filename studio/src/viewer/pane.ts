@@ -1,0 +1,90 @@
+import { Scene, Vector3, type Texture } from 'three'
+import type { FrameStore } from '../motion/frame_store'
+import { Kinematics } from '../motion/kinematics'
+import { restPose, type Pose } from '../motion/pose'
+import type { OpenedMotion } from '../motion/source'
+import type { Body } from './body'
+import { BonesOverlay } from './bones_overlay'
+import { SignerCamera } from './camera'
+import { DrawnBody } from './drawn_body'
+import { Lights } from './lights'
+import { Proportions } from './proportions'
+import { Trails } from './trails'
+
+/** One motion on the stage: its signer, light and camera. */
+export class Pane {
+  readonly scene = new Scene()
+  readonly store: FrameStore
+  readonly signer: Proportions
+  readonly camera: SignerCamera
+  body: Body
+  /** From the stage's time to this motion's, both in seconds; the same where not set. */
+  timeOf: (seconds: number) => number = (seconds) => seconds
+  /** Whether the last picture was of frames that have not come, so that it must be drawn again when more do. */
+  waiting = true
+  private readonly pose: Pose
+  private readonly model: Kinematics
+  private readonly trails: Trails
+  private readonly bones: BonesOverlay
+  private readonly lights: Lights
+  private readonly root = new Vector3()
+
+  constructor(readonly motion: OpenedMotion) {
+    this.store = motion.store
+    const { skeleton } = motion.store
+    this.signer = new Proportions(skeleton, motion.rig)
+    this.camera = new SignerCamera(this.signer)
+    this.pose = restPose(skeleton)
+    this.model = new Kinematics(skeleton)
+    this.trails = new Trails(motion.store)
+    this.bones = new BonesOverlay(skeleton, this.model)
+    this.body = new DrawnBody(skeleton, motion.rig)
+    this.lights = new Lights(this.scene, this.signer)
+    this.lights.suit(null)
+    this.scene.add(this.body.object, this.trails.object, this.bones.object)
+    this.trails.object.visible = this.bones.object.visible = false
+  }
+
+  set trailsShown(shown: boolean) {
+    this.trails.object.visible = shown
+  }
+  set bonesShown(shown: boolean) {
+    this.bones.object.visible = shown
+  }
+
+  /** Another body in place of this one, which is given up; `surroundings` is what a body that shines shows of the room. */
+  wear(body: Body, surroundings: () => Texture): void {
+    this.scene.remove(this.body.object)
+    this.body.dispose()
+    this.body = body
+    this.scene.add(body.object)
+    this.light(surroundings)
+  }
+
+  /** Light for the body that is there. */
+  light(surroundings: () => Texture): void {
+    this.lights.suit(this.body.shines ? surroundings() : null)
+  }
+
+  /** Brings everything to a time of the stage, for a picture of this shape, `elapsed` seconds after the one before. */
+  update(seconds: number, aspect: number, elapsed: number): void {
+    const time = this.timeOf(seconds)
+    const { store, model } = this
+    store.sample(time, this.pose)
+    this.waiting = !store.has(Math.min(store.length - 1, Math.floor(time * store.rate + 1e-6)))
+    model.update(this.pose)
+    this.body.show(this.pose)
+    if (this.trails.object.visible) this.trails.update(time)
+    if (this.bones.object.visible) this.bones.update()
+    this.camera.update(model, aspect, elapsed)
+    const root = 3 * Math.max(0, this.signer.joint('pelvis'))
+    this.lights.follow(this.root.set(model.positions[root], model.positions[root + 1], model.positions[root + 2]))
+  }
+
+  dispose(): void {
+    this.body.dispose()
+    this.trails.dispose()
+    this.bones.dispose()
+    this.lights.dispose()
+  }
+}

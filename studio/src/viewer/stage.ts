@@ -1,0 +1,160 @@
+import { ACESFilmicToneMapping, PCFShadowMap, PMREMGenerator, WebGLRenderer, type Texture, type WebGLRenderTarget } from 'three'
+import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js'
+import { StudioFault } from '../api/fault'
+import type { View } from './camera'
+import type { Pane } from './pane'
+import type { Transport } from './transport'
+
+/** What a picture took, in ms of the main thread, over the last second or so. */
+export interface FrameCost { mean: number; most: number; pictures: number }
+
+/** Draws one or two motions in step on one canvas, only while something changes. */
+export class Stage {
+  readonly panes: Pane[] = []
+  /** Called before each picture with the time in seconds; must be quick and allocate nothing. */
+  onPicture?: (seconds: number) => void
+  /** Called where the browser takes the picture away, and where it gives it back. */
+  onLost?: (lost: boolean) => void
+  /** The last 120 pictures' times of the main thread, in ms. */
+  readonly costs = new Float32Array(120)
+  pictures = 0
+  private readonly renderer: WebGLRenderer
+  private readonly observer: ResizeObserver
+  private room?: WebGLRenderTarget
+  private request = 0
+  /** Of the picture before, ms of the page's clock. */
+  private last = 0
+  private dirty = true
+  private width = 1
+  private height = 1
+
+  constructor(private readonly canvas: HTMLCanvasElement, readonly transport: Transport) {
+    try {
+      this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: 'high-performance' })
+    } catch {
+      throw new StudioFault('noWebgl')
+    }
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio))
+    this.renderer.toneMapping = ACESFilmicToneMapping
+    this.renderer.toneMappingExposure = 1.05
+    this.renderer.shadowMap.enabled = true
+    this.renderer.shadowMap.type = PCFShadowMap
+    this.renderer.setClearColor(0x000000, 0)
+    this.observer = new ResizeObserver(() => this.resize())
+    this.observer.observe(canvas.parentElement!)
+    canvas.addEventListener('webglcontextlost', this.lost)
+    canvas.addEventListener('webglcontextrestored', this.restored)
+    this.resize()
+    this.request = requestAnimationFrame(this.frame)
+  }
+
+  /** Something changed that the transport does not know of. */
+  touch(): void {
+    this.dirty = true
+  }
+
+  look(view: View): void {
+    for (const pane of this.panes) pane.camera.look(view)
+    this.touch()
+  }
+  orbit(azimuth: number, elevation: number): void {
+    for (const pane of this.panes) pane.camera.orbit(azimuth, elevation)
+    this.touch()
+  }
+  zoom(factor: number): void {
+    for (const pane of this.panes) pane.camera.zoom = Math.min(8, Math.max(0.4, pane.camera.zoom * factor))
+    this.touch()
+  }
+
+  /** Side by side where the canvas is wide, else one above the other. */
+  get stacked(): boolean {
+    return this.width < this.height
+  }
+
+  /** Mean and most of the last pictures. */
+  cost(): FrameCost {
+    const count = Math.min(this.pictures, this.costs.length)
+    let sum = 0, most = 0
+    for (let i = 0; i < count; ++i) (sum += this.costs[i]), (most = Math.max(most, this.costs[i]))
+    return { mean: count ? sum / count : 0, most, pictures: this.pictures }
+  }
+
+  /** What a room looks like from its middle, for surfaces that shine; made when first asked for. */
+  surroundings = (): Texture => {
+    if (!this.room) {
+      const maker = new PMREMGenerator(this.renderer), room = new RoomEnvironment()
+      this.room = maker.fromScene(room, 0.04)
+      room.dispose()
+      maker.dispose()
+    }
+    return this.room.texture
+  }
+
+  /** How many geometries and textures the graphics card holds. */
+  get held(): { geometries: number; textures: number } {
+    return this.renderer.info.memory
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.request)
+    this.observer.disconnect()
+    this.canvas.removeEventListener('webglcontextlost', this.lost)
+    this.canvas.removeEventListener('webglcontextrestored', this.restored)
+    for (const pane of this.panes) pane.dispose()
+    this.panes.length = 0
+    this.room?.dispose()
+    this.renderer.dispose()
+    // A browser gives a page some sixteen of these, and takes the oldest away where there are more.
+    this.renderer.forceContextLoss()
+  }
+
+  private readonly lost = (): void => this.onLost?.(true)
+  private readonly restored = (): void => {
+    this.room?.dispose()
+    this.room = undefined
+    for (const pane of this.panes) pane.light(this.surroundings)
+    this.onLost?.(false)
+    this.touch()
+  }
+
+  private readonly frame = (now: number): void => {
+    this.request = requestAnimationFrame(this.frame)
+    const start = performance.now()
+    const moved = this.transport.tick(now)
+    if (!moved && !this.dirty) return
+    this.dirty = false
+    this.onPicture?.(this.transport.time)
+    this.draw(this.transport.time, Math.min(0.1, Math.max(0, (now - this.last) / 1000)))
+    this.last = now
+    this.costs[this.pictures++ % this.costs.length] = performance.now() - start
+  }
+
+  private draw(seconds: number, elapsed: number): void {
+    const { renderer, panes, width, height } = this
+    const count = panes.length
+    if (count === 0) return renderer.clear()
+    let waiting = false
+    const stacked = this.stacked
+    const w = stacked ? width : width / count, h = stacked ? height / count : height
+    renderer.setScissorTest(count > 1)
+    for (let i = 0; i < count; ++i) {
+      const pane = panes[i]
+      pane.update(seconds, w / h, elapsed)
+      waiting ||= pane.waiting
+      if (!pane.camera.settled) this.dirty = true
+      const x = stacked ? 0 : i * w, y = stacked ? (count - 1 - i) * h : 0
+      renderer.setViewport(x, y, w, h)
+      renderer.setScissor(x, y, w, h)
+      renderer.render(pane.scene, pane.camera.camera)
+    }
+    this.transport.held = waiting
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.canvas.parentElement!
+    this.width = Math.max(1, clientWidth)
+    this.height = Math.max(1, clientHeight)
+    this.renderer.setSize(this.width, this.height, false)
+    this.dirty = true
+  }
+}

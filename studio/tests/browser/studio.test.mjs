@@ -1,0 +1,331 @@
+// The studio by keyboard and mouse, against a real server and a demo corpus: SITE names the built studio.
+import assert from 'node:assert/strict'
+import { readFileSync } from 'node:fs'
+import { createRequire } from 'node:module'
+import { after, before, test as run } from 'node:test'
+import { withBrowser } from './chromium.mjs'
+import { axeFaults, azimuth, colorAtJoint, isSkin, smallVideo, transport } from './page_tools.mjs'
+import { linkVideo, withServer } from './server.mjs'
+import { drawn, opened } from './waits.mjs'
+
+const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8')
+/** A test that must end in four minutes also where everything is drawn by software on a busy machine. */
+const test = (name, work) => run(name, { timeout: 240_000 }, work)
+const kDeclared = /placeholder shapes, not LSF/
+let address, context, page, over
+const faults = []
+
+before(async () => {
+  await new Promise((ready, broken) => {
+    withServer(process.env.SITE, (at) => withBrowser(async (opened) => {
+      address = at
+      context = opened
+      await new Promise((end) => {
+        over = end
+        ready()
+      })
+    }, { locale: 'en-GB', colorScheme: 'dark' }), linkVideo).catch(broken)
+  })
+})
+after(() => over?.())
+
+async function visit(hash, size = { width: 1280, height: 720 }, whole = false) {
+  await page?.close()
+  page = await context.newPage()
+  page.on('pageerror', (error) => faults.push(error.message))
+  await page.setViewportSize(size)
+  await page.goto(`${address}/${hash}`)
+  await opened(page, hash, whole)
+}
+const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not ${wanted}`)
+const button = (name) => page.getByRole('button', { name, exact: true })
+
+test('lists recordings, with their statistics and the plot', async () => {
+  await visit('')
+  await page.getByRole('searchbox').fill('vil')
+  assert.deepEqual(await page.locator('tbody th a').allTextContents(), ['villes'])
+  await page.getByRole('button', { name: 'Transitions of villes' }).click()
+  await page.waitForFunction(() => /villes/.test(document.querySelector('#statistics-title').textContent))
+  await page.waitForFunction(() => document.querySelector('section img')?.naturalWidth > 300)
+  assert.match(await page.locator('[role=status]').textContent(), kDeclared)
+})
+
+test('opens a recording by keyboard alone, and shows it before the whole motion is there', async () => {
+  await visit('')
+  await page.keyboard.press('Tab')
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'To the content')
+  for (let i = 0; i < 30; ++i) {
+    await page.keyboard.press('Tab')
+    if (await page.evaluate(() => document.activeElement.title === 'Open meteo')) break
+  }
+  assert.notEqual(await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle), 'none')
+  await page.evaluate(() => {
+    window.firstPictures = []
+    const look = () => {
+      const pane = window.signweaveStage?.panes[0]
+      if (pane && window.signweaveStage.pictures > 0) window.firstPictures.push(pane.store.arrived / pane.store.length)
+      if (window.firstPictures.length < 3) requestAnimationFrame(look)
+    }
+    look()
+  })
+  await page.keyboard.press('Enter')
+  await opened(page, '#/demo/recording/meteo')
+  assert.ok((await page.evaluate(() => window.firstPictures[0])) < 0.5, 'most of the motion had come before the first picture')
+})
+
+test('draws the signer where the motion has it', async () => {
+  await visit('#/demo/recording/meteo?at=2.2')
+  await drawn(page)
+  for (const joint of ['RightHandMiddle1', 'LeftHandMiddle1']) {
+    assert.ok(isSkin(await colorAtJoint(page, joint)), `${joint}: ${await colorAtJoint(page, joint)}`)
+  }
+  assert.ok(!isSkin(await colorAtJoint(page, 'Spine2')))
+  assert.equal(await page.getByText('No face captured').count(), 0)
+})
+
+test('says that a face without tracks is neutral', async () => {
+  await visit('#/demo/recording/villes')
+  assert.equal(await page.getByText('No face captured: the face is neutral').count(), 1)
+})
+
+test('plays, steps and selects by keyboard', async () => {
+  await visit('#/demo/recording/meteo?at=2.2')
+  const { rate } = await transport(page)
+  await page.keyboard.press('ArrowRight')
+  near((await transport(page)).time, 2.2 + 1 / rate, 1e-6)
+  await page.keyboard.press('Shift+ArrowLeft')
+  near((await transport(page)).time, 2.2 - 9 / rate, 1e-6)
+  await page.keyboard.press('ArrowDown')
+  near((await transport(page)).time, 2.98)
+  await page.keyboard.press('g')
+  const { loop } = await transport(page)
+  near(loop.begin, 2.98)
+  near(loop.end, 4.35)
+  await page.keyboard.press('>')
+  await page.keyboard.press('>')
+  near((await transport(page)).speed, 1.5)
+  await page.keyboard.press('Space')
+  await page.waitForTimeout(1800)
+  const playing = await transport(page)
+  assert.ok(playing.playing && playing.time >= 2.98 && playing.time < 4.35, `${playing.time} is outside the selection`)
+  await page.keyboard.press('Space')
+  assert.equal((await transport(page)).playing, false)
+  await page.keyboard.press('Escape')
+  assert.equal((await transport(page)).loop, null)
+  await page.keyboard.press('End')
+  near((await transport(page)).time, playing.duration)
+})
+
+test('turns and changes its view by keyboard and mouse', async () => {
+  await visit('#/demo/recording/meteo?at=2.2')
+  await page.keyboard.press('2')
+  near(await azimuth(page), Math.PI / 2)
+  await page.keyboard.press('1')
+  await page.keyboard.press('l')
+  near(await azimuth(page), Math.PI / 24)
+  await page.mouse.move(500, 200)
+  await page.mouse.down()
+  await page.mouse.move(400, 200, { steps: 4 })
+  await page.mouse.up()
+  near(await azimuth(page), Math.PI / 24 + 0.8, 0.02)
+  await page.keyboard.press('t')
+  assert.equal(await button('Trails').getAttribute('aria-pressed'), 'true')
+  await button('Skeleton').click()
+  assert.equal(await button('Skeleton').getAttribute('aria-pressed'), 'true')
+})
+
+test('scrubs, selects and zooms on the timeline by mouse', async () => {
+  await visit('#/demo/recording/meteo')
+  const lane = await page.getByRole('slider', { name: 'Time' }).boundingBox()
+  const { duration } = await transport(page)
+  await page.mouse.click(lane.x + lane.width / 2, lane.y + 10)
+  near((await transport(page)).time, duration / 2, 0.1)
+  await page.mouse.click(lane.x + (2 / duration) * lane.width, lane.y + 36)
+  near((await transport(page)).loop.begin, 1.2)
+  near((await transport(page)).loop.end, 2.98)
+  await page.mouse.move(lane.x + 300, lane.y + 36)
+  await page.mouse.down()
+  await page.mouse.move(lane.x + 400, lane.y + 36, { steps: 3 })
+  await page.mouse.up()
+  near((await transport(page)).loop.end - (await transport(page)).loop.begin, (100 / lane.width) * duration, 0.02)
+  await page.keyboard.press('Home')
+  const spoken = await page.getByRole('slider', { name: 'Time' }).getAttribute('aria-valuetext')
+  assert.match(spoken, /^0:1\d\.\d{3}, /)
+})
+
+test('wears the figure that the server makes, by the names of its joints', async () => {
+  await visit('#/demo/recording/meteo?at=2.2')
+  await button('Server’s figure').click()
+  await page.waitForFunction(() => window.signweaveStage.panes[0].body.morphs?.length > 10)
+  await drawn(page)
+  const off = await page.evaluate(() => {
+    const pane = window.signweaveStage.panes[0]
+    let most = 0
+    pane.body.joints.forEach((joint, j) => {
+      const e = joint.matrixWorld.elements, p = pane.model.positions
+      most = Math.max(most, Math.hypot(e[12] - p[3 * j], e[13] - p[3 * j + 1], e[14] - p[3 * j + 2]))
+    })
+    return most
+  })
+  assert.ok(off < 1e-3, `a joint of the figure is ${off} m from where the motion has it`)
+})
+
+test('shows an edited recording beside the original, sign by sign', async () => {
+  await visit('#/demo/edit/meteo?replace=BRETAGNE%3DVANNES&replace=MATIN%232%3DLE%20MANS')
+  assert.deepEqual((await page.locator('.title').allTextContents()).map((text) => text.trim()), ['Recorded meteo', 'Made meteo'])
+  const steps = await page.evaluate(() => [5, 29.3, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
+  near(steps[0], 5, 1e-6)
+  assert.ok(Math.abs(steps[2] - 40) > 0.05, 'the original goes on by time')
+  const names = await page.locator('.names li').allTextContents()
+  assert.deepEqual(names.filter(Boolean).slice(0, 4), ['Gloss', 'Phase', 'Source', 'Junction'])
+  await page.getByLabel('In step').selectOption('time')
+  near(await page.evaluate(() => window.signweaveStage.panes[0].timeOf(40)), 40, 1e-6)
+  assert.match(await page.locator('[role=status]').textContent(), kDeclared)
+})
+
+test('signs glosses that were typed, over the stream', async () => {
+  await visit('#/demo/make')
+  await page.getByLabel('Glosses in order').fill('VANNES MATIN , "LE MANS" PLUIE')
+  await page.keyboard.press('Enter')
+  await opened(page, '#/demo/sign/x', true)
+  await page.waitForFunction(() => window.signweaveStage.transport.duration > 3)
+  const { duration } = await transport(page)
+  assert.ok(duration > 3 && duration < 12, `${duration} s`)
+  assert.ok((await page.locator('.names li').allTextContents()).includes('Junction'))
+  assert.match(await page.locator('[role=status]').textContent(), kDeclared)
+  await visit('#/demo/sign/VANES')
+  assert.match(await page.getByRole('alert').textContent(), /no sign 'VANES'.*VANNES/)
+})
+
+test('signs live, and stays close to what has come', async () => {
+  await visit('#/demo/sign/VANNES%20MATIN?pace=live')
+  const first = await transport(page)
+  await page.waitForTimeout(2500)
+  const then = await transport(page)
+  assert.ok(then.duration > first.duration + 1, `${first.duration}, then ${then.duration}`)
+  assert.ok(then.duration - then.time < 1.5, `${then.duration - then.time} s behind`)
+})
+
+test('signs something else live when asked to, and tells what cannot be signed', async () => {
+  await visit('#/demo/sign/VANNES?pace=live')
+  await page.waitForFunction(() => document.querySelector('.gloss')?.textContent === 'VANNES')
+  const next = page.getByPlaceholder('Glosses in order')
+  await next.fill('MATIN')
+  await next.press('Enter')
+  await page.waitForFunction(() => document.querySelector('.gloss')?.textContent === 'MATIN', null, { timeout: 60000 })
+  await next.fill('NOBODY')
+  await next.press('Enter')
+  await page.waitForFunction(() => /no sign 'NOBODY'/.test(document.querySelector('[role=alert]')?.textContent))
+  const before = await transport(page)
+  await page.waitForTimeout(1500)
+  assert.ok((await transport(page)).duration > before.duration, 'the stream stopped')
+})
+
+test('waits with its clock for frames that have not come', async () => {
+  await visit('')
+  let free
+  const held = new Promise((resolve) => (free = resolve))
+  let pieces = 0
+  await page.route(/recordings\/meteo\/motion/, async (route) => {
+    if (++pieces > 2) await held
+    await route.continue()
+  })
+  await page.evaluate(() => (location.hash = '#/demo/recording/meteo'))
+  await opened(page, '#/demo/recording/meteo')
+  await page.keyboard.press('Space')
+  await page.waitForFunction(() => window.signweaveStage.transport.held)
+  const { time, playing } = await transport(page)
+  await page.waitForTimeout(700)
+  assert.ok(playing && (await transport(page)).time === time && time < 1.5, `${time}`)
+  assert.equal(await page.getByText('Waiting for frames').count(), 1)
+  free()
+  await page.waitForFunction((from) => window.signweaveStage.transport.time > from + 0.2, time)
+})
+
+test('keeps what is shown where the rest cannot be had, and tries again when asked', async () => {
+  await visit('')
+  let pieces = 0
+  await page.route(/recordings\/meteo\/motion/, (route) => (++pieces === 1 ? route.continue() : route.abort()))
+  await page.evaluate(() => (location.hash = '#/demo/recording/meteo'))
+  await opened(page, '#/demo/recording/meteo')
+  await page.waitForFunction(() => /The server does not answer/.test(document.querySelector('[role=alert]')?.textContent))
+  assert.equal(await page.locator('.stage canvas').count(), 1)
+  await page.unroute(/recordings\/meteo\/motion/)
+  await page.getByRole('button', { name: 'Try again' }).click()
+  await opened(page, '#/demo/recording/meteo', true)
+  assert.equal(await page.getByRole('alert').count(), 0)
+})
+
+test('goes from view to view without keeping their pictures, and gives the content the focus', async () => {
+  await visit('#/demo/recording/meteo')
+  await page.evaluate(() => (window.before = new WeakRef(window.signweaveStage)))
+  for (let i = 0; i < 20; ++i) {
+    await page.evaluate((name) => (location.hash = `#/demo/recording/${name}`), i % 2 ? 'meteo' : 'villes')
+    await page.waitForFunction((name) => document.title.startsWith(name) && window.signweaveStage?.panes.length > 0, i % 2 ? 'meteo' : 'villes')
+  }
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'content')
+  assert.equal(await page.evaluate(() => document.querySelector('.stage canvas').getContext('webgl2').isContextLost()), false)
+  await page.evaluate(() => (location.hash = '#/demo'))
+  await page.waitForFunction(() => window.signweaveStage === undefined)
+})
+
+test('fills the screen with what the recordings declare', async () => {
+  await visit('#/demo/recording/meteo?at=2.2')
+  await page.keyboard.press('f')
+  await page.waitForFunction(() => document.fullscreenElement?.matches('.player'))
+  assert.match(await page.locator('.player [role=status]').textContent(), kDeclared)
+  await page.keyboard.press('f')
+  await page.waitForFunction(() => !document.fullscreenElement)
+})
+
+test('lets keys that are characters be switched off', async () => {
+  await visit('#/demo/recording/meteo?at=2.2')
+  await page.keyboard.press('?')
+  await page.getByLabel('Letters, digits and signs are keys').uncheck()
+  await page.keyboard.press('Escape')
+  await page.keyboard.press('t')
+  assert.equal(await button('Trails').getAttribute('aria-pressed'), 'false')
+  await page.evaluate(() => localStorage.removeItem('signweave.keys'))
+})
+
+test('keeps a linked video in step', async () => {
+  await visit('#/demo/recording/villes')
+  assert.equal(await page.getByText('villes.mp4').count(), 1)
+  await page.locator('input[type=file]').setInputFiles({ name: 'villes.webm', mimeType: 'video/webm', buffer: await smallVideo(page) })
+  await page.waitForFunction(() => document.querySelector('video')?.readyState >= 1)
+  await page.evaluate(() => (window.signweaveStage.transport.seek(0.5), window.signweaveStage.touch()))
+  await page.waitForFunction(() => Math.abs(document.querySelector('video').currentTime - 0.7) < 0.05, null, { timeout: 5000 })
+})
+
+test('helps, and gives the focus back', async () => {
+  await visit('#/demo/recording/meteo')
+  await button('Help').focus()
+  await page.keyboard.press('?')
+  assert.ok((await page.locator('dialog kbd').count()) > 20)
+  await page.keyboard.press('Escape')
+  assert.equal(await page.locator('dialog').count(), 0)
+  assert.equal(await page.evaluate(() => document.activeElement.getAttribute('aria-label')), 'Help')
+})
+
+for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
+  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+    test(`an accessibility checker finds nothing, ${theme}, ${language}, ${size.width} wide`, async () => {
+      if (!page) await visit('')
+      await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
+      const found = []
+      for (const hash of ['#/demo', '#/demo/make', '#/demo/recording/meteo', '#/demo/recording/villes', '#/demo/edit/meteo?replace=BRETAGNE%3DVANNES', '#/demo/sign/VANNES', '#/demo/recording/nobody']) {
+        await visit(hash, size)
+        if (hash === '#/demo/recording/meteo') await page.keyboard.press('g')
+        found.push(...(await axeFaults(page, kAxe)).map((fault) => `${hash}: ${fault}`))
+        assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth), `${hash} is wider than the screen`)
+        if (hash === '#/demo/recording/meteo') {
+          await page.keyboard.press('?')
+          found.push(...(await axeFaults(page, kAxe)).map((fault) => `help: ${fault}`))
+        }
+      }
+      assert.deepEqual(found, [])
+    })
+  }
+}
+
+test('no view threw anything', () => assert.deepEqual(faults, []))

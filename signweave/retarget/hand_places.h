@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+
+#include "signweave/motion/kinematics.h"
+#include "signweave/retarget/fingers.h"
+#include "signweave/rig/rig_map.h"
+#include "signweave/rig/signer_space.h"
+
+namespace signweave {
+
+/// A body whose hands are placed: the source's, or the character's.
+struct PlacedBody {
+  const RigMap* rig = nullptr;
+  const ModelPose* pose = nullptr;
+  const SignerBody* body = nullptr;
+  SignerSpace space;
+};
+
+/// Where the head is: the middle between the eyes and the head's axes.
+struct HeadSpace {
+  Eigen::Vector3f eyes = Eigen::Vector3f::Zero();            ///< metres, model space
+  Eigen::Quaternionf turn = Eigen::Quaternionf::Identity();  ///< model_from_head; x up, y to the signer's left
+  float size = 1;                                            ///< metres, chin to top
+};
+
+/// The same hand of both bodies. The character's points are seen from its wrist, since that is what is yet to be
+/// placed.
+struct TwoHands {
+  const CharacterFingers* fingers = nullptr;
+  JointIndex source_wrist = kNoJoint;
+  JointIndex wrist = kNoJoint;
+};
+
+/// Where the character's wrists are to be so that its hands are where the source's are: in signer-centred space, beside
+/// the face in the face's own measure, and where the two hands are near each other, each beside the other as there.
+/// Metres, model space. (ours)
+struct WristGoals {
+  std::array<std::optional<Eigen::Vector3f>, 2> wrists;  ///< [Side]
+};
+WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>& source_head, const PlacedBody& own,
+                       const std::optional<HeadSpace>& own_head, const std::array<std::optional<TwoHands>, 2>& hands,
+                       float unit_ratio) noexcept;
+
+}  // namespace signweave

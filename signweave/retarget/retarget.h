@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "signweave/core/error.h"
+#include "signweave/features/hand_motion.h"
+#include "signweave/motion/kinematics.h"
+#include "signweave/motion/motion.h"
+#include "signweave/retarget/arm.h"
+#include "signweave/retarget/character.h"
+#include "signweave/retarget/drives.h"
+#include "signweave/retarget/fingers.h"
+#include "signweave/retarget/hand_places.h"
+#include "signweave/retarget/rig_axes.h"
+
+namespace signweave {
+
+struct RetargetOptions {
+  float ground = 0;          ///< y of the floor on which the source stands, metres
+  bool face_joints = false;  ///< jaw and eyes turn as the source's joints do; else morph targets move them
+  bool place_hands = true;   ///< hands come to the source's places by inverse kinematics; else bones alone tell
+};
+
+/// Puts poses of one skeleton onto a character (docs/retargeting.md). Belongs to one thread; after construction
+/// nothing is allocated.
+class Retargeter {
+ public:
+  /// `signer` says which joint of the source is what and how large its body is: signer_body of a whole motion, since an
+  /// offset tells no width where joints have spaces of their own. Source, signer and character are copied as needed
+  /// or, the character, must outlive it.
+  Retargeter(const Skeleton& source, const SignerModel& signer, const Character& character,
+             const RetargetOptions& options = {});
+  Retargeter(const Retargeter&) = delete;
+  Retargeter& operator=(const Retargeter&) = delete;
+
+  /// `out` has the counts of the character's skeleton. Numbers that are none in the source give the character's rest.
+  void pose(PoseView source, MutablePoseView out) noexcept;
+
+  /// What is missing or approximate for this source: a line each. Such parts stay at rest.
+  const std::vector<Notice>& notices() const noexcept { return notices_; }
+
+ private:
+  void turn_joints() noexcept;
+  void put_root() noexcept;
+  void lay_arms() noexcept;
+  void rest(MutablePoseView out) const noexcept;
+  float lowest_ankle(const RigMap& rig, const ModelPose& pose) const noexcept;
+
+  Skeleton source_;
+  SignerModel signer_;
+  const Character* character_;
+  RetargetOptions options_;
+  RigAxes source_axes_;
+  RigAxes axes_;
+  Drives drives_;
+  std::vector<Notice> notices_;
+  std::array<std::optional<CharacterArm>, 2> arms_;
+  std::array<std::optional<CharacterFingers>, 2> fingers_;
+  float scale_ = 1;                       ///< of the character's legs beside the source's
+  float hand_scale_ = 1;                  ///< of its hands
+  float unit_ratio_ = 1;                  ///< of its signing space
+  float ankle_ = 0;                       ///< height at rest, metres
+  float source_ankle_ = 0;                ///< the source's
+  std::optional<HeadSpace> head_;         ///< in the space of the character's head joint
+  std::optional<HeadSpace> source_head_;  ///< in the space of the source's head joint
+  ModelPose from_;
+  ModelPose to_;
+};
+
+/// A whole motion on a character, at the same rate. Tracks pass as they are; jaw and eyes turn by joints where the
+/// motion has no tracks. The floor is where the lowest ankle mostly is. Notices are those of the retargeter.
+struct Retargeted {
+  Motion motion;
+  std::vector<Notice> notices;
+};
+Retargeted retarget(const Motion& motion, const SignerModel& signer, const Character& character);
+
+/// y of the floor on which a motion stands, metres, told from the ankles; 0 without legs.
+float ground_of(const Motion& motion, const RigMap& rig);
+
+}  // namespace signweave

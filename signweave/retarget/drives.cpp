@@ -125,7 +125,7 @@ class Builder {
     drive_chain(places(or_one(path_between(target(), to_low, to_high), to_low), axes_), keys, turn);
     // The neck turns between chest and head. A source without a head keeps it on the trunk.
     if (!from_.has(Part::head) || !to().has(Part::head)) {
-      made_.missing.push_back("no head: it stays as the trunk has it");
+      made_.missing.emplace_back("no head: it stays as the trunk has it");
       return;
     }
     auto up =

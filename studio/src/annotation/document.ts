@@ -9,14 +9,7 @@ export interface Tier {
   /** In the order of time; those of a tier never overlap. */
   readonly annotations: readonly Annotation[]
 }
-export interface Media {
-  /** As the file has it: a path or an address. */
-  readonly url: string
-  readonly mime: string
-  /** Media time of annotation time 0, in ms. */
-  readonly originMs: number
-}
-export interface AnnotationDocument { readonly tiers: readonly Tier[]; readonly media: readonly Media[] }
+export interface AnnotationDocument { readonly tiers: readonly Tier[] }
 
 /** The annotation of a tier at a time, by binary search; −1 where there is none. */
 export function indexAt(tier: Tier, ms: number): number {

@@ -4,7 +4,6 @@ import { indexAt, nextBegin } from './document'
 import { readEaf } from './eaf'
 
 const kEaf = `<?xml version="1.0"?><ANNOTATION_DOCUMENT>
-<HEADER TIME_UNITS="milliseconds"><MEDIA_DESCRIPTOR MEDIA_URL="file:///x/a.mp4" RELATIVE_MEDIA_URL="./a.mp4" MIME_TYPE="video/mp4" TIME_ORIGIN="250"/></HEADER>
 <TIME_ORDER><TIME_SLOT TIME_SLOT_ID="t1" TIME_VALUE="100"/><TIME_SLOT TIME_SLOT_ID="t2"/><TIME_SLOT TIME_SLOT_ID="t3"/>
 <TIME_SLOT TIME_SLOT_ID="t4" TIME_VALUE="400"/><TIME_SLOT TIME_SLOT_ID="t5" TIME_VALUE="600"/></TIME_ORDER>
 <TIER TIER_ID="Parts" PARENT_REF="Gloss">
@@ -18,12 +17,11 @@ const kEaf = `<?xml version="1.0"?><ANNOTATION_DOCUMENT>
 </ANNOTATION_DOCUMENT>`
 
 it('reads tiers in the order of a tree, with the times that ELAN shows', () => {
-  const { tiers, media } = readEaf(kEaf)
+  const { tiers } = readEaf(kEaf)
   expect(tiers.map(({ name, depth }) => [name, depth])).toEqual([['Gloss', 0], ['Parts', 1], ['Phase', 1]])
   expect(tiers[0].annotations[1]).toEqual({ begin: 400, end: 600, label: 'A & B' })
   expect(tiers[1].annotations).toEqual([{ begin: 100, end: 250, label: 'one' }, { begin: 250, end: 400, label: 'two' }])
   expect(tiers[2].annotations[0]).toEqual({ begin: 100, end: 200, label: 'Stroke' })
-  expect(media).toEqual([{ url: './a.mp4', mime: 'video/mp4', originMs: 250 }])
 })
 
 it('finds what is at a time, half-open', () => {

@@ -12,13 +12,13 @@ export function readEaf(text: string): AnnotationDocument {
   const xml = new DOMParser().parseFromString(text, 'application/xml')
   const root = xml.documentElement
   if (root.nodeName !== 'ANNOTATION_DOCUMENT' || xml.querySelector('parsererror')) throw new StudioFault('noEaf')
-  const slots = timesOf([...root.querySelectorAll('TIME_ORDER > TIME_SLOT')])
-  const elements = [...root.querySelectorAll(':scope > TIER')]
+  const slots = timesOf(childrenOf(root, 'TIME_ORDER').flatMap((order) => childrenOf(order, 'TIME_SLOT')))
+  const elements = childrenOf(root, 'TIER')
   const names = elements.map((tier) => tier.getAttribute('TIER_ID') ?? '')
   const parents = new Map(elements.map((tier, t) => [names[t], tier.getAttribute('PARENT_REF') ?? undefined]))
   const raw = new Map<string, Raw>()
   const byTier = elements.map((tier, t) => {
-    const list = [...tier.querySelectorAll(':scope > ANNOTATION > *')].map((one) => rawOf(one, t, slots))
+    const list = childrenOf(tier, 'ANNOTATION').flatMap((one) => childrenOf(one)).map((one) => rawOf(one, t, slots))
     for (const one of list) raw.set(one.id, one)
     return list
   })
@@ -45,12 +45,14 @@ export function readEaf(text: string): AnnotationDocument {
     const annotations = byTier[t].map((one): Annotation => ({ ...spanOf(one), label: one.label }))
     return { name, parent: parents.get(name), depth: depthOf(name, parents), annotations: annotations.sort((a, b) => a.begin - b.begin) }
   })
-  const media = [...root.querySelectorAll('HEADER > MEDIA_DESCRIPTOR')].map((one) => ({
-    url: one.getAttribute('RELATIVE_MEDIA_URL') || one.getAttribute('MEDIA_URL') || '',
-    mime: one.getAttribute('MIME_TYPE') ?? '',
-    originMs: Number(one.getAttribute('TIME_ORIGIN') ?? 0) || 0,
-  }))
-  return { tiers: childrenAfterParents(tiers), media: media.filter(({ url }) => url !== '') }
+  return { tiers: childrenAfterParents(tiers) }
+}
+
+/** The elements right below one, of a name where one is given. Walks, since selectors take seconds for an hour of annotation. */
+function childrenOf(element: Element, name?: string): Element[] {
+  const found: Element[] = []
+  for (let one = element.firstElementChild; one; one = one.nextElementSibling) if (!name || one.nodeName === name) found.push(one)
+  return found
 }
 
 /** Slots in their order; those without a time lie evenly between the ones around them that have one. */
@@ -69,7 +71,7 @@ function timesOf(slots: readonly Element[]): Map<string, number> {
 
 function rawOf(element: Element, tier: number, slots: ReadonlyMap<string, number>): Raw {
   const value = (name: string) => element.getAttribute(name) ?? undefined
-  const label = element.querySelector(':scope > ANNOTATION_VALUE')?.textContent?.trim() ?? ''
+  const label = childrenOf(element, 'ANNOTATION_VALUE')[0]?.textContent?.trim() ?? ''
   return {
     id: value('ANNOTATION_ID') ?? '', tier, label, parent: value('ANNOTATION_REF'), previous: value('PREVIOUS_ANNOTATION'),
     begin: slots.get(value('TIME_SLOT_REF1') ?? ''), end: slots.get(value('TIME_SLOT_REF2') ?? ''),

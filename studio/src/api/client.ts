@@ -1,44 +1,9 @@
-import type { Rig } from '../motion/skeleton'
+import { readFrames, type FrameTaker } from '../motion/frames_body'
 import type { Declarations } from '../motion/source'
+import type { CharacterRow, DatabaseRow, MediaRow, RecordingInfo, RecordingRow, Statistics } from './answers'
 import { ApiError, StudioFault } from './fault'
 
-export interface DatabaseRow { readonly name: string; readonly recordings: number; readonly writable: boolean }
-export interface RecordingRow {
-  readonly name: string; readonly signer: string; readonly frames: number; readonly frames_per_second: number; readonly joints: number
-  readonly tracks: readonly string[]; readonly defects: number
-}
-/** A part of the body: the joint's name and index, and for a tip its offset in metres. */
-export interface PartRow { readonly joint: string; readonly index: number; readonly offset?: readonly [number, number, number] }
-export interface RecordingInfo {
-  readonly recording: string; readonly signer: string; readonly frames: number; readonly frames_per_second: number
-  readonly seconds: number; readonly joints: number; readonly scalar_tracks: number; readonly clock_origin_ms: number
-  readonly annotation_file: string; readonly phases: number; readonly shoulder_width_m?: number
-  readonly rig?: { readonly convention: string; readonly parts: Readonly<Record<string, PartRow>> }
-  readonly defects: readonly { kind?: string; text?: string }[]
-}
-export interface Spread { readonly count: number; readonly mean?: number; readonly sd?: number;
-  readonly quantiles?: Readonly<Record<string, number>> }
-export interface Transitions {
-  readonly inferred?: boolean
-  readonly whole: { readonly duration_ms: Spread }
-  /** Not where transitions are inferred from the gaps between signs, for no phases are annotated. */
-  readonly retraction?: { readonly duration_ms: Spread }
-  readonly preparation?: { readonly duration_ms: Spread }
-}
-export interface Statistics {
-  readonly all: Transitions
-  readonly recordings: readonly (Transitions & { readonly recording: string })[]
-}
-/** One sign of a report: where it is in the new motion and where it was recorded; ms. */
-export interface ReportSign {
-  readonly gloss: string; readonly begin_ms: number; readonly end_ms: number; readonly recording: string
-  readonly recorded: { readonly begin_ms: number; readonly end_ms: number }
-}
-/** Which joint of a recording plays which part; empty where the rig map could not tell. */
-export function rigOf(info: RecordingInfo): Rig {
-  const parts = Object.entries(info.rig?.parts ?? {})
-  return Object.fromEntries(parts.map(([part, { index, offset }]) => [part, { joint: index, offset }]))
-}
+type Query = Readonly<Record<string, string | number | undefined>>
 
 /** The calls of docs/http.md that the studio makes. */
 export class Api {
@@ -48,65 +13,79 @@ export class Api {
   /** `base` is the address of `/api`, relative to the page; `token` goes with every call where the server asks for one. */
   constructor(private readonly base = 'api', private readonly token = '') {}
 
-  headers(more: Record<string, string> = {}): Record<string, string> {
-    return this.token ? { ...more, Authorization: `Bearer ${this.token}` } : more
-  }
-
   async databases(): Promise<readonly DatabaseRow[]> {
     return (await this.json<{ databases: DatabaseRow[] }>('databases')).databases
   }
+  /** The signers that this server can put motion on; none where it was given none. */
+  async characters(): Promise<readonly CharacterRow[]> {
+    return (await this.json<{ characters: CharacterRow[] }>('characters')).characters
+  }
+  /** A character's GLB. */
+  async character(name: string): Promise<ArrayBuffer> {
+    return (await this.call(path('characters', name))).arrayBuffer()
+  }
   async recordings(database: string): Promise<readonly RecordingRow[]> {
-    return (await this.json<{ recordings: RecordingRow[] }>(this.of(database))).recordings
+    return (await this.json<{ recordings: RecordingRow[] }>(path('databases', database))).recordings
   }
   recording(database: string, recording: string): Promise<RecordingInfo> {
-    return this.json(this.of(database, 'recordings', recording))
+    return this.json(path('databases', database, 'recordings', recording))
+  }
+  async media(database: string, recording: string): Promise<readonly MediaRow[]> {
+    return (await this.json<{ media: MediaRow[] }>(path('databases', database, 'recordings', recording, 'media'))).media
   }
   statistics(database: string, recording?: string): Promise<Statistics> {
-    return this.json(this.of(database, 'stats') + (recording ? `?recording=${encodeURIComponent(recording)}` : ''))
+    return this.json(path('databases', database, 'stats') + query({ recording }))
   }
   async statisticsPlot(database: string, recording?: string): Promise<Blob> {
-    const query = recording ? `&recording=${encodeURIComponent(recording)}` : ''
-    return (await this.call(`${this.of(database, 'stats')}?format=svg${query}`)).blob()
+    return (await this.call(path('databases', database, 'stats') + query({ format: 'svg', recording }))).blob()
   }
   async annotation(database: string, recording: string): Promise<string> {
-    return (await this.call(this.of(database, 'recordings', recording, 'annotation'))).text()
+    return (await this.call(path('databases', database, 'recordings', recording, 'annotation'))).text()
   }
   /** What was made, as ELAN shows it: `call` is `sign` or `edit`, `body` its parameters. */
   async madeAnnotation(database: string, call: 'sign' | 'edit', body: object): Promise<string> {
-    return (await this.post(this.of(database, call), { ...body, format: 'eaf' })).text()
+    return (await this.post(path('databases', database, call), { ...body, format: 'eaf' })).text()
   }
-  /** A few frames of a recording as a model with the person that the server draws. */
-  async drawnPerson(database: string, recording: string, fromMs: number, toMs: number): Promise<ArrayBuffer> {
-    const path = this.of(database, 'recordings', recording, 'motion')
-    return (await this.call(`${path}?format=glb&from=${fromMs}&to=${toMs}`)).arrayBuffer()
+  /** Frames of a recording, in ms of annotation time, in the joints of a character where one is named; ends when all have come. */
+  async motion(database: string, recording: string, from: number, to: number, character: string | undefined, taker: FrameTaker,
+               signal?: AbortSignal): Promise<void> {
+    const where = path('databases', database, 'recordings', recording, 'motion')
+    const response = await this.call(where + query({ format: 'frames', from, to, character }), { signal })
+    await readFrames(response.body!, taker)
   }
-  motionUrl(database: string, recording: string, fromMs: number, toMs: number): string {
-    return `${this.base}/${this.of(database, 'recordings', recording, 'motion')}?format=json&from=${fromMs}&to=${toMs}`
-  }
-  madeUrl(database: string, call: 'sign' | 'edit'): string {
-    return `${this.base}/${this.of(database, call)}`
+  /** Frames of motion that a call makes, as `motion` gives them. */
+  async made(database: string, call: 'sign' | 'edit', body: object, character: string | undefined, taker: FrameTaker, signal?: AbortSignal): Promise<void> {
+    const response = await this.post(path('databases', database, call), { ...body, character, format: 'frames' }, signal)
+    await readFrames(response.body!, taker)
   }
   streamUrl(database: string): string {
-    const url = new URL(`${this.base}/stream?database=${encodeURIComponent(database)}`, document.baseURI)
-    if (this.token) url.searchParams.set('token', this.token)
+    const url = this.address(`stream${query({ database, token: this.token || undefined })}`)
     url.protocol = url.protocol.replace('http', 'ws')
     return url.href
   }
+  /** Where a film of `media` is for the page itself, which sends no header with it. */
+  mediaUrl(url: string): string {
+    const at = new URL(url, this.address(''))
+    if (this.token) at.searchParams.set('token', this.token)
+    return at.href
+  }
 
-  private of(database: string, ...rest: string[]): string {
-    return ['databases', database, ...rest].map(encodeURIComponent).join('/')
+  private address(where: string): URL {
+    return new URL(`${this.base}/${where}`, document.baseURI)
   }
-  private async json<T>(path: string): Promise<T> {
-    return (await this.call(path)).json() as Promise<T>
+  private async json<T>(where: string): Promise<T> {
+    return (await this.call(where)).json() as Promise<T>
   }
-  private post(path: string, body: object): Promise<Response> {
-    return this.call(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) })
+  private post(where: string, body: object, signal?: AbortSignal): Promise<Response> {
+    return this.call(where, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body), signal })
   }
-  private async call(path: string, init: { method?: string; headers?: Record<string, string>; body?: string } = {}): Promise<Response> {
+  private async call(where: string, init: RequestInit & { headers?: Record<string, string> } = {}): Promise<Response> {
+    const headers = this.token ? { ...init.headers, Authorization: `Bearer ${this.token}` } : init.headers
     let response: Response
     try {
-      response = await fetch(`${this.base}/${path}`, { ...init, headers: this.headers(init.headers) })
-    } catch {
+      response = await fetch(`${this.base}/${where}`, { ...init, headers })
+    } catch (fault) {
+      if (init.signal?.aborted) throw fault
       throw new StudioFault('unreachable')
     }
     if (!response.ok) throw faultOf(await response.text().catch(() => ''), response.status)
@@ -116,8 +95,17 @@ export class Api {
   }
 }
 
+function path(...names: string[]): string {
+  return names.map(encodeURIComponent).join('/')
+}
+
+function query(values: Query): string {
+  const given = Object.entries(values).filter(([, value]) => value !== undefined)
+  return given.length ? `?${given.map(([name, value]) => `${name}=${encodeURIComponent(value!)}`).join('&')}` : ''
+}
+
 /** What an answer that is no success says: the server's own line, or that there was none. */
-export function faultOf(body: string, status: number): ApiError | StudioFault {
+function faultOf(body: string, status: number): ApiError | StudioFault {
   try {
     const { message, code } = (JSON.parse(body) as { error: { message: string; code: string } }).error
     return new ApiError(message, status, code)

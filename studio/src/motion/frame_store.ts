@@ -11,13 +11,26 @@ interface Page {
   readonly ints: Int32Array
   readonly floats: Float32Array
   readonly shorts: Int16Array
-  /** 1 where the frame has come. */
+  /** 1 where the frame is here. */
   readonly there: Uint8Array
-  /** [6 · frame]: left wrist, right wrist, metres, model space. */
-  readonly hands: Float32Array
+  /** How many are. */
+  count: number
 }
 
-/** The frames of a motion as far as they have come, in any order. Reading allocates nothing. */
+/** What is kept of 128 frames for good. */
+interface Trace {
+  /** 1 where the frame has come. */
+  readonly came: Uint8Array
+  /** [6 · frame]: left wrist, right wrist, metres, model space; NaN where the rig has no such joint. */
+  readonly hands: Float32Array
+  /** How many have come. */
+  count: number
+}
+
+/**
+ * The frames of a motion as far as they have come, in any order. Reading allocates nothing. Of an hour there are too many to be
+ * kept: pages of frames may be given up and come again, while the places of the hands, which the curves show, stay.
+ */
 export class FrameStore {
   readonly skeleton: Skeleton
   /** Frames a second. */
@@ -26,9 +39,12 @@ export class FrameStore {
   readonly hasHand: readonly [boolean, boolean]
   /** How many frames the motion has; of a stream, how many have come. */
   length: number
-  /** How many frames have come. */
+  /** How many frames have come, each counted once. */
   arrived = 0
+  /** How many frames are here. */
+  held = 0
   private readonly pages: (Page | undefined)[] = []
+  private readonly traces: (Trace | undefined)[] = []
   private readonly bytes: number
   private readonly kinematics: Kinematics
   private readonly scratch: Pose
@@ -62,20 +78,26 @@ export class FrameStore {
       const page = (this.pages[frame >> kPageBits] ??= this.page())
       const at = frame & (kPageFrames - 1)
       new Uint8Array(page.ints.buffer, at * this.bytes, this.bytes).set(from.subarray(i * this.bytes, (i + 1) * this.bytes))
-      if (!page.there[at]) {
-        page.there[at] = 1
-        ++this.arrived
-      }
-      this.measure(page, frame)
+      if (page.there[at]) continue
+      page.there[at] = 1
+      ++page.count
+      ++this.held
+      this.measure(frame)
     }
     this.length = Math.max(this.length, block.first + block.count)
   }
 
   /** Gives up whole pages of frames before `frame`: a stream goes on for hours, and nobody looks back that far. */
   forgetBefore(frame: number): void {
-    for (let page = (frame >> kPageBits) - 1; page >= 0 && this.pages[page]; --page) {
-      for (const there of this.pages[page]!.there) this.arrived -= there
-      this.pages[page] = undefined
+    for (let page = (frame >> kPageBits) - 1; page >= 0 && this.pages[page]; --page) this.forget(page)
+  }
+
+  /** Gives up pages, the farthest from `frame` first, until at most `most` frames are here. */
+  keepAround(frame: number, most: number): void {
+    const here = frame >> kPageBits
+    for (let low = 0, high = this.pages.length - 1; this.held > most && (low < here - 1 || high > here + 1);) {
+      if (here - low > high - here) this.forget(low++)
+      else this.forget(high--)
     }
   }
 
@@ -84,18 +106,30 @@ export class FrameStore {
     return page !== undefined && page.there[frame & (kPageFrames - 1)] === 1
   }
 
-  /** The first frame at or after `frame` that has not come, or `length`. */
+  /** The first frame at or after `frame` that is not here, or `length`. */
   firstMissing(frame: number): number {
     let f = Math.max(0, frame)
-    while (f < this.length && this.has(f)) ++f
-    return f
+    while (f < this.length && this.has(f)) f += this.pages[f >> kPageBits]!.count === kPageFrames ? kPageFrames - (f & (kPageFrames - 1)) : 1
+    return Math.min(f, this.length)
+  }
+
+  /** The first frame at or after `frame`, else at all, that never came; `length` where all have. */
+  firstNew(frame: number): number {
+    for (const [from, end] of [[Math.max(0, frame), this.length], [0, Math.min(frame, this.length)]]) {
+      for (let f = from; f < end; ++f) {
+        const trace = this.traces[f >> kPageBits]
+        if (trace?.count === kPageFrames) f |= kPageFrames - 1
+        else if (!trace?.came[f & (kPageFrames - 1)]) return f
+      }
+    }
+    return this.length
   }
 
   /** One number of a wrist's place in metres: `hand` 0 is left, 1 right; `axis` 0 x, 1 y, 2 z. NaN where it has not come. */
   hand(frame: number, hand: 0 | 1, axis: 0 | 1 | 2): number {
-    const page = this.pages[frame >> kPageBits]
+    const trace = this.traces[frame >> kPageBits]
     const at = frame & (kPageFrames - 1)
-    return page && page.there[at] ? page.hands[6 * at + 3 * hand + axis] : NaN
+    return trace && trace.came[at] ? trace.hands[6 * at + 3 * hand + axis] : NaN
   }
 
   /** Metres a second of a wrist at a frame, from the frames before and after it; NaN where they have not come. */
@@ -165,26 +199,31 @@ export class FrameStore {
     }
   }
 
-  private measure(page: Page, frame: number): void {
+  /** Keeps where the hands are at a frame that has just come. */
+  private measure(frame: number): void {
+    const trace = (this.traces[frame >> kPageBits] ??= { came: new Uint8Array(kPageFrames), hands: new Float32Array(6 * kPageFrames), count: 0 })
     const at = frame & (kPageFrames - 1)
+    if (trace.came[at]) return
+    trace.came[at] = 1
+    ++trace.count
+    ++this.arrived
     this.read(frame, this.scratch, 1, true)
     this.normalize(this.scratch)
     this.kinematics.update(this.scratch, this.chain)
     for (let hand = 0; hand < 2; ++hand) {
       for (let k = 0; k < 3; ++k) {
-        page.hands[6 * at + 3 * hand + k] = this.wrists[hand] < 0 ? NaN : this.kinematics.positions[3 * this.wrists[hand] + k]
+        trace.hands[6 * at + 3 * hand + k] = this.wrists[hand] < 0 ? NaN : this.kinematics.positions[3 * this.wrists[hand] + k]
       }
     }
   }
 
+  private forget(page: number): void {
+    this.held -= this.pages[page]?.count ?? 0
+    this.pages[page] = undefined
+  }
+
   private page(): Page {
     const buffer = new ArrayBuffer(kPageFrames * this.bytes)
-    return {
-      ints: new Int32Array(buffer),
-      floats: new Float32Array(buffer),
-      shorts: new Int16Array(buffer),
-      there: new Uint8Array(kPageFrames),
-      hands: new Float32Array(6 * kPageFrames),
-    }
+    return { ints: new Int32Array(buffer), floats: new Float32Array(buffer), shorts: new Int16Array(buffer), there: new Uint8Array(kPageFrames), count: 0 }
   }
 }

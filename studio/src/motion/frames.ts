@@ -1,3 +1,4 @@
+import { StudioFault } from '../api/fault'
 import type { Joint, Skeleton } from './skeleton'
 
 /** The bytes of frames, as docs/stream.md has them; all that knows the layout is here and in `FrameStore`. */
@@ -6,6 +7,7 @@ export const kMessageHeaderBytes = 16
 export const kTranslationUnit = 1e-5
 /** Of a rotation. */
 export const kRotationUnit = 1 / 32767
+const kLayout = 1
 
 /** Frames that follow each other, in the layout of docs/stream.md. */
 export interface FrameBlock {
@@ -13,8 +15,24 @@ export interface FrameBlock {
   readonly first: number
   readonly count: number
   /** `count` frames of `frameBytes` each, from `offset` on. */
-  readonly buffer: ArrayBuffer
+  readonly buffer: ArrayBufferLike
   readonly offset: number
+}
+
+/** What frames are of: a stream's `header`, and what stands before the frames of a call. */
+export interface FramesHeader {
+  /** The recording whose skeleton it is, or the character's that plays it. */
+  readonly recording: string
+  /** The character whose joints these are, where one was asked for. */
+  readonly character?: string
+  readonly declarations: readonly { readonly name: string; readonly value: string }[]
+  /** Frames a second. */
+  readonly rate: number
+  readonly layout: number
+  readonly frame_bytes: number
+  readonly joints: readonly Joint[]
+  readonly translated: readonly number[]
+  readonly tracks: readonly string[]
 }
 
 /** How many bytes a frame of this skeleton has. It is a multiple of 4. */
@@ -22,58 +40,33 @@ export function frameBytes(skeleton: Skeleton): number {
   return 12 * skeleton.translated.length + 4 * skeleton.tracks.length + 8 * skeleton.joints.length
 }
 
+/** The skeleton that a header tells of. Throws where its frames are laid out in a way that this page does not know. */
+export function skeletonOf(header: FramesHeader): Skeleton {
+  const joints = header.joints.map(({ name, parent, offset }) => ({ name, parent, offset }))
+  const skeleton = { joints, translated: header.translated, tracks: header.tracks }
+  if (header.layout !== kLayout || header.frame_bytes !== frameBytes(skeleton)) {
+    throw new StudioFault('badAnswer', `layout ${header.layout}, ${header.frame_bytes} bytes a frame`)
+  }
+  return skeleton
+}
+
+/** What a header's declarations are, by name. */
+export function declarationsOf(header: FramesHeader): Readonly<Record<string, string>> {
+  return Object.fromEntries(header.declarations.map(({ name, value }) => [name, value]))
+}
+
+/** What the header of a binary message says; throws where the layout is not 1. */
+export function messageHead(message: DataView): { first: number; count: number; leftOut: number } {
+  if (message.getUint8(0) !== kLayout) throw new StudioFault('badAnswer', `frames of layout ${message.getUint8(0)}`)
+  return { first: Number(message.getBigUint64(8, true)), count: message.getUint16(2, true), leftOut: message.getUint32(4, true) }
+}
+
 /** Reads a binary message of a stream. Throws where it is not of layout 1 or not as long as it says. */
 export function decodeMessage(message: ArrayBuffer, bytesOfFrame: number): FrameBlock & { leftOut: number } {
-  if (message.byteLength < kMessageHeaderBytes) throw new Error('a message of frames that has no header')
-  const view = new DataView(message)
-  if (view.getUint8(0) !== 1) throw new Error(`frames of layout ${view.getUint8(0)}; this page knows 1`)
-  const count = view.getUint16(2, true)
-  if (message.byteLength !== kMessageHeaderBytes + count * bytesOfFrame) {
-    throw new Error(`${count} frames of ${bytesOfFrame} bytes in a message of ${message.byteLength}`)
+  if (message.byteLength < kMessageHeaderBytes) throw new StudioFault('badAnswer', 'a message of frames that has no header')
+  const head = messageHead(new DataView(message))
+  if (message.byteLength !== kMessageHeaderBytes + head.count * bytesOfFrame) {
+    throw new StudioFault('badAnswer', `${head.count} frames of ${bytesOfFrame} bytes in a message of ${message.byteLength}`)
   }
-  return {
-    first: Number(view.getBigUint64(8, true)),
-    count,
-    buffer: message,
-    offset: kMessageHeaderBytes,
-    leftOut: view.getUint32(4, true),
-  }
-}
-
-/** A motion as JSON, as `format=json` answers it. */
-export interface MotionJson {
-  readonly frames: number
-  readonly frames_per_second: number
-  readonly declarations?: Record<string, string>
-  readonly joints: readonly { name: string; parent: number; offset: [number, number, number]; translated: boolean }[]
-  /** [frame][4 · joint] */
-  readonly rotations_xyzw: readonly (readonly number[])[]
-  /** [frame][3 · translated joint] */
-  readonly translations_m: readonly (readonly number[])[]
-  /** By name, [frame]. */
-  readonly tracks: Record<string, readonly number[]>
-}
-
-/** What is answered for one motion: of a recording the motion itself, of `sign` and `edit` the report that holds it. */
-export type MotionAnswer = MotionJson | { readonly motion: MotionJson; readonly declarations?: Record<string, string>; readonly signs?: readonly unknown[] }
-
-export function skeletonOfJson(json: MotionJson): Skeleton {
-  const joints: Joint[] = json.joints.map(({ name, parent, offset }) => ({ name, parent, offset }))
-  const translated = json.joints.flatMap((joint, j) => (joint.translated ? [j] : []))
-  return { joints, translated, tracks: Object.keys(json.tracks) }
-}
-
-/** Packs a motion of JSON into the layout, its first frame numbered `first`. */
-export function encodeJson(json: MotionJson, skeleton: Skeleton, first: number): FrameBlock {
-  const bytes = frameBytes(skeleton)
-  const buffer = new ArrayBuffer(json.frames * bytes)
-  const view = new DataView(buffer)
-  const tracks = skeleton.tracks.map((name) => json.tracks[name])
-  for (let f = 0, at = 0; f < json.frames; ++f) {
-    for (const metres of json.translations_m[f]) view.setInt32(at, Math.round(metres / kTranslationUnit), true), (at += 4)
-    for (const track of tracks) view.setFloat32(at, track?.[f] ?? 0, true), (at += 4)
-    for (const part of json.rotations_xyzw[f]) view.setInt16(at, Math.round(part / kRotationUnit), true), (at += 2)
-    if (at !== (f + 1) * bytes) throw new Error(`frame ${f} of the motion has not the numbers that its skeleton asks for`)
-  }
-  return { first, count: json.frames, buffer, offset: 0 }
+  return { ...head, buffer: message, offset: kMessageHeaderBytes }
 }

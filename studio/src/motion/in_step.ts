@@ -1,4 +1,4 @@
-import type { ReportSign } from '../api/client'
+import type { ReportSign } from '../api/answers'
 
 /** Pairs of moments that belong together, in seconds from frame 0 of either motion; both rise. */
 export interface Steps { readonly here: Float64Array; readonly there: Float64Array }

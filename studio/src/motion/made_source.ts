@@ -1,34 +1,51 @@
-import { rigOf, type Api, type RecordingInfo } from '../api/client'
+import type { Api } from '../api/client'
+import { StudioFault } from '../api/fault'
+import { declarationsOf, skeletonOf } from './frames'
+import { rigOf } from './frames_body'
 import { FrameStore } from './frame_store'
-import { Pieces } from './pieces'
 import type { MotionSource, OpenedMotion } from './source'
 
-/** Signing that a call makes whole (`edit`): fetched once, unpacked beside the main thread. */
+/** Signing that a call makes whole (`sign`, `edit`); its frames are shown as they come. */
 export class MadeSource implements MotionSource {
   readonly grows = false
   complete = false
-  private readonly pieces = new Pieces()
+  onProgress?: (complete: boolean) => void
+  onFault?: (fault: Error) => void
+  private readonly abort = new AbortController()
 
-  /** `info` is of the recording whose skeleton the motion has: the edited one. */
-  constructor(private readonly api: Api, readonly title: string, private readonly url: string, private readonly body: object,
-              private readonly info: Promise<RecordingInfo>) {}
+  /** `body` are the call's parameters; `character` names the one whose joints the poses are for. */
+  constructor(private readonly api: Api, private readonly database: string, readonly title: string, private readonly call: 'sign' | 'edit',
+              private readonly body: object, private readonly character?: string) {}
 
-  async open(): Promise<OpenedMotion> {
-    const [info, piece] = await Promise.all([
-      this.info,
-      this.pieces.fetch(this.url, 0, {
-        method: 'POST', headers: this.api.headers({ 'Content-Type': 'application/json' }), body: JSON.stringify({ ...this.body, format: 'json' }),
-      }),
-    ])
-    const rig = rigOf(info)
-    const store = new FrameStore(piece.skeleton, piece.rate, rig)
-    store.put({ ...piece, offset: 0 })
-    this.complete = true
-    this.pieces.close()
-    return { store, rig, originMs: 0, declarations: piece.declarations, signs: piece.signs, recording: info.recording }
+  open(): Promise<OpenedMotion> {
+    return new Promise((resolve, reject) => {
+      let opened: OpenedMotion | undefined
+      let shown = false
+      const { signal } = this.abort
+      this.api.made(this.database, this.call, this.body, this.character, {
+        begin: (header) => {
+          const rig = rigOf(header)
+          const store = new FrameStore(skeletonOf(header), header.rate, rig, header.frames)
+          opened = { store, rig, character: header.character, originMs: header.origin_ms, declarations: declarationsOf(header), signs: header.report?.signs }
+        },
+        take: (block) => {
+          opened!.store.put(block)
+          if (shown) return this.onProgress?.(false)
+          shown = true
+          resolve(opened!)
+        },
+      }, signal).then(() => {
+        if (!shown) throw new StudioFault('framesMissing')
+        this.complete = true
+        this.onProgress?.(true)
+      }).catch((fault: unknown) => {
+        if (!shown) reject(fault as Error)
+        else if (!signal.aborted) this.onFault?.(fault as Error)
+      })
+    })
   }
 
   close(): void {
-    this.pieces.close()
+    this.abort.abort()
   }
 }

@@ -1,12 +1,18 @@
-import { rigOf, type Api, type RecordingInfo } from '../api/client'
+import type { RecordingInfo } from '../api/answers'
+import type { Api } from '../api/client'
 import { StudioFault } from '../api/fault'
+import { declarationsOf, frameBytes, skeletonOf } from './frames'
+import { rigOf } from './frames_body'
 import { FrameStore } from './frame_store'
-import { Pieces, type Piece } from './pieces'
 import type { MotionSource, OpenedMotion } from './source'
 
 /** Seconds of the first piece: short, so that the first picture does not wait; the pieces then grow. */
 const kFirstPiece = 0.25
 const kLongestPiece = 4
+/** Seconds behind the picture's time that are fetched before anything else. */
+const kAhead = 20
+/** Bytes of frames that are kept; of a longer recording what is far from the picture is given up and fetched again when wanted. */
+const kMostBytes = 160e6
 
 /** The frames [first, end) that should be asked for next. */
 export function nextPiece(missing: number, length: number, rate: number, pieces: number): { first: number; end: number } {
@@ -21,66 +27,87 @@ export class RecordingSource implements MotionSource {
   complete = false
   onProgress?: (complete: boolean) => void
   onFault?: (fault: Error) => void
-  private readonly pieces = new Pieces()
-  private wanted = 0
-  private closed = false
+  private readonly abort = new AbortController()
+  private wanted: number
+  private moved?: () => void
+  private info!: RecordingInfo
+  private opened?: OpenedMotion
 
+  /** `character` names the one whose joints the poses are for; the picture starts at `startSeconds` from frame 0. */
   constructor(private readonly api: Api, private readonly database: string, private readonly recording: string,
-              private readonly info: Promise<RecordingInfo>, startSeconds = 0) {
+              private readonly character?: string, startSeconds = 0) {
     this.title = recording
     this.wanted = startSeconds
   }
 
   async open(): Promise<OpenedMotion> {
-    const info = await this.info
-    const rate = info.frames_per_second
-    const start = Math.min(Math.max(0, Math.floor(this.wanted * rate)), Math.max(0, info.frames - 1))
-    const { first, end } = nextPiece(start, info.frames, rate, 0)
-    const piece = await this.piece(info, first, end)
-    const store = new FrameStore(piece.skeleton, rate, rigOf(info), info.frames)
-    store.put({ ...piece, offset: 0 })
-    void this.rest(info, store)
-    return { store, rig: rigOf(info), originMs: info.clock_origin_ms, declarations: piece.declarations, recording: this.recording }
+    this.info = await this.api.recording(this.database, this.recording)
+    const { frames, frames_per_second: rate } = this.info
+    const start = Math.min(Math.max(0, Math.floor(this.wanted * rate)), Math.max(0, frames - 1))
+    const { first, end } = nextPiece(start, frames, rate, 0)
+    await this.fetch(first, end)
+    const opened = this.opened!
+    void this.rest(opened.store)
+    return opened
   }
 
   want(seconds: number): void {
     this.wanted = seconds
+    this.moved?.()
   }
 
   close(): void {
-    this.closed = true
-    this.pieces.close()
+    this.abort.abort()
+    this.moved?.()
   }
 
-  private async rest(info: RecordingInfo, store: FrameStore): Promise<void> {
-    for (let pieces = 1, faults = 0; store.arrived < store.length; ++pieces) {
-      let missing = store.firstMissing(Math.floor(this.wanted * store.rate))
-      if (missing >= store.length) missing = store.firstMissing(0)
+  private async rest(store: FrameStore): Promise<void> {
+    const { signal } = this.abort
+    for (let pieces = 1, faults = 0; !signal.aborted; ++pieces) {
+      const missing = this.missing(store)
+      if (missing === undefined) {
+        await new Promise<void>((resolve) => (this.moved = resolve))
+        continue
+      }
       const { first, end } = nextPiece(missing, store.length, store.rate, pieces)
       try {
-        const piece = await this.piece(info, first, end)
-        if (this.closed) return
-        const before = store.arrived
-        store.put({ ...piece, offset: 0 })
+        await this.fetch(first, end)
         // An answer that brings nothing new would be asked for again, for ever.
-        if (store.arrived === before) throw new StudioFault('framesMissing', `${first}–${end}`)
+        if (!store.has(first)) throw new StudioFault('framesMissing', `${first}–${end}`)
         faults = 0
-        this.onProgress?.(store.arrived >= store.length)
+        store.keepAround(Math.floor(this.wanted * store.rate), Math.floor(kMostBytes / frameBytes(store.skeleton)))
+        this.complete = store.arrived >= store.length
+        this.onProgress?.(this.complete)
       } catch (fault) {
-        if (this.closed) return
+        if (signal.aborted) return
         if (++faults === 3) return this.onFault?.(fault as Error)
         await new Promise((resolve) => setTimeout(resolve, 300 * faults))
-        if (this.closed) return
       }
     }
-    this.complete = true
-    this.pieces.close()
-    this.onProgress?.(true)
   }
 
-  private async piece(info: RecordingInfo, first: number, end: number): Promise<Piece> {
+  /** The frame that should come next: one that the picture needs soon, else one that never came; none where all is there. */
+  private missing(store: FrameStore): number | undefined {
+    const at = Math.max(0, Math.floor(this.wanted * store.rate))
+    const next = store.firstMissing(at)
+    if (next < Math.min(store.length, at + kAhead * store.rate)) return next
+    return store.arrived < store.length ? store.firstNew(next) : undefined
+  }
+
+  private async fetch(first: number, end: number): Promise<void> {
+    const { info, database, recording, character } = this
     const ms = (frame: number) => Math.round(info.clock_origin_ms + (1000 * frame) / info.frames_per_second)
-    const url = this.api.motionUrl(this.database, this.recording, ms(first), ms(end))
-    return this.pieces.fetch(url, first, { method: 'GET', headers: this.api.headers() })
+    let shift = 0
+    await this.api.motion(database, recording, ms(first), ms(end), character, {
+      begin: (header) => {
+        // A piece counts its frames from its own first one.
+        shift = Math.round(((header.origin_ms - info.clock_origin_ms) * info.frames_per_second) / 1000)
+        if (this.opened) return
+        const rig = rigOf(header)
+        const store = new FrameStore(skeletonOf(header), header.rate, rig, info.frames)
+        this.opened = { store, rig, character: header.character, originMs: info.clock_origin_ms, declarations: declarationsOf(header) }
+      },
+      take: (block) => this.opened!.store.put({ ...block, first: block.first + shift }),
+    }, this.abort.signal)
   }
 }

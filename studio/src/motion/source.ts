@@ -1,4 +1,4 @@
-import type { ReportSign } from '../api/client'
+import type { ReportSign } from '../api/answers'
 import type { FrameStore } from './frame_store'
 import type { Rig } from './skeleton'
 
@@ -29,11 +29,11 @@ export interface MotionSource {
 export interface OpenedMotion {
   readonly store: FrameStore
   readonly rig: Rig
+  /** The character whose joints the poses are for; none where they are the recording's own. */
+  readonly character?: string
   /** Annotation time of frame 0, in ms. */
   readonly originMs: number
   readonly declarations: Declarations
   /** Of a motion that was made: its signs and where they were recorded. */
   readonly signs?: readonly ReportSign[]
-  /** The recording whose skeleton it is. */
-  readonly recording: string
 }

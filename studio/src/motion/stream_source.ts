@@ -1,31 +1,18 @@
-import { rigOf, type Api } from '../api/client'
+import type { Api } from '../api/client'
 import { ApiError, StudioFault } from '../api/fault'
 import { FrameStore } from './frame_store'
-import { decodeMessage, type FrameBlock } from './frames'
-import type { Declarations, MotionSource, OpenedMotion } from './source'
-import type { Skeleton } from './skeleton'
-
-interface Header {
-  readonly recording: string
-  readonly declarations: readonly { name: string; value: string }[]
-  readonly rate: number
-  readonly layout: number
-  readonly frame_bytes: number
-  readonly joints: readonly { name: string; parent: number; offset: [number, number, number] }[]
-  readonly translated: readonly number[]
-  readonly tracks: readonly string[]
-}
-
-/** `fast`: as quickly as the page takes it, and then it ends. `live`: at the pace of the signing, then a living rest. */
-export type Pace = 'fast' | 'live'
+import { declarationsOf, decodeMessage, skeletonOf, type FrameBlock, type FramesHeader } from './frames'
+import { rigOf } from './frames_body'
+import type { MotionSource, OpenedMotion } from './source'
+import type { Rig } from './skeleton'
 
 /** Seconds of a live stream that are kept. */
 const kKept = 600
 
-/** An utterance signed over the WebSocket of docs/stream.md. */
+/** An utterance signed live over the WebSocket of docs/stream.md: at the pace of the signing, then a living rest. */
 export class StreamSource implements MotionSource {
   readonly grows = true
-  complete = false
+  readonly complete = false
   onProgress?: (complete: boolean) => void
   onFault?: (fault: Error) => void
   /** A gloss whose stroke begins at a frame, or none where the signer goes to rest. */
@@ -35,13 +22,13 @@ export class StreamSource implements MotionSource {
   /** Frames that the server left out because this page was slow. */
   leftOut = 0
   private socket?: WebSocket
-  private header?: Header
+  private header?: FramesHeader
   private store?: FrameStore
   /** Frames that came while the rig was still asked for. */
   private waiting: FrameBlock[] = []
   private over = false
 
-  constructor(private readonly api: Api, private readonly database: string, readonly title: string, private readonly pace: Pace) {}
+  constructor(private readonly api: Api, private readonly database: string, readonly title: string, private readonly character?: string) {}
 
   open(): Promise<OpenedMotion> {
     return new Promise((resolve, reject) => {
@@ -53,8 +40,7 @@ export class StreamSource implements MotionSource {
         else reject(fault)
       }
       socket.onopen = () => {
-        const fast = this.pace === 'fast'
-        this.send({ type: 'open', pace: this.pace, idle: fast ? 'end' : 'rest', batch: fast ? 60 : 2 })
+        this.send({ type: 'open', pace: 'live', idle: 'rest', batch: 2, character: this.character })
         this.sign(this.title)
       }
       // A socket that fails tells no reason to a page, and closes.
@@ -83,34 +69,38 @@ export class StreamSource implements MotionSource {
     this.socket?.close(1000)
   }
 
-  private take(block: FrameBlock & { leftOut: number }, header: Header, resolve: (opened: OpenedMotion) => void, fail: (fault: Error) => void): void {
+  private take(block: FrameBlock & { leftOut: number }, header: FramesHeader, resolve: (opened: OpenedMotion) => void, fail: (fault: Error) => void): void {
     this.leftOut = block.leftOut
     if (!this.store) {
       if (this.waiting.push(block) === 1) this.begin(header, resolve).catch(fail)
       return
     }
     this.store.put(block)
-    if (this.pace === 'live') this.store.forgetBefore(this.store.length - Math.round(kKept * header.rate))
+    this.store.forgetBefore(this.store.length - Math.round(kKept * header.rate))
     this.onProgress?.(false)
   }
 
-  private async begin(header: Header, resolve: (opened: OpenedMotion) => void): Promise<void> {
-    const skeleton: Skeleton = { joints: header.joints, translated: header.translated, tracks: header.tracks }
-    const declarations: Declarations = Object.fromEntries(header.declarations.map(({ name, value }) => [name, value]))
-    const rig = rigOf(await this.api.recording(this.database, header.recording))
-    const store = new FrameStore(skeleton, header.rate, rig)
+  private async begin(header: FramesHeader, resolve: (opened: OpenedMotion) => void): Promise<void> {
+    const rig = await this.rig(header.recording)
+    const store = new FrameStore(skeletonOf(header), header.rate, rig)
     for (const block of this.waiting) store.put(block)
     this.waiting = []
     this.store = store
-    resolve({ store, rig, originMs: 0, declarations, recording: header.recording })
+    resolve({ store, rig, character: header.character, originMs: 0, declarations: declarationsOf(header) })
+  }
+
+  /** A stream does not tell which joint plays which part; a frame of the recording does, in the same joints. */
+  private async rig(recording: string): Promise<Rig> {
+    const { clock_origin_ms: from } = await this.api.recording(this.database, recording)
+    let rig: Rig = {}
+    await this.api.motion(this.database, recording, from, from + 20, this.character, { begin: (header) => (rig = rigOf(header)), take: () => {} })
+    return rig
   }
 
   private told(message: { type: string; frame?: number } & Record<string, unknown>, fail: (fault: Error) => void): void {
     const { type, frame = 0 } = message
     if (type === 'header') {
-      const header = message as unknown as Header
-      if (header.layout !== 1) fail(new StudioFault('badAnswer', `layout ${header.layout}`))
-      this.header = header
+      this.header = message as unknown as FramesHeader
     } else if (type === 'error') {
       const fault = new ApiError(String(message.message), 0, String(message.code))
       // Before the first frame there is nothing else to come; later the stream goes on.
@@ -118,11 +108,6 @@ export class StreamSource implements MotionSource {
       else fail(fault)
     } else if (type === 'place') this.onPlace?.(frame, String(message.gloss))
     else if (type === 'rest') this.onPlace?.(frame)
-    else if (type === 'end') {
-      this.complete = true
-      this.close()
-      this.onProgress?.(true)
-    }
   }
 
   private send(message: object): void {

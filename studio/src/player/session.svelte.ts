@@ -1,3 +1,4 @@
+import type { MediaRow } from '../api/answers'
 import type { Api } from '../api/client'
 import { ApiError } from '../api/fault'
 import type { AnnotationDocument } from '../annotation/document'
@@ -9,6 +10,7 @@ import type { Declarations, MotionSource, OpenedMotion } from '../motion/source'
 import { StreamSource } from '../motion/stream_source'
 import type { Route } from '../ui/route'
 import { Transport } from '../viewer/transport'
+import { Opening } from './opening'
 
 /** What the player can show. */
 export type Shown = Extract<Route, { page: 'recording' | 'sign' | 'edit' }>
@@ -21,7 +23,7 @@ export interface Strand {
 }
 
 const kTellMs = 200
-const kEmpty: AnnotationDocument = { tiers: [], media: [] }
+const kEmpty: AnnotationDocument = { tiers: [] }
 
 /** Opens what a route asks for, and keeps what the player shows of it. Nothing here is touched for every picture. */
 export class Session {
@@ -35,6 +37,8 @@ export class Session {
   /** The strand that the transport's time and the timeline are of. */
   main = $state.raw<Strand | undefined>()
   document = $state.raw<AnnotationDocument>(kEmpty)
+  /** Films that the recording's annotation links. */
+  media = $state.raw<readonly MediaRow[]>([])
   /** Whether the annotation has come, or is known not to come. */
   annotated = $state(false)
   /** One for each motion that is shown. */
@@ -45,20 +49,26 @@ export class Session {
   leftOut = $state(0)
   /** Pairs the strands sign by sign; else by time. */
   bySign = $state(true)
-  private readonly sources: MotionSource[] = []
+  /** What is open, and what is being opened in another character's joints. */
+  private current?: Opening
+  private next?: Opening
   private steps = $state.raw<Steps | undefined>()
+  private original?: Promise<AnnotationDocument | undefined>
   /** Of a live stream: from which frame on which gloss is signed; none at rest. */
   private readonly places: { frame: number; gloss?: string }[] = []
   private closed = false
   private told = 0
 
-  constructor(private readonly api: Api, readonly shown: Shown) {
-    this.open().catch((fault: unknown) => this.fail(fault))
+  /** `character` names whose joints the poses are for; none for the recordings' own. */
+  constructor(private readonly api: Api, readonly shown: Shown, character: Promise<string | undefined>) {
+    if (shown.page === 'recording') this.transport.time = shown.at
+    this.annotateAll()
+    character.then((name) => this.wear(name)).catch((fault: unknown) => this.fail(fault))
   }
 
   /** The time of a strand beside a time of the main one, both in seconds from frame 0. */
   timeOf(strand: Strand): (seconds: number) => number {
-    if (strand === this.main) return (seconds) => seconds
+    if (strand.source === this.main?.source) return (seconds) => seconds
     return (seconds) => (this.steps && this.bySign ? beside(this.steps, seconds) : seconds)
   }
 
@@ -80,92 +90,117 @@ export class Session {
     if (source instanceof StreamSource) source.sign(utterance)
   }
 
+  /** Says where the picture is, so that each motion fetches what it needs next. */
+  want(seconds: number): void {
+    for (const strand of this.strands) strand.source.want?.(this.timeOf(strand)(seconds))
+  }
+
+  /** The same motions in another character's joints; what is shown stays until they are there. */
+  wear(character: string | undefined): void {
+    const newest = this.next ?? this.current
+    if (this.closed || (newest && newest.character === character)) return
+    this.next?.close()
+    const next = (this.next = new Opening(character, (fault) => this.note(fault), (source) => this.progress(source)))
+    this.strandsOf(next).then(({ strands, main }) => {
+      if (this.next !== next) return
+      this.current?.close()
+      this.current = next
+      this.next = undefined
+      this.show(strands, main)
+    }).catch((fault: unknown) => {
+      next.close()
+      if (this.next !== next) return
+      this.next = undefined
+      if (this.current) this.note(fault)
+      else this.fail(fault)
+    })
+  }
+
   close(): void {
     this.closed = true
-    for (const source of this.sources) source.close()
+    this.current?.close()
+    this.next?.close()
+    this.next = undefined
   }
 
-  private async open(): Promise<void> {
-    const { shown } = this
-    if (shown.page === 'recording') await this.openRecording(shown)
-    else if (shown.page === 'edit') await this.openEdit(shown)
-    else await this.openSigning(shown)
+  private async strandsOf(opening: Opening): Promise<{ strands: readonly Strand[]; main: Strand }> {
+    const { shown, api } = this
+    const { database } = shown
+    const { character } = opening
+    const recorded = (name: string) => new RecordingSource(api, database, name, character, this.transport.time)
+    if (shown.page === 'recording') {
+      // What stands beside may be wrong without the recording being so.
+      const other = shown.beside ? opening.strand('beside', recorded(shown.beside)).catch((fault: unknown) => this.note(fault)) : undefined
+      const [main, second] = await Promise.all([opening.strand('only', recorded(shown.recording)), other])
+      return { strands: second ? [main, second] : [main], main }
+    }
+    if (shown.page === 'edit') {
+      const made = new MadeSource(api, database, shown.recording, 'edit', bodyOf(shown), character)
+      const [left, main] = await Promise.all([opening.strand('original', recorded(shown.recording)), opening.strand('made', made)])
+      await this.pair(left, main)
+      return { strands: [left, main], main }
+    }
+    const main = await opening.strand('made', shown.pace === 'live' ? this.stream(database, shown.utterance, character)
+      : new MadeSource(api, database, shown.utterance, 'sign', bodyOf(shown), character))
+    return { strands: [main], main }
   }
 
-  private async openRecording(shown: Extract<Shown, { page: 'recording' }>): Promise<void> {
-    const { api } = this
-    this.transport.time = shown.at
-    void this.annotate(api.annotation(shown.database, shown.recording))
-    const source = new RecordingSource(api, shown.database, shown.recording, api.recording(shown.database, shown.recording), shown.at)
-    // What stands beside may be wrong without the recording being so.
-    const other = shown.beside ? this.strand('beside', this.recordingSource(shown.beside, shown.at)).catch((fault: unknown) => this.note(fault)) : undefined
-    const [first, second] = await Promise.all([this.strand('only', source), other])
-    this.show(second ? [first, second] : [first], first)
-  }
-
-  private async openEdit(shown: Extract<Shown, { page: 'edit' }>): Promise<void> {
-    const { api } = this
-    const body = { recording: shown.recording, ...(shown.swap ? { swap: shown.swap } : { replace: shown.replace }) }
-    const made = new MadeSource(api, shown.recording, api.madeUrl(shown.database, 'edit'), body, api.recording(shown.database, shown.recording))
-    const original = api.annotation(shown.database, shown.recording).then(readEaf).catch((fault: unknown) => this.note(fault))
-    const annotated = this.annotate(api.madeAnnotation(shown.database, 'edit', body), false)
-    const [left, right] = await Promise.all([this.strand('original', this.recordingSource(shown.recording)), this.strand('made', made)])
-    this.show([left, right], right)
-    const signs = right.motion.signs ?? []
-    const glosses = (await original)?.tiers.find(({ depth, annotations }) => depth === 0 && annotations.length === signs.length)
-    if (glosses && !shown.swap) this.steps = stepsOfSigns(signs, glosses.annotations, left.motion.originMs)
-    await annotated
-    this.annotated = true
-  }
-
-  private async openSigning(shown: Extract<Shown, { page: 'sign' }>): Promise<void> {
-    const live = shown.pace === 'live'
-    const source = new StreamSource(this.api, shown.database, shown.utterance, shown.pace)
+  private stream(database: string, utterance: string, character?: string): StreamSource {
+    const source = new StreamSource(this.api, database, utterance, character)
     source.onNotice = (fault) => this.note(fault)
     source.onPlace = (frame, gloss) => {
       this.places.push({ frame, gloss })
       if (this.places.length > 2000) this.places.splice(0, 1000)
     }
-    const strand = await this.strand('made', source)
-    // Asked for only where the stream says that it can be signed: the same fault need not be told twice.
-    if (live) this.annotated = true
-    else void this.annotate(this.api.madeAnnotation(shown.database, 'sign', { utterance: shown.utterance }))
-    this.transport.live = live
-    this.show([strand], strand)
-    this.transport.play()
+    this.places.length = 0
+    this.transport.time = 0
+    return source
   }
 
-  private recordingSource(recording: string, startSeconds = 0): RecordingSource {
-    const { database } = this.shown
-    return new RecordingSource(this.api, database, recording, this.api.recording(database, recording), startSeconds)
+  /** Which sign of the original stands beside which sign that was made of it. */
+  private async pair(left: Strand, made: Strand): Promise<void> {
+    if (this.shown.page !== 'edit' || this.shown.swap || this.steps) return
+    const signs = made.motion.signs ?? []
+    const glosses = (await this.original)?.tiers.find(({ depth, annotations }) => depth === 0 && annotations.length === signs.length)
+    if (glosses) this.steps = stepsOfSigns(signs, glosses.annotations, left.motion.originMs)
   }
 
-  private async strand(role: Strand['role'], source: MotionSource): Promise<Strand> {
-    this.sources.push(source)
-    source.onFault = (fault) => this.note(fault)
-    source.onProgress = () => this.progress(source)
-    return { role, source, motion: await source.open() }
+  private annotateAll(): void {
+    const { api, shown } = this
+    const { database } = shown
+    if (shown.page === 'recording') {
+      void this.annotate(api.annotation(database, shown.recording))
+      api.media(database, shown.recording).then((media) => (this.media = media), (fault: unknown) => this.note(fault))
+    } else if (shown.page === 'edit') {
+      this.original = api.annotation(database, shown.recording).then(readEaf).catch((fault: unknown) => this.note(fault))
+      void this.annotate(api.madeAnnotation(database, 'edit', bodyOf(shown)))
+    } else if (shown.pace === 'live') this.annotated = true
+    else void this.annotate(api.madeAnnotation(database, 'sign', bodyOf(shown)))
   }
 
   /** Motion without annotation is fine; that it could not be had is told. */
-  private async annotate(eaf: Promise<string>, alone = true): Promise<void> {
+  private async annotate(eaf: Promise<string>): Promise<void> {
     try {
       const read = readEaf(await eaf)
       if (!this.closed) this.document = read
     } catch (fault) {
-      if (!(fault instanceof ApiError && fault.status === 404)) this.note(fault)
+      // What cannot be signed is told by the motion, which is refused alike.
+      if (!(fault instanceof ApiError && (fault.status === 404 || fault.status === 400))) this.note(fault)
     }
-    if (alone) this.annotated = true
+    this.annotated = true
   }
 
   private show(strands: readonly Strand[], main: Strand): void {
-    if (this.closed) return
+    const first = this.main === undefined
     this.main = main
     this.strands = strands
     this.transport.rate = main.motion.store.rate
     this.declarations = strands.map(({ motion }) => motion.declarations)
+    this.complete = main.source.complete
+    this.transport.live = main.source instanceof StreamSource
     this.progress(main.source)
     this.status = 'open'
+    if (first && this.shown.page === 'sign') this.transport.play()
   }
 
   private progress(source: MotionSource): void {
@@ -195,4 +230,10 @@ export class Session {
     this.fault = fault
     this.status = 'failed'
   }
+}
+
+/** The parameters of the call that makes what is shown. */
+function bodyOf(shown: Extract<Shown, { page: 'sign' | 'edit' }>): object {
+  if (shown.page === 'sign') return { utterance: shown.utterance }
+  return { recording: shown.recording, ...(shown.swap ? { swap: shown.swap } : { replace: shown.replace }) }
 }

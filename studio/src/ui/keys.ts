@@ -4,7 +4,7 @@ import type { Text } from '../text/en'
 export type Action =
   | 'play' | 'back' | 'on' | 'leapBack' | 'leapOn' | 'signBefore' | 'signAfter' | 'begin' | 'end' | 'slower' | 'faster' | 'repeat'
   | 'select' | 'loopBegin' | 'loopEnd' | 'clear' | 'front' | 'left' | 'right' | 'hands' | 'face' | 'whole' | 'orbitLeft' | 'orbitRight'
-  | 'orbitUp' | 'orbitDown' | 'nearer' | 'farther' | 'trails' | 'bones' | 'zoomIn' | 'zoomOut' | 'fit' | 'full' | 'help'
+  | 'orbitUp' | 'orbitDown' | 'nearer' | 'farther' | 'trails' | 'bones' | 'signer' | 'zoomIn' | 'zoomOut' | 'fit' | 'full' | 'help'
 
 /** One line of the help: the keys as they are printed, what they do, in the same order. */
 export interface KeyRow { readonly keys: readonly string[]; readonly actions: readonly Action[]; readonly text: keyof Text }
@@ -25,6 +25,7 @@ export const kKeys: readonly KeyRow[] = [
   { keys: ['Page ↑', 'Page ↓'], actions: ['nearer', 'farther'], text: 'key_near' },
   { keys: ['T'], actions: ['trails'], text: 'key_trails' },
   { keys: ['S'], actions: ['bones'], text: 'key_bones' },
+  { keys: ['C'], actions: ['signer'], text: 'key_signer' },
   { keys: ['+', '−'], actions: ['zoomIn', 'zoomOut'], text: 'key_zoom' },
   { keys: ['0'], actions: ['fit'], text: 'key_fit' },
   { keys: ['F'], actions: ['full'], text: 'key_full' },

@@ -8,9 +8,12 @@ const kTexts: Record<Language, Text> = { en, fr }
 
 /** What was chosen before, where it is one of `possible`. */
 function stored<T extends string>(key: string, possible: readonly T[]): T | undefined {
+  const value = read(key)
+  return possible.find((one) => one === value)
+}
+function read(key: string): string | undefined {
   try {
-    const value = localStorage.getItem(`signweave.${key}`)
-    return possible.find((one) => one === value)
+    return localStorage.getItem(`signweave.${key}`) ?? undefined
   } catch {
     return undefined // a page that may store nothing works with what the system prefers
   }
@@ -23,12 +26,14 @@ function store(key: string, value: string): void {
   }
 }
 
-/** Language, theme and keys: as chosen before, else as the system has them. */
+/** Language, theme, keys and who signs: as chosen before, else as the system has them. */
 class Preferences {
   language = $state<Language>(stored('language', ['en', 'fr']) ?? (navigator.language.startsWith('fr') ? 'fr' : 'en'))
   theme = $state<Theme>(stored('theme', ['dark', 'light']) ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark'))
   /** Whether keys that are letters, digits or signs do something. Who speaks to a computer instead of typing switches them off. */
   characterKeys = $state(stored('keys', ['off']) === undefined)
+  /** Who signs: a character's name, or `drawn` for the body that the studio draws; none where nobody was chosen yet. */
+  body = $state<string | undefined>(read('body'))
   text = $derived(kTexts[this.language])
 
   setLanguage(language: Language): void {
@@ -38,6 +43,10 @@ class Preferences {
   setCharacterKeys(on: boolean): void {
     this.characterKeys = on
     store('keys', on ? 'on' : 'off')
+  }
+  setBody(body: string): void {
+    this.body = body
+    store('body', body)
   }
   setTheme(theme: Theme): void {
     this.theme = theme

@@ -62,6 +62,12 @@ export class SignerCamera {
     this.fresh = true
   }
 
+  /** Looks from where another camera does. */
+  like({ view, azimuth, elevation, zoom }: SignerCamera): void {
+    Object.assign(this, { view, azimuth, elevation, zoom })
+    this.fresh = true
+  }
+
   orbit(azimuth: number, elevation: number): void {
     this.azimuth = ((this.azimuth + azimuth + Math.PI) % (2 * Math.PI) + 2 * Math.PI) % (2 * Math.PI) - Math.PI
     this.elevation = Math.min(1.4, Math.max(-1.2, this.elevation + elevation))

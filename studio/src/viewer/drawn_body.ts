@@ -1,4 +1,4 @@
-import { Bone, Group, Matrix4, MeshStandardMaterial, Skeleton as SkinSkeleton, SkinnedMesh } from 'three'
+import { Bone, Group, Matrix4, MeshLambertMaterial, Skeleton as SkinSkeleton, SkinnedMesh } from 'three'
 import type { Pose } from '../motion/pose'
 import type { Rig, Skeleton } from '../motion/skeleton'
 import type { Body } from './body'
@@ -24,7 +24,7 @@ export class DrawnBody implements Body {
       return bone
     })
     skeleton.joints.forEach(({ parent }, j) => (parent < 0 ? this.object : this.bones[parent]).add(this.bones[j]))
-    const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.78, metalness: 0 })
+    const material = new MeshLambertMaterial({ vertexColors: true })
     this.mesh = new SkinnedMesh(drawnGeometry(proportions), material)
     const inverses = skeleton.joints.map((_, j) => {
       const at = proportions.ofJoint(j)
@@ -54,7 +54,7 @@ export class DrawnBody implements Body {
 
   dispose(): void {
     this.mesh.geometry.dispose()
-    ;(this.mesh.material as MeshStandardMaterial).dispose()
+    ;(this.mesh.material as MeshLambertMaterial).dispose()
     this.mesh.skeleton.dispose()
     this.face?.dispose()
   }

@@ -1,4 +1,4 @@
-import { CapsuleGeometry, Color, Group, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, Vector3, type Object3D } from 'three'
+import { CapsuleGeometry, Group, Mesh, MeshLambertMaterial, Quaternion, SphereGeometry, Vector3, type Object3D } from 'three'
 import type { Pose } from '../motion/pose'
 import { headShape } from './drawn_solids'
 import type { Proportions } from './proportions'
@@ -35,8 +35,8 @@ export class DrawnFace {
     const inverse = this.object.quaternion.clone().invert()
     const here = (at: Vector3) => at.sub(origin).applyQuaternion(inverse)
     const center = here(shape.center.clone())
-    const white = this.material(0xf4f1ec, 0.35), dark = this.material(0x241a16, 0.4), skin = this.material(0xcf9877, 0.75)
-    const brown = this.material(0x2b1d17, 0.8), red = this.material(0xb0685c, 0.6), hollow = this.material(0x4a1a18, 0.9)
+    const white = this.material(0xf4f1ec), dark = this.material(0x241a16), skin = this.material(0xcf9877)
+    const brown = this.material(0x2b1d17), red = this.material(0xb0685c), hollow = this.material(0x4a1a18)
     const ball = this.own(new SphereGeometry(1, 20, 14))
     const cap = this.own(new SphereGeometry(1, 20, 10, 0, 2 * Math.PI, 0, Math.PI / 2))
     const bar = this.own(new CapsuleGeometry(1, 6, 4, 10))
@@ -86,10 +86,10 @@ export class DrawnFace {
     this.owned.push(one)
     return one
   }
-  private material(color: number, roughness: number): MeshStandardMaterial {
-    return this.own(new MeshStandardMaterial({ color: new Color(color), roughness }))
+  private material(color: number): MeshLambertMaterial {
+    return this.own(new MeshLambertMaterial({ color }))
   }
-  private add(geometry: Mesh['geometry'], material: MeshStandardMaterial, at: Vector3, scale: Vector3): Mesh {
+  private add(geometry: Mesh['geometry'], material: MeshLambertMaterial, at: Vector3, scale: Vector3): Mesh {
     const mesh = new Mesh(geometry, material)
     mesh.position.copy(at)
     mesh.scale.copy(scale)

@@ -1,13 +1,4 @@
-import type { Media } from '../annotation/document'
-
-/**
- * The address of a linked video that this page may play: one of the server's own. The API has no way yet to send a recording's
- * media, so that paths of files are none; when it has, this is the place.
- */
-export function playable(media: Media): string | undefined {
-  if (!/^https?:/.test(media.url)) return undefined
-  return new URL(media.url).origin === location.origin ? media.url : undefined
-}
+import type { MediaRow } from '../api/answers'
 
 /**
  * Time of the video, in seconds, at a time of the motion in seconds from frame 0. `originMs` is the annotation time of frame 0,
@@ -17,12 +8,7 @@ export function videoTime(seconds: number, originMs: number, mediaOriginMs: numb
   return seconds + (originMs + mediaOriginMs) / 1000
 }
 
-/** Of the files that an annotation links the one that is video; none where there is none. */
-export function videoOf(media: readonly Media[]): Media | undefined {
+/** The film among what is linked: one that says it is, else the first that is no sound. */
+export function videoOf(media: readonly MediaRow[]): MediaRow | undefined {
   return media.find(({ mime }) => mime.startsWith('video/')) ?? media.find(({ mime }) => !mime.startsWith('audio/'))
-}
-
-/** The name of a linked file, without its folders. */
-export function nameOf({ url }: Media): string {
-  return url.split(/[/\\]/).pop() || url
 }

@@ -22,6 +22,8 @@ export class Pane {
   timeOf: (seconds: number) => number = (seconds) => seconds
   /** Whether the last picture was of frames that have not come, so that it must be drawn again when more do. */
   waiting = true
+  /** Whether its signer has been drawn. */
+  seen = false
   private readonly pose: Pose
   private readonly model: Kinematics
   private readonly trails: Trails

@@ -146,6 +146,7 @@ export class Stage {
       renderer.setViewport(x, y, w, h)
       renderer.setScissor(x, y, w, h)
       renderer.render(pane.scene, pane.camera.camera)
+      pane.seen ||= pane.body.object.visible
     }
     this.transport.held = waiting
   }

@@ -1,7 +1,8 @@
 // The studio by keyboard and mouse, against a real server and a demo corpus: SITE names the built studio.
 import assert from 'node:assert/strict'
-import { readFileSync } from 'node:fs'
+import { readFileSync, writeFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
+import { join } from 'node:path'
 import { after, before, test as run } from 'node:test'
 import { withBrowser } from './chromium.mjs'
 import { axeFaults, azimuth, colorAtJoint, isSkin, smallVideo, transport } from './page_tools.mjs'
@@ -12,13 +13,14 @@ const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.m
 /** A test that must end in four minutes also where everything is drawn by software on a busy machine. */
 const test = (name, work) => run(name, { timeout: 240_000 }, work)
 const kDeclared = /placeholder shapes, not LSF/
-let address, context, page, over
+let address, folder, context, page, over
 const faults = []
 
 before(async () => {
   await new Promise((ready, broken) => {
-    withServer(process.env.SITE, (at) => withBrowser(async (opened) => {
+    withServer(process.env.SITE, (at, made) => withBrowser(async (opened) => {
       address = at
+      folder = made
       context = opened
       await new Promise((end) => {
         over = end
@@ -73,8 +75,11 @@ test('opens a recording by keyboard alone, and shows it before the whole motion 
   assert.ok((await page.evaluate(() => window.firstPictures[0])) < 0.5, 'most of the motion had come before the first picture')
 })
 
-test('draws the signer where the motion has it', async () => {
+test('draws the signer itself where the motion has it, when told to', async () => {
+  await visit('')
+  await page.evaluate(() => localStorage.setItem('signweave.body', 'drawn'))
   await visit('#/demo/recording/meteo?at=2.2')
+  await page.evaluate(() => localStorage.removeItem('signweave.body'))
   await drawn(page)
   for (const joint of ['RightHandMiddle1', 'LeftHandMiddle1']) {
     assert.ok(isSkin(await colorAtJoint(page, joint)), `${joint}: ${await colorAtJoint(page, joint)}`)
@@ -153,21 +158,44 @@ test('scrubs, selects and zooms on the timeline by mouse', async () => {
   assert.match(spoken, /^0:1\d\.\d{3}, /)
 })
 
-test('wears the figure that the server makes, by the names of its joints', async () => {
+/** How far a joint of a signer's body is at most from where the motion has it, in metres. */
+const apart = (pane = 0) => page.evaluate((index) => {
+  const { body, model } = window.signweaveStage.panes[index]
+  return Math.max(...body.joints.map((joint, j) => {
+    const e = joint.matrixWorld.elements, p = model.positions
+    return Math.hypot(e[12] - p[3 * j], e[13] - p[3 * j + 1], e[14] - p[3 * j + 2])
+  }))
+}, pane)
+
+test('shows a character, by the names of its joints, with the face that was captured', async () => {
   await visit('#/demo/recording/meteo?at=2.2')
-  await button('Server’s figure').click()
-  await page.waitForFunction(() => window.signweaveStage.panes[0].body.morphs?.length > 10)
   await drawn(page)
-  const off = await page.evaluate(() => {
-    const pane = window.signweaveStage.panes[0]
-    let most = 0
-    pane.body.joints.forEach((joint, j) => {
-      const e = joint.matrixWorld.elements, p = pane.model.positions
-      most = Math.max(most, Math.hypot(e[12] - p[3 * j], e[13] - p[3 * j + 1], e[14] - p[3 * j + 2]))
-    })
-    return most
+  const { joints, weights, character } = await page.evaluate(() => {
+    const { body, motion } = window.signweaveStage.panes[0]
+    return { joints: body.joints.filter(Boolean).length, weights: body.morphs.filter(({ influences, target }) => influences[target] !== 0).length, character: motion.character }
   })
-  assert.ok(off < 1e-3, `a joint of the figure is ${off} m from where the motion has it`)
+  assert.ok(joints > 80 && weights > 3, `${joints} joints, ${weights} weights`)
+  assert.equal(await page.locator('.tools select').inputValue(), character)
+  assert.ok((await apart()) < 1e-3, `a joint is ${await apart()} m from where the motion has it`)
+  for (const joint of ['finger3_1_L', 'finger3_1_R']) assert.ok(isSkin(await colorAtJoint(page, joint)), `${joint}: ${await colorAtJoint(page, joint)}`)
+  assert.ok(!isSkin(await colorAtJoint(page, 'spine03')))
+  assert.equal(await page.getByText('No face captured').count(), 0)
+})
+
+test('lets the signer be chosen, keeps time and view, and remembers it', async () => {
+  await visit('#/demo/recording/meteo?at=2.2')
+  await page.keyboard.press('2')
+  const who = page.locator('.tools select')
+  const all = await who.locator('option').allTextContents()
+  assert.deepEqual(all.toSorted(), ['Drawn', 'Man', 'Woman'])
+  await who.selectOption({ label: 'Drawn' })
+  await page.waitForFunction(() => window.signweaveStage.panes[0]?.body.bones && window.signweaveStage.panes[0].seen)
+  near((await transport(page)).time, 2.2, 1e-6)
+  near(await azimuth(page), Math.PI / 2)
+  await visit('#/demo/recording/meteo?at=2.2')
+  assert.equal(await page.evaluate(() => window.signweaveStage.panes[0].motion.character), undefined)
+  await page.keyboard.press('c')
+  await page.waitForFunction((first) => window.signweaveStage.panes[0]?.body.morphs && window.signweaveStage.panes[0].motion.character === first, all[0].toLowerCase())
 })
 
 test('shows an edited recording beside the original, sign by sign', async () => {
@@ -178,12 +206,17 @@ test('shows an edited recording beside the original, sign by sign', async () => 
   assert.ok(Math.abs(steps[2] - 40) > 0.05, 'the original goes on by time')
   const names = await page.locator('.names li').allTextContents()
   assert.deepEqual(names.filter(Boolean).slice(0, 4), ['Gloss', 'Phase', 'Source', 'Junction'])
+  await drawn(page)
+  for (const pane of [0, 1]) {
+    assert.ok((await apart(pane)) < 1e-3)
+    for (const joint of ['finger3_1_L', 'finger3_1_R']) assert.ok(isSkin(await colorAtJoint(page, joint, pane)), `${joint} of ${pane} is not seen`)
+  }
   await page.getByLabel('In step').selectOption('time')
   near(await page.evaluate(() => window.signweaveStage.panes[0].timeOf(40)), 40, 1e-6)
   assert.match(await page.locator('[role=status]').textContent(), kDeclared)
 })
 
-test('signs glosses that were typed, over the stream', async () => {
+test('signs glosses that were typed', async () => {
   await visit('#/demo/make')
   await page.getByLabel('Glosses in order').fill('VANNES MATIN , "LE MANS" PLUIE')
   await page.keyboard.press('Enter')
@@ -288,13 +321,23 @@ test('lets keys that are characters be switched off', async () => {
   await page.evaluate(() => localStorage.removeItem('signweave.keys'))
 })
 
-test('keeps a linked video in step', async () => {
-  await visit('#/demo/recording/villes')
-  assert.equal(await page.getByText('villes.mp4').count(), 1)
-  await page.locator('input[type=file]').setInputFiles({ name: 'villes.webm', mimeType: 'video/webm', buffer: await smallVideo(page) })
+/** Whether the linked video is where the motion is: it began 0.2 s before. */
+async function videoInStep() {
   await page.waitForFunction(() => document.querySelector('video')?.readyState >= 1)
   await page.evaluate(() => (window.signweaveStage.transport.seek(0.5), window.signweaveStage.touch()))
-  await page.waitForFunction(() => Math.abs(document.querySelector('video').currentTime - 0.7) < 0.05, null, { timeout: 5000 })
+  await page.waitForFunction(() => Math.abs(document.querySelector('video').currentTime - 0.7) < 0.05, null, { timeout: 20_000 })
+}
+
+test('keeps a linked video in step: chosen by hand, or sent by the server', async () => {
+  await visit('#/demo/recording/villes')
+  assert.equal(await page.getByText('villes.webm').count(), 1)
+  const film = await smallVideo(page)
+  await page.locator('input[type=file]').setInputFiles({ name: 'villes.webm', mimeType: 'video/webm', buffer: film })
+  await videoInStep()
+  writeFileSync(join(folder, 'films/villes.webm'), film)
+  await visit('#/demo/recording/villes')
+  assert.match(await page.locator('video').getAttribute('src'), /\/media\/0$/)
+  await videoInStep()
 })
 
 test('helps, and gives the focus back', async () => {

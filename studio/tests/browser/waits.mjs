@@ -1,4 +1,4 @@
-/** Until the view of an address is there: for the player until it draws something, and with `whole` until all frames have come. */
+/** Until the view of an address is there: for the player until it draws its signers, and with `whole` until all frames have come. */
 export async function opened(page, hash, whole = false) {
   if (!/\/(recording|edit|sign)\//.test(hash)) {
     await page.waitForFunction(() => document.querySelector('main table, main form, [role=alert]'), null, { timeout: 30000 })
@@ -7,7 +7,7 @@ export async function opened(page, hash, whole = false) {
   await page.waitForFunction((all) => {
     if (document.querySelector('[role=alert]')) return true
     const panes = window.signweaveStage?.panes ?? []
-    return document.querySelector('.player')?.dataset.annotated === 'true' && panes.length > 0 && window.signweaveStage.pictures > 1 && panes.every(({ store }) => (all ? store.arrived >= store.length : store.arrived > 0))
+    return document.querySelector('.player')?.dataset.annotated === 'true' && panes.length > 0 && panes.every(({ seen, body, motion, store }) => seen && (!motion.character || body.morphs) && (all ? store.arrived >= store.length : store.arrived > 0))
   }, whole && !/pace=live/.test(hash), { timeout: 90000 })
 }
 

@@ -1,9 +1,10 @@
 // The page that character.mjs drives: the studio's own stage, pane and character, with a motion of a few still frames.
 import type { Mesh } from 'three'
-import { encodeJson, skeletonOfJson, type MotionJson } from '../../../src/motion/frames'
+import { blockOf } from '../../../src/motion/encode'
 import { FrameStore } from '../../../src/motion/frame_store'
-import type { Rig } from '../../../src/motion/skeleton'
-import { CharacterBody } from '../../../src/viewer/character_body'
+import { restPose } from '../../../src/motion/pose'
+import type { Rig, Skeleton } from '../../../src/motion/skeleton'
+import { CharacterModel } from '../../../src/viewer/character_model'
 import { Pane } from '../../../src/viewer/pane'
 import { Stage } from '../../../src/viewer/stage'
 import { Transport } from '../../../src/viewer/transport'
@@ -29,18 +30,14 @@ function jsonOf(glb: ArrayBuffer): Gltf {
   return JSON.parse(new TextDecoder().decode(new Uint8Array(glb, 20, length))) as Gltf
 }
 
-/** The rest pose of a character, with the faces of `kFaces` one after the other. */
-function stillMotion({ nodes, skins, meshes }: Gltf): MotionJson {
+/** The joints of a character, with its weights as tracks. */
+function skeletonOf({ nodes, skins, meshes }: Gltf): Skeleton {
   const joints = skins[0].joints
   const parentOf = (joint: number) => joints.findIndex((j) => nodes[j].children?.includes(joint))
-  const names = [...new Set(meshes.flatMap(({ extras }) => extras?.targetNames ?? []))]
-  const still = kFaces.map(() => joints.flatMap(() => [0, 0, 0, 1]))
   return {
-    frames: kFaces.length, frames_per_second: 10,
-    joints: joints.map((j) => ({ name: nodes[j].name!, parent: parentOf(j), offset: nodes[j].translation ?? [0, 0, 0], translated: parentOf(j) < 0 })),
-    rotations_xyzw: still,
-    translations_m: kFaces.map(() => [...(nodes[joints[0]].translation ?? [0, 0, 0])]),
-    tracks: Object.fromEntries(names.map((name) => [name, kFaces.map((face) => face[name] ?? 0)])),
+    joints: joints.map((j) => ({ name: nodes[j].name!, parent: parentOf(j), offset: nodes[j].translation ?? [0, 0, 0] })),
+    translated: joints.flatMap((j, at) => (parentOf(j) < 0 ? [at] : [])),
+    tracks: [...new Set(meshes.flatMap(({ extras }) => extras?.targetNames ?? []))],
   }
 }
 
@@ -51,16 +48,19 @@ const stage = new Stage(canvas, transport)
 async function wear(url: string): Promise<{ ms: number; tracks: number }> {
   const glb = await (await fetch(url)).arrayBuffer()
   const gltf = jsonOf(glb)
-  const json = stillMotion(gltf)
-  const skeleton = skeletonOfJson(json)
+  const skeleton = skeletonOf(gltf)
   const at = (name: string) => ({ joint: skeleton.joints.findIndex((joint) => joint.name === name) })
   const rig: Rig = Object.fromEntries(Object.entries(kParts).map(([part, name]) => [part, at(name)]))
-  const store = new FrameStore(skeleton, json.frames_per_second, rig)
-  store.put(encodeJson(json, skeleton, 0))
-  const pane = new Pane({ store, rig, originMs: 0, declarations: {}, recording: '' })
+  const store = new FrameStore(skeleton, 10, rig)
+  store.put(blockOf(skeleton, kFaces.map((face) => {
+    const pose = restPose(skeleton)
+    skeleton.tracks.forEach((name, track) => (pose.tracks[track] = face[name] ?? 0))
+    return pose
+  })))
+  const pane = new Pane({ store, rig, originMs: 0, declarations: {} })
   pane.camera.look('front')
   const start = performance.now()
-  pane.wear(await CharacterBody.load(glb, skeleton), stage.surroundings)
+  pane.wear((await CharacterModel.load(glb)).body(skeleton), stage.surroundings)
   stage.panes.push(pane)
   transport.duration = store.seconds
   stage.touch()

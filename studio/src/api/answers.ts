@@ -1,0 +1,44 @@
+/// What the calls of docs/http.md answer, as far as the studio reads it. Times are ms, lengths metres.
+
+export interface DatabaseRow { readonly name: string; readonly recordings: number; readonly writable: boolean }
+export interface RecordingRow {
+  readonly name: string; readonly signer: string; readonly frames: number; readonly frames_per_second: number; readonly joints: number
+  readonly tracks: readonly string[]; readonly defects: number
+}
+/** A part of the body: the joint's name and index, and for a tip its offset in metres. */
+export interface PartRow { readonly joint: string; readonly index: number; readonly offset?: readonly [number, number, number] }
+export interface RecordingInfo {
+  readonly recording: string; readonly frames: number; readonly frames_per_second: number; readonly clock_origin_ms: number
+}
+/** A signer that motion can be put on; its GLB is at `Api.characterUrl`. */
+export interface CharacterRow { readonly name: string; readonly file: string; readonly height: number; readonly face_units: readonly string[] }
+/** A film that the annotation links. */
+export interface MediaRow {
+  /** Its plain name. */
+  readonly file: string
+  readonly mime: string
+  /** The film's time at annotation time 0. */
+  readonly origin_ms: number
+  /** Where the server sends it; null where the server has not got it. */
+  readonly url: string | null
+}
+export interface Spread { readonly count: number; readonly mean?: number; readonly sd?: number;
+  readonly quantiles?: Readonly<Record<string, number>> }
+export interface Transitions {
+  readonly inferred?: boolean
+  readonly whole: { readonly duration_ms: Spread }
+  /** Not where transitions are inferred from the gaps between signs, for no phases are annotated. */
+  readonly retraction?: { readonly duration_ms: Spread }
+  readonly preparation?: { readonly duration_ms: Spread }
+}
+export interface Statistics {
+  readonly all: Transitions
+  readonly recordings: readonly (Transitions & { readonly recording: string })[]
+}
+/** One sign of a report: where it is in the new motion and where it was recorded. */
+export interface ReportSign {
+  readonly gloss: string; readonly begin_ms: number; readonly end_ms: number; readonly recording: string
+  readonly recorded: { readonly begin_ms: number; readonly end_ms: number }
+}
+/** What `sign` and `edit` tell of what they made. */
+export interface Report { readonly signs: readonly ReportSign[] }

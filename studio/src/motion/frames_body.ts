@@ -1,0 +1,98 @@
+import { StudioFault } from '../api/fault'
+import type { PartRow, Report } from '../api/answers'
+import { kMessageHeaderBytes, messageHead, type FrameBlock, type FramesHeader } from './frames'
+import type { Rig } from './skeleton'
+
+/** The JSON text before the frames that a call answers (`application/vnd.signweave.frames`). */
+export interface MotionHeader extends FramesHeader {
+  /** How many frames follow. */
+  readonly frames: number
+  /** Annotation time of frame 0, ms. */
+  readonly origin_ms: number
+  /** Which joint plays which part; none where the rig map could not tell. */
+  readonly rig?: { readonly parts: Readonly<Record<string, PartRow>> }
+  /** Of motion that was made. */
+  readonly report?: Report
+}
+
+/** Is told what stands before the frames, then given the frames as they come; their bytes are the taker's only until it returns. */
+export interface FrameTaker {
+  begin(header: MotionHeader): void
+  take(block: FrameBlock): void
+}
+
+/** Which joint plays which part; empty where the rig map could not tell. */
+export function rigOf({ rig }: Pick<MotionHeader, 'rig'>): Rig {
+  return Object.fromEntries(Object.entries(rig?.parts ?? {}).map(([part, { index, offset }]) => [part, { joint: index, offset }]))
+}
+
+const kLongestText = 64 << 20
+
+/** Reads what a call answers while it comes, until its end. Throws where the bytes are not those of docs/http.md or end too early. */
+export async function readFrames(body: ReadableStream<Uint8Array>, taker: FrameTaker): Promise<void> {
+  const bytes = new Bytes(body.getReader())
+  const length = view(await bytes.take(4)).getUint32(0, true)
+  if (length > kLongestText) throw new StudioFault('badAnswer', `${length} bytes of header`)
+  const header = parsed(await bytes.take(length))
+  taker.begin(header)
+  for (let come = 0; come < header.frames;) {
+    const head = messageHead(view(await bytes.take(kMessageHeaderBytes)))
+    const frames = await bytes.take(head.count * header.frame_bytes)
+    taker.take({ ...head, buffer: frames.buffer, offset: frames.byteOffset })
+    come += head.count
+    if (head.count === 0) throw new StudioFault('badAnswer', 'a message without frames')
+  }
+  await bytes.end()
+}
+
+function parsed(text: Uint8Array): MotionHeader {
+  try {
+    return JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text)) as MotionHeader
+  } catch {
+    throw new StudioFault('badAnswer', 'the header of frames is no JSON')
+  }
+}
+
+const view = (bytes: Uint8Array): DataView => new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength)
+
+/** Bytes that come in parts of any length, taken in parts of another. */
+class Bytes {
+  private rest = new Uint8Array(0)
+
+  constructor(private readonly reader: ReadableStreamDefaultReader<Uint8Array>) {}
+
+  /** The next `count` bytes. Throws where the answer ends before. */
+  async take(count: number): Promise<Uint8Array> {
+    if (this.rest.length < count) {
+      const parts = [this.rest]
+      for (let have = this.rest.length; have < count;) {
+        const { value, done } = await this.next()
+        if (done) throw new StudioFault('badAnswer', `it ends ${count - have} bytes too early`)
+        parts.push(value as Uint8Array<ArrayBuffer>)
+        have += value.length
+      }
+      this.rest = joined(parts)
+    }
+    const taken = this.rest.subarray(0, count)
+    this.rest = this.rest.subarray(count)
+    return taken
+  }
+
+  /** Throws where more comes. */
+  async end(): Promise<void> {
+    if (this.rest.length > 0 || !(await this.next()).done) throw new StudioFault('badAnswer', 'more comes than the header says')
+  }
+
+  private next(): Promise<ReadableStreamReadResult<Uint8Array>> {
+    return this.reader.read().catch((fault: unknown) => {
+      throw fault instanceof TypeError ? new StudioFault('unreachable') : fault // so a page is told that the connection broke
+    })
+  }
+}
+
+function joined(parts: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
+  const all = new Uint8Array(parts.reduce((sum, { length }) => sum + length, 0))
+  let at = 0
+  for (const part of parts) all.set(part, at), (at += part.length)
+  return all
+}

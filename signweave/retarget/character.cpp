@@ -1,11 +1,12 @@
 #include "signweave/retarget/character.h"
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 
 #include "signweave/core/error.h"
@@ -13,6 +14,7 @@
 #include "signweave/motion/kinematics.h"
 #include "signweave/motion/motion.h"
 #include "signweave/retarget/character_extras.h"
+#include "signweave/retarget/json_value.h"
 
 namespace signweave {
 namespace {
@@ -23,106 +25,128 @@ using Eigen::Vector3f;
   throw Error(ErrorCode::bad_input, name + ": " + what);
 }
 
-/// Pictures are not looked at.
-bool no_picture(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
-  return true;
+constexpr std::uintmax_t kMostBytes = 256u << 20;
+
+/// What a file may need beside core glTF: it changes meshes and pictures only, which are not looked at.
+constexpr std::array<std::string_view, 3> kKnownExtensions = {"EXT_meshopt_compression", "EXT_texture_webp",
+                                                              "KHR_mesh_quantization"};
+
+void check_extensions(const std::string& name, const JsonValue& file) {
+  if (!file.has("extensionsRequired")) return;
+  const JsonValue needed = file["extensionsRequired"];
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    const std::string extension = needed[i].text();
+    if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), extension) == kKnownExtensions.end()) {
+      throw Error(ErrorCode::unsupported, fmt::format("{}: needs the extension {}", name, printable(extension)));
+    }
+  }
 }
 
-tinygltf::Model load(const std::string& name, std::string_view bytes) {
-  if (bytes.size() > 256u << 20) refuse(name, "larger than 256 MiB");
-  if (bytes.size() < 20 || bytes.substr(0, 4) != "glTF") refuse(name, "no GLB file");
-  tinygltf::Model model;
-  std::string error;
-  std::string warning;
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(no_picture, nullptr);
-  const bool done =
-      loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
-                                  static_cast<unsigned>(bytes.size()));
-  if (!done) refuse(name, "no glTF that can be read: " + printable(error.substr(0, error.find('\n'))));
-  if (!model.extensionsRequired.empty()) {
-    throw Error(ErrorCode::unsupported,
-                fmt::format("{}: needs the extension {}: give the plain variant of the character", name,
-                            printable(model.extensionsRequired.front())));
+/// A node of the file.
+struct Node {
+  std::string name;
+  std::size_t parent = kNone;
+  std::vector<std::size_t> children;
+  bool is_joint = false;
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+};
+
+/// Throws where a node has two parents, so what is below any node without one is a tree.
+std::vector<Node> nodes_of(const JsonValue& file) {
+  const JsonValue list = file["nodes"];
+  std::vector<Node> nodes(list.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (list[i].has("name")) nodes[i].name = list[i]["name"].text();
+    if (!list[i].has("children")) continue;
+    const JsonValue children = list[i]["children"];
+    for (std::size_t k = 0; k < children.size(); ++k) {
+      const std::size_t child = children[k].index(nodes.size());
+      if (nodes[child].parent != Node::kNone) children[k].fail("a node has two parents");
+      nodes[child].parent = i;
+      nodes[i].children.push_back(child);
+    }
   }
-  return model;
+  if (file["skins"].size() != 1) file["skins"].fail(fmt::format("{}: a character has one", file["skins"].size()));
+  const JsonValue joints = file["skins"][0]["joints"];
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    Node& node = nodes[joints[i].index(nodes.size())];
+    if (node.is_joint) joints[i].fail("a joint twice");
+    node.is_joint = true;
+  }
+  return nodes;
+}
+
+/// Where a joint is from its parent, metres. At rest it is neither turned nor scaled.
+Vector3f offset_of(const JsonValue& node, const std::string& name) {
+  const auto is = [&](const char* key, std::initializer_list<float> wanted) {
+    if (!node.has(key)) return true;
+    const JsonValue values = node[key];
+    if (values.size() != wanted.size()) return false;
+    std::size_t i = 0;
+    for (const float value : wanted) {
+      if (std::abs(values[i++].number(-1e6f, 1e6f) - value) > 1e-6f) return false;
+    }
+    return true;
+  };
+  if (node.has("matrix") || !is("rotation", {0, 0, 0, 1}) || !is("scale", {1, 1, 1})) {
+    node.fail(fmt::format("the joint {} is turned or scaled at rest", printable(name)));
+  }
+  return node.has("translation") ? node["translation"].vector(10) : Vector3f(Vector3f::Zero());
 }
 
 /// The joints of the one skin, parents first, in the order of the node tree.
-std::shared_ptr<const Skeleton> skeleton_of(const std::string& name, const tinygltf::Model& model) {
-  if (model.skins.size() != 1) refuse(name, fmt::format("{} skins: a character has one", model.skins.size()));
-  const std::size_t nodes = model.nodes.size();
-  std::vector<bool> is_joint(nodes);
-  for (const int node : model.skins[0].joints) {
-    if (node < 0 || static_cast<std::size_t>(node) >= nodes) refuse(name, "the skin names a node that is not there");
-    if (is_joint[static_cast<std::size_t>(node)]) refuse(name, "the skin names a node twice");
-    is_joint[static_cast<std::size_t>(node)] = true;
-  }
-  std::vector<int> parent(nodes, -1);
-  for (std::size_t i = 0; i < nodes; ++i) {
-    for (const int child : model.nodes[i].children) {
-      if (child < 0 || static_cast<std::size_t>(child) >= nodes) refuse(name, "a node's child is not there");
-      if (parent[static_cast<std::size_t>(child)] >= 0) refuse(name, "a node has two parents");
-      parent[static_cast<std::size_t>(child)] = static_cast<int>(i);
+std::shared_ptr<const Skeleton> skeleton_of(const JsonValue& file) {
+  const std::vector<Node> nodes = nodes_of(file);
+  std::vector<std::size_t> roots;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!nodes[i].is_joint) continue;
+    ++count;
+    if (nodes[i].parent == Node::kNone) {
+      roots.push_back(i);
+    } else if (!nodes[nodes[i].parent].is_joint) {
+      file.fail(fmt::format("the joint {} lies below a node that is none", printable(nodes[i].name)));
     }
   }
-  std::vector<int> roots;
-  for (std::size_t i = 0; i < nodes; ++i) {
-    if (is_joint[i] && parent[i] < 0) roots.push_back(static_cast<int>(i));
-    if (is_joint[i] && parent[i] >= 0 && !is_joint[static_cast<std::size_t>(parent[i])]) {
-      refuse(name, fmt::format("the joint {} lies below a node that is none", printable(model.nodes[i].name)));
-    }
-  }
-  if (roots.size() != 1) refuse(name, fmt::format("{} root joints: a character has one", roots.size()));
+  if (roots.size() != 1) file.fail(fmt::format("{} root joints: a character has one", roots.size()));
+  const JsonValue list = file["nodes"];
   std::vector<Joint> joints;
-  const auto add = [&](int node, JointIndex above) {
-    const tinygltf::Node& own = model.nodes[static_cast<std::size_t>(node)];
-    const auto is = [](const std::vector<double>& values, std::initializer_list<double> wanted) {
-      return values.empty() || std::equal(values.begin(), values.end(), wanted.begin(), wanted.end(),
-                                          [](double a, double b) { return std::abs(a - b) < 1e-6; });
-    };
-    if (!own.matrix.empty() || !is(own.rotation, {0, 0, 0, 1}) || !is(own.scale, {1, 1, 1})) {
-      refuse(name, fmt::format("the joint {} is turned or scaled at rest", printable(own.name)));
-    }
-    Vector3f offset = Vector3f::Zero();
-    if (!own.translation.empty()) {
-      if (own.translation.size() != 3) refuse(name, "a translation has three numbers");
-      for (Eigen::Index i = 0; i < 3; ++i) offset[i] = static_cast<float>(own.translation[static_cast<std::size_t>(i)]);
-    }
-    if (!offset.allFinite() || offset.norm() > 10)
-      refuse(name, fmt::format("the joint {} is too far away", printable(own.name)));
-    joints.push_back({own.name, above, offset, above == kNoJoint});
-    return static_cast<JointIndex>(joints.size()) - 1;
-  };
   // Depth first, children in their order. Each node has one parent, so this ends.
-  std::vector<std::pair<int, JointIndex>> open = {{roots[0], kNoJoint}};
+  struct Open {
+    std::size_t node;
+    JointIndex above;
+  };
+  std::vector<Open> open = {{roots[0], kNoJoint}};
   while (!open.empty()) {
-    const auto [node, above] = open.back();
+    const Open next = open.back();
     open.pop_back();
-    const JointIndex joint = add(node, above);
-    const std::vector<int>& children = model.nodes[static_cast<std::size_t>(node)].children;
-    for (auto child = children.rbegin(); child != children.rend(); ++child) {
-      if (is_joint[static_cast<std::size_t>(*child)]) open.emplace_back(*child, joint);
+    const Node& node = nodes[next.node];
+    joints.push_back({node.name, next.above, offset_of(list[next.node], node.name), next.above == kNoJoint});
+    const auto joint = static_cast<JointIndex>(joints.size()) - 1;
+    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
+      if (nodes[*child].is_joint) open.push_back({*child, joint});
     }
   }
-  if (joints.size() != model.skins[0].joints.size()) refuse(name, "some joints hang on no root");
+  if (joints.size() != count) file.fail("some joints hang on no root");
   return std::make_shared<const Skeleton>(std::move(joints), std::vector<Tip>{});
 }
 
 }  // namespace
 
 Character read_character_bytes(const std::string& name, std::string_view bytes) {
-  const tinygltf::Model model = load(name, bytes);
+  const nlohmann::json json = glb_json(name, bytes);
+  const JsonValue file(name, json);
+  check_extensions(name, file);
   Character character;
-  character.skeleton = skeleton_of(name, model);
+  character.skeleton = skeleton_of(file);
   const Motion rest(character.skeleton, {30, 1}, 1);
   character.rig = map_rig(rest);
   // Where eyes and top of the head are is told in numbers, and no joint says it.
-  if (!model.asset.extras.IsObject() || !model.asset.extras.Has("signweave")) {
+  const JsonValue asset = file["asset"];
+  if (!asset.has("extras") || !asset["extras"].has("signweave")) {
     refuse(name, "no asset.extras.signweave: no character of studio/avatar");
   }
-  const Extras extras(name, model.asset.extras.Get("signweave"), "asset.extras.signweave");
-  read_extras(extras, character);
+  read_extras(asset["extras"]["signweave"], character);
   if (!character.rig.has(Part::head)) refuse(name, "no head among the joints");
   const ModelPose pose = to_model_space(*character.skeleton, rest.pose(0));
   const JointIndex head = character.rig[Part::head].joint;
@@ -139,6 +163,7 @@ Character read_character_bytes(const std::string& name, std::string_view bytes) 
 Character read_character(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw Error(ErrorCode::not_found, path.string() + ": no such file");
+  if (std::filesystem::file_size(path, error) > kMostBytes || error) refuse(path.string(), "larger than 256 MiB");
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file.good() && !file.eof()) throw Error(ErrorCode::io, path.string() + ": cannot be read");

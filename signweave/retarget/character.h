@@ -59,9 +59,10 @@ struct Character {
   const CharacterHand& hand(Side side) const noexcept { return hands[static_cast<std::size_t>(side)]; }
 };
 
-/// Reads a plain GLB as studio/avatar/build writes it: nodes, skin, and what asset.extras.signweave tells. Pictures and
-/// meshes are not looked at. Throws Error{bad_input, "FILE: …"} where anything is missing, out of range or not finite,
-/// Error{unsupported} for a file that needs an extension (the packed variant), Error{not_found}, Error{io}.
+/// Reads a GLB as studio/avatar/build writes it, plain or packed: nodes, the skin's joints, and what
+/// asset.extras.signweave tells. Meshes and pictures are not looked at. Throws Error{bad_input, "FILE: …"} where
+/// anything is missing, out of range or not finite, Error{unsupported} for a file that needs an extension which might
+/// change nodes, Error{not_found}, Error{io}.
 Character read_character(const std::filesystem::path& path);
 /// The same from bytes; `name` stands for the file in errors.
 Character read_character_bytes(const std::string& name, std::string_view bytes);

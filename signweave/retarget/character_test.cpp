@@ -104,7 +104,7 @@ TEST(Character, ErrorsAreOneClearLine) {
   using testing::HasSubstr;
   const std::string text = text_of(*whole_person());
   EXPECT_EQ(error_of("no"), "x.glb: no GLB file");
-  EXPECT_THAT(error_of(glb("{")), HasSubstr("x.glb: no glTF that can be read"));
+  EXPECT_THAT(error_of(glb("{")), HasSubstr("x.glb: its JSON cannot be read"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"signweave\"", "\"other\""))), HasSubstr("no asset.extras.signweave"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"version\":1", "\"version\":2"))), HasSubstr("only version 1"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"wrist\":\"LeftHand\"", "\"wrist\":\"Nobody\""))),
@@ -113,12 +113,49 @@ TEST(Character, ErrorsAreOneClearLine) {
   EXPECT_THAT(error_of(glb(replaced(text, "\"flexionAxis\":[0,0,1]", "\"flexionAxis\":[0,0,9]"))),
               HasSubstr("no unit vector"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"skins\":[{\"joints\":[0,", "\"skins\":[{\"joints\":[999,"))),
-              HasSubstr("the skin names a node that is not there"));
-  EXPECT_THAT(error_of(glb(replaced(text, "\"children\":[1,", "\"children\":[777,"))), HasSubstr("x.glb: "));
+              HasSubstr("x.glb: skins[0].joints[0]: names what is not there"));
+  EXPECT_THAT(error_of(glb(replaced(text, "\"children\":[1,", "\"children\":[777,"))),
+              HasSubstr("nodes[0].children[0]: names what is not there"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"asset\":", "\"extensionsRequired\":[\"EXT_x\"],\"asset\":"))),
-              HasSubstr("needs the extension EXT_x: give the plain variant"));
+              HasSubstr("x.glb: needs the extension EXT_x"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"name\":\"Spine\",", "\"name\":\"Spine\",\"rotation\":[0,1,0,0],"))),
               HasSubstr("the joint Spine is turned or scaled at rest"));
+}
+
+TEST(Character, APackedFileIsReadLikeAPlainOne) {
+  // Meshes and pictures are packed; a buffer stands for what unpacking makes and has no bytes.
+  const std::string text = text_of(*whole_person());
+  const std::string packed = replaced(
+      text, "\"asset\":",
+      R"("extensionsRequired":["EXT_meshopt_compression","EXT_texture_webp","KHR_mesh_quantization"],)"
+      R"("buffers":[{"byteLength":4},{"byteLength":99999,"extensions":{"EXT_meshopt_compression":{"fallback":true}}}],)"
+      R"("images":[{"bufferView":7,"mimeType":"image/webp"}],"meshes":[{"primitives":[{"attributes":{"POSITION":9}}]}],)"
+      R"("asset":)");
+  const Character plain = read_character_bytes("x.glb", glb(text));
+  const Character same = read_character_bytes("x.glb", glb(packed) + std::string("\4\0\0\0BIN\0\1\2\3\4", 12));
+  ASSERT_EQ(plain.skeleton->joint_count(), same.skeleton->joint_count());
+  for (std::size_t i = 0; i < plain.skeleton->joint_count(); ++i) {
+    EXPECT_EQ(plain.skeleton->joints()[i].name, same.skeleton->joints()[i].name);
+    EXPECT_EQ(plain.skeleton->joints()[i].offset, same.skeleton->joints()[i].offset);
+  }
+  EXPECT_EQ(plain.face_units, same.face_units);
+}
+
+TEST(Character, LengthsAreCheckedAgainstTheBytes) {
+  const std::string whole = glb(text_of(*whole_person()));
+  EXPECT_EQ(error_of(whole), "none");
+  // Cut anywhere it is an error, and never a crash.
+  for (std::size_t size = 0; size < whole.size(); size += 1 + size / 7) {
+    EXPECT_NE(error_of(whole.substr(0, size)), "none") << size;
+  }
+  const auto with = [&](std::size_t at, const std::string& bytes) {
+    std::string text = whole;
+    return text.replace(at, bytes.size(), bytes);
+  };
+  EXPECT_EQ(error_of(with(4, "\1")), "x.glb: only GLB of version 2 is known");
+  EXPECT_EQ(error_of(with(12, "\xFF\xFF\xFF\xFF")), "x.glb: its JSON is longer than the file");
+  EXPECT_EQ(error_of(with(16, "BIN ")), "x.glb: a GLB file begins with JSON");
+  EXPECT_EQ(error_of(with(20, "[")), "x.glb: its JSON cannot be read");
 }
 
 TEST(Character, AFileThatIsNotThereIsNotFound) {

@@ -14,6 +14,9 @@ constexpr float kFaceNear = 0.09f;
 constexpr float kFaceFar = 0.22f;
 constexpr float kHandsNear = 0.02f;
 constexpr float kHandsFar = 0.10f;
+/// A finger's half thickness and the wrist's, metres of a person of 1.67 m.
+constexpr float kFingerRadius = 0.010f;
+constexpr float kWristRadius = 0.024f;
 /// How fast a pair of points counts less than the nearest pair, metres.
 constexpr float kBlur = 0.012f;
 
@@ -52,11 +55,26 @@ Vector3f mean(const std::array<Vector3f, CharacterFingers::kMostPoints + 1>& poi
   return sum / static_cast<float>(count);
 }
 
+/// The way by which a hand whose wrist is at `goal` comes out of the body.
+Vector3f way_out(const Points& hand, const BodySurface& surface, const Vector3f& goal) noexcept {
+  Vector3f way = Vector3f::Zero();
+  // Each round takes the point that is deepest; once it is out another one may still be in.
+  for (int round = 0; round < 3; ++round) {
+    Vector3f most = surface.way_out(goal + way, kWristRadius * surface.scale());
+    for (std::size_t i = 0; i < hand.count; ++i) {
+      const Vector3f one = surface.way_out(goal + way + hand.own[i], kFingerRadius * surface.scale());
+      if (one.squaredNorm() > most.squaredNorm()) most = one;
+    }
+    way += most;
+  }
+  return way;
+}
+
 }  // namespace
 
 WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>& source_head, const PlacedBody& own,
                        const std::optional<HeadSpace>& own_head, const std::array<std::optional<TwoHands>, 2>& hands,
-                       float unit_ratio) noexcept {
+                       const BodySurface& surface, float unit_ratio) noexcept {
   WristGoals goals;
   std::array<Points, 2> points;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -90,7 +108,7 @@ WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>&
         goal += near * sum / weights;
       }
     }
-    goals.wrists[i] = goal;
+    goals.wrists[i] = goal + way_out(hand, surface, goal);
   }
 
   if (!goals.wrists[0] || !goals.wrists[1]) return goals;
@@ -120,6 +138,7 @@ WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>&
   const Vector3f missing = near * sum / weights;
   *goals.wrists[0] += 0.5f * missing;
   *goals.wrists[1] -= 0.5f * missing;
+  for (std::size_t i = 0; i < 2; ++i) *goals.wrists[i] += way_out(points[i], surface, *goals.wrists[i]);
   return goals;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "signweave/motion/kinematics.h"
+#include "signweave/retarget/body_surface.h"
 #include "signweave/retarget/fingers.h"
 #include "signweave/rig/rig_map.h"
 #include "signweave/rig/signer_space.h"
@@ -35,13 +36,13 @@ struct TwoHands {
 };
 
 /// Where the character's wrists are to be so that its hands are where the source's are: in signer-centred space, beside
-/// the face in the face's own measure, and where the two hands are near each other, each beside the other as there.
-/// Metres, model space. (ours)
+/// the face in the face's own measure, where the two hands are near each other, each beside the other as there, and
+/// never within the body. `surface` lies as the character's pose does. Metres, model space. (ours)
 struct WristGoals {
   std::array<std::optional<Eigen::Vector3f>, 2> wrists;  ///< [Side]
 };
 WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>& source_head, const PlacedBody& own,
                        const std::optional<HeadSpace>& own_head, const std::array<std::optional<TwoHands>, 2>& hands,
-                       float unit_ratio) noexcept;
+                       const BodySurface& surface, float unit_ratio) noexcept;
 
 }  // namespace signweave

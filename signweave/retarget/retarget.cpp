@@ -20,10 +20,14 @@ constexpr float kMostRatio = 1.14f;
 /// second.
 constexpr float kStretchFrom = 0.90f;
 constexpr float kStretchTo = 1.0f;
+/// A foot that is nearer to its place than the first stays, metres; past the second it is put there.
+constexpr float kFootFrom = 0.0005f;
+constexpr float kFootTo = 0.004f;
 /// Of a head from chin to top: where the eyes are above the head's joint, and how far before it. (Drillis and Contini's
 /// shares, and ours.)
 constexpr float kHeadTopOfJoint = 1.1f;  // chin to top, of joint to top
-constexpr float kEyesUp = 0.42f;
+constexpr float kHeadOfEyesToTop = 2;    // eyes are half way up a head
+constexpr float kEyesUp = 0.45f;
 constexpr float kEyesForward = 0.40f;
 
 float smooth_step(float value, float from, float to) {
@@ -33,9 +37,6 @@ float smooth_step(float value, float from, float to) {
 
 float bone(const RigAxes& axes, const RigMap& rig, Part from, Part to) {
   return rig.has(from) && rig.has(to) ? (axes.place(to) - axes.place(from)).norm() : 0;
-}
-float leg_length(const RigAxes& axes, const RigMap& rig) {
-  return bone(axes, rig, Part::left_thigh, Part::left_shin) + bone(axes, rig, Part::left_shin, Part::left_foot);
 }
 float arm_length(const RigAxes& axes, const RigMap& rig, Side side) {
   return bone(axes, rig, of(side, Part::left_upper_arm), of(side, Part::left_forearm)) +
@@ -69,7 +70,8 @@ std::optional<HeadSpace> head_space(const RigAxes& axes, const RigMap& rig) {
       eyes ? Vector3f(0.5f * (axes.place(Part::left_eye) + axes.place(Part::right_eye)) - joint) : Vector3f(0, 0, 0);
   if (top < 0.05f) top = eyes ? std::max(2.0f * between.norm(), 0.1f) : 0;
   if (top < 0.05f) return std::nullopt;
-  head.size = kHeadTopOfJoint * top;
+  head.size = eyes ? kHeadOfEyesToTop * std::max(top - between.dot(head.turn * Vector3f::UnitX()), 0.04f)
+                   : kHeadTopOfJoint * top;
   head.eyes = eyes ? between : Vector3f(head.turn * Vector3f(kEyesUp * top, 0, -kEyesForward * top));
   return head;
 }
@@ -89,7 +91,8 @@ Retargeter::Retargeter(const Skeleton& source, const SignerModel& signer, const 
       options_(options),
       source_axes_(source_, signer_.rig),
       axes_(*character.skeleton, character.rig),
-      drives_(drives_of(source_, signer_.rig, source_axes_, character, axes_)) {
+      drives_(drives_of(source_, signer_.rig, source_axes_, character, axes_)),
+      surface_(character, axes_) {
   const RigMap& rig = character.rig;
   for (const std::string& line : drives_.missing) notices_.push_back({.where = {}, .text = line});
   if (!options_.face_joints) {
@@ -100,6 +103,11 @@ Retargeter::Retargeter(const Skeleton& source, const SignerModel& signer, const 
   const float legs = leg_length(axes_, rig);
   const float source_legs = leg_length(source_axes_, signer_.rig);
   if (legs > 0.05f && source_legs > 0.05f) scale_ = legs / source_legs;
+  for (const Side side : kSides) {
+    const bool told = signer_.rig.has(of(side, Part::left_thigh)) && signer_.rig.has(of(side, Part::left_shin)) &&
+                      signer_.rig.has(of(side, Part::left_foot));
+    if (told) legs_[static_cast<std::size_t>(side)] = CharacterLeg::make(character, axes_, side);
+  }
   float arms = 0;
   float source_arms = 0;
   for (const Side side : kSides) {
@@ -107,6 +115,7 @@ Retargeter::Retargeter(const Skeleton& source, const SignerModel& signer, const 
     const bool told = signer_.rig.has(of(side, Part::left_upper_arm)) &&
                       signer_.rig.has(of(side, Part::left_forearm)) && signer_.rig.has(of(side, Part::left_hand));
     if (!told) continue;
+    if (options_.collar_share || !drives_.collar[i]) collars_[i] = CharacterCollar::make(character, axes_, side);
     arms_[i] = CharacterArm::make(character, axes_, side);
     if (!arms_[i]) continue;
     arms += arm_length(axes_, rig, side);
@@ -125,7 +134,10 @@ Retargeter::Retargeter(const Skeleton& source, const SignerModel& signer, const 
   }
   head_ = head_space(axes_, rig);
   source_head_ = head_space(source_axes_, signer_.rig);
-  if (head_ && character.eyes.squaredNorm() > 0) head_->eyes = character.eyes - axes_.place(Part::head);
+  if (head_ && character.eyes.squaredNorm() > 0) {
+    head_->eyes = character.eyes - axes_.place(Part::head);
+    head_->size = kHeadOfEyesToTop * (character.height - character.eyes.y());
+  }
   // The soles of the character stand at y = 0 at rest; a source's ankles are as high for the length of its legs.
   if (rig.has(Part::left_foot)) ankle_ = axes_.place(Part::left_foot).y();
   source_ankle_ = ankle_ / scale_;
@@ -177,6 +189,19 @@ void Retargeter::put_root() noexcept {
   for (Vector3f& place : to_.positions) place += shift;
 }
 
+void Retargeter::lay_legs() noexcept {
+  for (const Side side : kSides) {
+    const std::optional<CharacterLeg>& leg = legs_[static_cast<std::size_t>(side)];
+    if (!leg) continue;
+    const Part foot = of(side, Part::left_foot);
+    Vector3f goal = scale_ * position_of(signer_.rig[foot], from_);
+    goal.y() = ankle_ + scale_ * (position_of(signer_.rig[foot], from_).y() - options_.ground - source_ankle_);
+    const Vector3f told = position_of(character_->rig[foot], to_);
+    const float weight = smooth_step((goal - told).norm(), kFootFrom, kFootTo);
+    if (weight > 0) leg->lay(*character_->skeleton, told + weight * (goal - told), to_);
+  }
+}
+
 void Retargeter::lay_arms() noexcept {
   const Skeleton& skeleton = *character_->skeleton;
   std::array<std::optional<TwoHands>, 2> hands;
@@ -184,7 +209,7 @@ void Retargeter::lay_arms() noexcept {
   PlacedBody own = {&character_->rig, &to_, character_->body ? &*character_->body : nullptr, {}};
   if (options_.place_hands) {
     source.space = signer_space(*source.body, *source.rig, from_);
-    own.space = signer_space(*own.body, *own.rig, to_);
+    own.space = space_;
   }
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
@@ -202,7 +227,7 @@ void Retargeter::lay_arms() noexcept {
       return space ? std::optional(moved(*space, rig[Part::head].joint, pose)) : std::nullopt;
     };
     goals = wrist_goals(source, head(source_head_, signer_.rig, from_), own, head(head_, character_->rig, to_), hands,
-                        unit_ratio_);
+                        surface_, unit_ratio_);
   }
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
@@ -235,6 +260,13 @@ void Retargeter::pose(PoseView source, MutablePoseView out) noexcept {
   to_model_space(source_, source, from_);
   turn_joints();
   put_root();
+  lay_legs();
+  surface_.place(to_);
+  // Shoulders that go along with an arm do not move the space in which hands are placed.
+  if (character_->body) space_ = signer_space(*character_->body, character_->rig, to_);
+  for (const std::optional<CharacterCollar>& collar : collars_) {
+    if (collar) collar->lay(skeleton, to_);
+  }
   lay_arms();
   bool finite = true;
   for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
@@ -251,45 +283,6 @@ void Retargeter::pose(PoseView source, MutablePoseView out) noexcept {
     finite = finite && out.translations[i].allFinite();
   }
   if (!finite) rest(out);
-}
-
-float ground_of(const Motion& motion, const RigMap& rig) {
-  if (!rig.has(Part::left_foot) || !rig.has(Part::right_foot) || motion.frame_count() == 0) return 0;
-  std::vector<float> heights;
-  ModelPose pose;
-  constexpr std::int64_t kFrames = 120;
-  const std::int64_t step = std::max<std::int64_t>(motion.frame_count() / kFrames, 1);
-  for (std::int64_t frame = 0; frame < motion.frame_count(); frame += step) {
-    to_model_space(motion.skeleton(), motion.pose(frame), pose);
-    const float low =
-        std::min(position_of(rig[Part::left_foot], pose).y(), position_of(rig[Part::right_foot], pose).y());
-    if (std::isfinite(low)) heights.push_back(low);
-  }
-  if (heights.empty()) return 0;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
-}
-
-Retargeted retarget(const Motion& motion, const SignerModel& signer, const Character& character) {
-  RetargetOptions options{.face_joints = motion.tracks().empty()};
-  // An ankle stands above the floor by some of the leg, as the character's does.
-  const RigAxes axes(motion.skeleton(), signer.rig);
-  const RigAxes own(*character.skeleton, character.rig);
-  const float legs = leg_length(own, character.rig);
-  const float source_legs = leg_length(axes, signer.rig);
-  const float ankle = character.rig.has(Part::left_foot) ? own.place(Part::left_foot).y() : 0;
-  if (legs > 0.05f && source_legs > 0.05f && signer.rig.has(Part::left_foot)) {
-    options.ground = ground_of(motion, signer.rig) - ankle * source_legs / legs;
-  }
-  Retargeter retargeter(motion.skeleton(), signer, character, options);
-  Retargeted result{Motion(character.skeleton, motion.rate(), motion.frame_count()), retargeter.notices()};
-  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
-    retargeter.pose(motion.pose(frame), result.motion.pose(frame));
-  }
-  keep_hemisphere(result.motion);
-  for (const ScalarTrack& track : motion.tracks()) result.motion.add_track(track);
-  return result;
 }
 
 }  // namespace signweave

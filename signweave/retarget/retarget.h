@@ -10,10 +10,13 @@
 #include "signweave/motion/kinematics.h"
 #include "signweave/motion/motion.h"
 #include "signweave/retarget/arm.h"
+#include "signweave/retarget/body_surface.h"
 #include "signweave/retarget/character.h"
+#include "signweave/retarget/collar.h"
 #include "signweave/retarget/drives.h"
 #include "signweave/retarget/fingers.h"
 #include "signweave/retarget/hand_places.h"
+#include "signweave/retarget/leg.h"
 #include "signweave/retarget/rig_axes.h"
 
 namespace signweave {
@@ -21,6 +24,7 @@ namespace signweave {
 struct RetargetOptions {
   float ground = 0;          ///< y of the floor on which the source stands, metres
   bool face_joints = false;  ///< jaw and eyes turn as the source's joints do; else morph targets move them
+  bool collar_share = true;  ///< a collar bone that the source lacks takes a share of the arm's turn; see collars_move
   bool place_hands = true;   ///< hands come to the source's places by inverse kinematics; else bones alone tell
 };
 
@@ -45,6 +49,7 @@ class Retargeter {
  private:
   void turn_joints() noexcept;
   void put_root() noexcept;
+  void lay_legs() noexcept;
   void lay_arms() noexcept;
   void rest(MutablePoseView out) const noexcept;
   float lowest_ankle(const RigMap& rig, const ModelPose& pose) const noexcept;
@@ -57,6 +62,8 @@ class Retargeter {
   RigAxes axes_;
   Drives drives_;
   std::vector<Notice> notices_;
+  std::array<std::optional<CharacterCollar>, 2> collars_;  ///< those that take a share
+  std::array<std::optional<CharacterLeg>, 2> legs_;        ///< where the source has them, too
   std::array<std::optional<CharacterArm>, 2> arms_;
   std::array<std::optional<CharacterFingers>, 2> fingers_;
   float scale_ = 1;                       ///< of the character's legs beside the source's
@@ -66,17 +73,24 @@ class Retargeter {
   float source_ankle_ = 0;                ///< the source's
   std::optional<HeadSpace> head_;         ///< in the space of the character's head joint
   std::optional<HeadSpace> source_head_;  ///< in the space of the source's head joint
+  BodySurface surface_;
+  SignerSpace space_;  ///< of the pose at hand
   ModelPose from_;
   ModelPose to_;
 };
 
 /// A whole motion on a character, at the same rate. Tracks pass as they are; jaw and eyes turn by joints where the
-/// motion has no tracks. The floor is where the lowest ankle mostly is. Notices are those of the retargeter.
+/// motion has no tracks; collar bones take a share where the source's do not move. The floor is where the lowest ankle
+/// mostly is. Notices are those of the retargeter.
 struct Retargeted {
   Motion motion;
   std::vector<Notice> notices;
 };
 Retargeted retarget(const Motion& motion, const SignerModel& signer, const Character& character);
+
+/// Whether the collar bones turn against the chest at all (more than 2°): else a character's take a share of the arm's
+/// turn, since shoulders that stay behind look broad.
+bool collars_move(const Motion& motion, const RigMap& rig);
 
 /// y of the floor on which a motion stands, metres, told from the ankles; 0 without legs.
 float ground_of(const Motion& motion, const RigMap& rig);

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "signweave/features/hand_points.h"
 #include "signweave/retarget/test_character.h"
@@ -34,6 +37,7 @@ Motion signing(std::shared_ptr<const Skeleton> skeleton, std::int64_t frames = 4
     pose.rotations[joint(own, "Spine")] = AngleAxisf(0.1f * wave, Vector3f::UnitY());
     for (const float side : {1.0f, -1.0f}) {
       const std::string name = side > 0 ? "Left" : "Right";
+      pose.rotations[joint(own, name + "Shoulder")] = AngleAxisf(side * 0.06f * wave, Vector3f::UnitZ());
       // Down and forward, then the forearm up to the front, then the hand about the forearm.
       pose.rotations[joint(own, name + "Arm")] =
           AngleAxisf(side * (-0.9f + 0.2f * wave), Vector3f::UnitZ()) * AngleAxisf(side * -0.4f, Vector3f::UnitY());
@@ -56,7 +60,9 @@ Motion signing(std::shared_ptr<const Skeleton> skeleton, std::int64_t frames = 4
 Pose relaxed(const Skeleton& skeleton) {
   const Motion motion = signing(std::make_shared<const Skeleton>(skeleton), 9);
   Pose pose(motion.pose(8));
-  pose.rotations[joint(skeleton, "Spine")] = Quaternionf::Identity();
+  for (const char* still : {"Spine", "LeftShoulder", "RightShoulder"}) {
+    pose.rotations[joint(skeleton, still)] = Quaternionf::Identity();
+  }
   pose.translations[0] = skeleton.joint(0).offset;
   return pose;
 }
@@ -73,7 +79,8 @@ TEST(Retarget, OntoItselfChangesNothing) {
     motion.pose(frame).rotations[joint(*skeleton, "LeftHandTwist")] = AngleAxisf(0.3f, Vector3f::UnitX());
     motion.pose(frame).rotations[joint(*skeleton, "LeftForeArmTwist")] = AngleAxisf(0.2f, Vector3f::UnitX());
   }
-  const Motion made = retarget(motion, model_of(motion), character).motion;
+  // The body is the character's: measured over the motion its shoulders are a little narrower, since they move.
+  const Motion made = retarget(motion, {.rig = character.rig, .body = character.body}, character).motion;
   ASSERT_EQ(made.frame_count(), motion.frame_count());
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
     for (std::size_t i = 0; i < skeleton->joint_count(); ++i) {
@@ -145,7 +152,7 @@ TEST(Retarget, HandsThatTouchTouchOnOtherArms) {
   for (const float side : {1.0f, -1.0f}) {
     const std::string name = side > 0 ? "Left" : "Right";
     motion.pose(0).rotations[joint(*straight, name + "Arm")] = AngleAxisf(side * -0.75f, Vector3f::UnitY());
-    motion.pose(0).rotations[joint(*straight, name + "ForeArm")] = AngleAxisf(side * -1.62f, Vector3f::UnitY());
+    motion.pose(0).rotations[joint(*straight, name + "ForeArm")] = AngleAxisf(side * -1.87f, Vector3f::UnitY());
   }
   const SignerModel signer = model_of(motion);
   std::vector<Joint> joints(straight->joints().begin(), straight->joints().end());
@@ -163,6 +170,127 @@ TEST(Retarget, HandsThatTouchTouchOnOtherArms) {
   };
   ASSERT_LT(gap(signer.rig, motion), 0.06f);
   EXPECT_NEAR(gap(character.rig, made), gap(signer.rig, motion), 0.01f);
+}
+
+TEST(Retarget, HandsStayOutOfTheChest) {
+  const auto skeleton = whole_person();
+  Motion motion(skeleton, {30, 1}, 30);
+  // The upper arm hangs; the forearm lies across the trunk, too near to it, and rises.
+  const auto to = [](const Vector3f& way) { return Quaternionf::FromTwoVectors(Vector3f::UnitX(), way); };
+  for (std::int64_t frame = 0; frame < 30; ++frame) {
+    const MutablePoseView pose = motion.pose(frame);
+    const Quaternionf upper = to({0.35f, -0.9f, -0.1f});
+    const Quaternionf lower = to({-0.92f, -0.3f + 0.025f * static_cast<float>(frame), 0.3f});
+    pose.rotations[joint(*skeleton, "LeftArm")] = upper;
+    pose.rotations[joint(*skeleton, "LeftForeArm")] = upper.conjugate() * lower;
+  }
+  const Character character = character_of(skeleton);
+  const Motion made = retarget(motion, model_of(motion), character).motion;
+  const RigAxes axes(*skeleton, character.rig);
+  BodySurface surface(character, axes);
+  float deepest = 0;
+  float deepest_there = 0;
+  for (std::int64_t frame = 0; frame < 30; ++frame) {
+    const auto deep = [&](const Motion& of_motion) {
+      const ModelPose pose = to_model_space(*skeleton, of_motion.pose(frame));
+      surface.place(pose);
+      float most = 0;
+      for (const Finger finger : kFingers) {
+        const PartPlace& tip = character.rig[finger_part(Side::left, finger, FingerPoint::tip)];
+        most = std::max(most, surface.way_out(position_of(tip, pose), 0.008f).norm());
+      }
+      return most;
+    };
+    deepest = std::max(deepest, deep(made));
+    deepest_there = std::max(deepest_there, deep(motion));
+  }
+  EXPECT_GT(deepest_there, 0.03f);
+  EXPECT_LT(deepest, 0.002f);
+}
+
+TEST(Retarget, CollarBonesGoAlongWhereTheSourcesDoNotMove) {
+  const auto skeleton = whole_person();
+  const Character character = character_of(skeleton);
+  Motion motion(skeleton, {30, 1}, 2);
+  // Frame 0: arms hang. Frame 1: the left one is raised, the right one reaches across.
+  for (std::int64_t frame = 0; frame < 2; ++frame) {
+    motion.pose(frame).rotations[joint(*skeleton, "LeftArm")] =
+        AngleAxisf(frame == 0 ? -1.5f : 1.0f, Vector3f::UnitZ());
+    motion.pose(frame).rotations[joint(*skeleton, "RightArm")] =
+        frame == 0 ? AngleAxisf(1.5f, Vector3f::UnitZ()) : AngleAxisf(1.9f, Vector3f::UnitY());
+  }
+  const auto bone = [&](const Motion& of_motion, std::int64_t frame, const std::string& name) {
+    const ModelPose pose = to_model_space(*skeleton, of_motion.pose(frame));
+    return Vector3f(pose.positions[joint(*skeleton, name + "Arm")] -
+                    pose.positions[joint(*skeleton, name + "Shoulder")])
+        .normalized();
+  };
+  Motion made = retarget(motion, model_of(motion), character).motion;
+  EXPECT_LT(bone(made, 0, "Left").y(), 0.02f);
+  EXPECT_GT(bone(made, 1, "Left").y(), std::sin(15 * kDegree));
+  EXPECT_GT(bone(made, 1, "Right").z(), std::sin(10 * kDegree));
+  // A source whose collar bones move tells what they do.
+  motion.pose(0).rotations[joint(*skeleton, "LeftShoulder")] = AngleAxisf(0.1f, Vector3f::UnitZ());
+  made = retarget(motion, model_of(motion), character).motion;
+  EXPECT_NEAR(bone(made, 0, "Left").y(), std::sin(0.1f), 0.005f);
+  EXPECT_NEAR(bone(made, 1, "Left").y(), 0, 0.005f);
+}
+
+/// The body with legs of two bones and feet; the thigh takes so much of the leg.
+std::shared_ptr<const Skeleton> with_legs(const Skeleton& body, float thigh) {
+  std::vector<Joint> joints(body.joints().begin(), body.joints().end());
+  for (const std::string side : {"Left", "Right"}) {
+    const JointIndex hip = body.find(side + "UpLeg").value();
+    joints.push_back({side + "Leg", hip, {0, -0.84f * thigh, 0.01f}, false});
+    joints.push_back(
+        {side + "Foot", static_cast<JointIndex>(joints.size()) - 1, {0, -0.84f * (1 - thigh), -0.01f}, false});
+    joints.push_back({side + "ToeBase", static_cast<JointIndex>(joints.size()) - 1, {0, -0.06f, 0.13f}, false});
+  }
+  return std::make_shared<const Skeleton>(joints, std::vector<Tip>(body.tips().begin(), body.tips().end()));
+}
+RigMap rig_with_legs(const Skeleton& skeleton) {
+  RigMap rig = rig_of_signer(skeleton);
+  for (const Side side : kSides) {
+    const std::string name = side == Side::left ? "Left" : "Right";
+    for (const auto& [part, joint_name] : {std::pair(Part::left_shin, "Leg"), std::pair(Part::left_foot, "Foot"),
+                                           std::pair(Part::left_toes, "ToeBase")}) {
+      rig[of(side, part)] = {.joint = skeleton.find(name + joint_name).value(),
+                             .offset = Vector3f::Zero(),
+                             .evidence = Evidence::file,
+                             .confidence = 1};
+    }
+  }
+  return rig;
+}
+
+TEST(Retarget, FeetStayWhereTheyStand) {
+  const auto skeleton = with_legs(*whole_person(), 0.5f);
+  Character character = character_of(with_legs(*whole_person(0.9f), 0.6f));
+  character.rig = rig_with_legs(*character.skeleton);
+  // The hips sway and sink over feet that stand still.
+  Motion motion(skeleton, {30, 1}, 30);
+  for (std::int64_t frame = 0; frame < 30; ++frame) {
+    const MutablePoseView pose = motion.pose(frame);
+    const float bend = 0.3f + 0.25f * std::sin(0.3f * static_cast<float>(frame));
+    for (const std::string side : {"Left", "Right"}) {
+      pose.rotations[joint(*skeleton, side + "UpLeg")] = AngleAxisf(-bend, Vector3f::UnitX());
+      pose.rotations[joint(*skeleton, side + "Leg")] = AngleAxisf(2 * bend, Vector3f::UnitX());
+      pose.rotations[joint(*skeleton, side + "Foot")] = AngleAxisf(-bend, Vector3f::UnitX());
+    }
+    const ModelPose placed = to_model_space(*skeleton, motion.pose(frame));
+    const Vector3f off = Vector3f(0.09f, 0.07f, 0) - placed.positions[joint(*skeleton, "LeftFoot")];
+    pose.translations[0] += off;
+  }
+  SignerModel signer{.rig = rig_with_legs(*skeleton), .body = {}};
+  signer.body = signer_body(motion, signer.rig);
+  const Motion made = retarget(motion, signer, character).motion;
+  std::optional<Vector3f> first;
+  for (std::int64_t frame = 0; frame < 30; ++frame) {
+    const ModelPose pose = to_model_space(*character.skeleton, made.pose(frame));
+    const Vector3f foot = position_of(character.rig[Part::left_foot], pose);
+    if (!first) first = foot;
+    EXPECT_LT((foot - *first).norm(), 0.003f) << frame;
+  }
 }
 
 TEST(Retarget, FingersKeepToTheirLimits) {

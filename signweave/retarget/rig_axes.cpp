@@ -187,4 +187,10 @@ void RigAxes::take_fingers(Side side, const Vector3f& palm, const Vector3f& thum
   }
 }
 
+float leg_length(const RigAxes& axes, const RigMap& rig) {
+  if (!rig.has(Part::left_thigh) || !rig.has(Part::left_shin) || !rig.has(Part::left_foot)) return 0;
+  return (axes.place(Part::left_shin) - axes.place(Part::left_thigh)).norm() +
+         (axes.place(Part::left_foot) - axes.place(Part::left_shin)).norm();
+}
+
 }  // namespace signweave

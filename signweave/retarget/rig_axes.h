@@ -50,4 +50,7 @@ class RigAxes {
   std::array<bool, 2> lateral_ = {true, true};
 };
 
+/// From the left hip over the knee to the ankle, metres; 0 where any is missing. Right and left are meant to be alike.
+float leg_length(const RigAxes& axes, const RigMap& rig);
+
 }  // namespace signweave

@@ -1,0 +1,122 @@
+#include "signweave/retarget/body_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace signweave {
+namespace {
+
+using Eigen::Matrix3f;
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+
+/// The height of the person whose lengths the tables tell, metres.
+constexpr float kHeight = 1.67f;
+
+/// A section across the trunk: metres of that person, from the middle between the shoulders.
+struct Section {
+  float up;
+  float middle;  ///< forward
+  float depth;   ///< half of it
+  float width;   ///< half of it
+};
+/// Measured on a woman and a man, who differ by less than 8 mm once scaled by height. It ends in points, so that
+/// nothing jumps at its ends.
+constexpr std::array<Section, 10> kTrunk = {{{0.17f, -0.030f, 0.001f, 0.001f},
+                                             {0.12f, -0.025f, 0.045f, 0.060f},
+                                             {0.05f, 0.000f, 0.068f, 0.120f},
+                                             {0.00f, 0.012f, 0.088f, 0.165f},
+                                             {-0.05f, 0.022f, 0.102f, 0.175f},
+                                             {-0.10f, 0.028f, 0.110f, 0.170f},
+                                             {-0.20f, 0.032f, 0.105f, 0.158f},
+                                             {-0.35f, 0.030f, 0.100f, 0.150f},
+                                             {-0.50f, 0.020f, 0.112f, 0.175f},
+                                             {-0.60f, 0.020f, 0.001f, 0.001f}}};
+/// The head's middle lies so far behind the middle between the eyes; half its width, height and depth.
+constexpr float kHeadBehind = 0.066f;
+const Vector3f kHead = {0.078f, 0.118f, 0.095f};
+
+/// Section between two of the table; none above and below.
+std::optional<Section> section_at(float up) {
+  for (std::size_t i = 0; i + 1 < kTrunk.size(); ++i) {
+    const Section& a = kTrunk[i];
+    const Section& b = kTrunk[i + 1];
+    if (up > a.up || up < b.up) continue;
+    const float share = (a.up - up) / (a.up - b.up);
+    const auto mix = [&](float from, float to) { return from + share * (to - from); };
+    return Section{up, mix(a.middle, b.middle), mix(a.depth, b.depth), mix(a.width, b.width)};
+  }
+  return std::nullopt;
+}
+
+/// The way out of a body whose surface is |x/a|³ + |y/b|³ + |z/c|³ = 1. An infinite half size leaves an axis out.
+Vector3f way_out_of(const Vector3f& start, const Vector3f& half) noexcept {
+  const Vector3f share = start.cwiseQuotient(half).cwiseAbs();
+  const float sum = share.cwiseProduct(share).dot(share);
+  if (sum >= 1) return Vector3f::Zero();
+  const float value = std::cbrt(std::max(sum, 1e-6f));
+  // The gradient of the cube root, which grows evenly from the middle to 1 on the surface. It is convex, so a step that
+  // would reach the surface were it flat ends on it or a little outside.
+  Vector3f gradient = share.cwiseProduct(share).cwiseQuotient(half) / (value * value);
+  for (Eigen::Index i = 0; i < 3; ++i) gradient[i] = std::copysign(gradient[i], start[i]);
+  if (gradient.squaredNorm() < 1e-6f) gradient = Vector3f(0, 0, 1 / half.z());
+  return (1 - value) / gradient.squaredNorm() * gradient;
+}
+
+}  // namespace
+
+BodySurface::BodySurface(const Character& character, const RigAxes& axes) : scale_(character.height / kHeight) {
+  const RigMap& rig = character.rig;
+  // Columns: left, up, forward, of the trunk's x up and y left.
+  Matrix3f columns;
+  columns << axes.trunk() * Vector3f::UnitY(), axes.trunk() * Vector3f::UnitX(), axes.trunk() * -Vector3f::UnitZ();
+  const Quaternionf turn(columns);
+  JointIndex chest = kNoJoint;
+  for (const Part part : {Part::pelvis, Part::spine, Part::chest}) {
+    if (rig.has(part)) chest = rig[part].joint;
+  }
+  const auto at_rest = [&](JointIndex joint) { return axes.places()[static_cast<std::size_t>(joint)]; };
+  if (chest != kNoJoint && rig.has(Part::left_upper_arm) && rig.has(Part::right_upper_arm)) {
+    const Vector3f middle = 0.5f * (axes.place(Part::left_upper_arm) + axes.place(Part::right_upper_arm));
+    trunk_ = Space{chest, middle - at_rest(chest), turn};
+  }
+  if (rig.has(Part::head) && character.eyes.squaredNorm() > 0) {
+    head_ = Space{rig[Part::head].joint, character.eyes - at_rest(rig[Part::head].joint), turn};
+  }
+}
+
+void BodySurface::place(const ModelPose& pose) noexcept {
+  for (std::optional<Space>* space : {&trunk_, &head_}) {
+    if (!*space) continue;
+    const auto joint = static_cast<std::size_t>((*space)->joint);
+    (*space)->origin_now = pose.positions[joint] + pose.rotations[joint] * (*space)->origin;
+    (*space)->turn_now = pose.rotations[joint] * (*space)->turn;
+  }
+}
+
+Vector3f BodySurface::trunk_way(const Vector3f& point, float radius) noexcept {
+  const std::optional<Section> section = section_at(point.y());
+  if (!section) return Vector3f::Zero();
+  // Along the section only: nothing is pushed up or down.
+  const Vector3f from_middle(point.x(), 0, point.z() - section->middle);
+  return way_out_of(from_middle, {section->width + radius, 1e6f, section->depth + radius});
+}
+
+Vector3f BodySurface::head_way(const Vector3f& point, float radius) noexcept {
+  return way_out_of(point + Vector3f(0, 0, kHeadBehind), kHead + Vector3f::Constant(radius));
+}
+
+Vector3f BodySurface::way_out(const Vector3f& point, float radius) const noexcept {
+  Vector3f way = Vector3f::Zero();
+  const auto add = [&](const std::optional<Space>& space, Vector3f (*out)(const Vector3f&, float) noexcept) {
+    if (!space) return;
+    const Vector3f inside = space->turn_now.conjugate() * (point - space->origin_now) / scale_;
+    way += scale_ * (space->turn_now * out(inside, radius / scale_));
+  };
+  add(trunk_, trunk_way);
+  add(head_, head_way);
+  return way;
+}
+
+}  // namespace signweave

@@ -1,0 +1,88 @@
+#include "signweave/retarget/collar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "signweave/retarget/drives.h"
+
+namespace signweave {
+namespace {
+
+using Eigen::AngleAxisf;
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+
+constexpr float kDegree = std::numbers::pi_v<float> / 180;
+/// Of the arm's height above 35° below the horizontal, and of its turn forward past 25° from the side, what the collar
+/// bone takes; and how far it goes at most. (ours; about what is known of shoulders)
+constexpr float kLift = 0.25f;
+constexpr float kLiftFrom = -35 * kDegree;
+constexpr float kMostLift = 24 * kDegree;
+constexpr float kForward = 0.20f;
+constexpr float kForwardFrom = 25 * kDegree;
+constexpr float kMostForward = 20 * kDegree;
+/// Over which angle a share begins.
+constexpr float kSoft = 12 * kDegree;
+
+/// 0 below 0, the value above, smooth between.
+float softened(float value) {
+  if (value <= -kSoft) return 0;
+  if (value >= kSoft) return value;
+  return (value + kSoft) * (value + kSoft) / (4 * kSoft);
+}
+
+/// Comes near `most` without a corner.
+float held(float value, float most) {
+  return most * std::tanh(value / most);
+}
+
+}  // namespace
+
+std::optional<CharacterCollar> CharacterCollar::make(const Character& character, const RigAxes& axes, Side side) {
+  const RigMap& rig = character.rig;
+  const Part collar = of(side, Part::left_clavicle);
+  const Part shoulder = of(side, Part::left_upper_arm);
+  const Part elbow = of(side, Part::left_forearm);
+  if (!rig.has(collar) || !rig.has(shoulder) || !rig.has(elbow)) return std::nullopt;
+  const Skeleton& skeleton = *character.skeleton;
+  CharacterCollar made;
+  made.side_ = side == Side::left ? 1.0f : -1.0f;
+  made.bones_ = path_between(skeleton, rig[collar].joint, rig[shoulder].joint);
+  if (made.bones_.size() < 2) return std::nullopt;
+  made.bones_.pop_back();
+  made.chest_ = skeleton.joint(rig[collar].joint).parent;
+  if (made.chest_ == kNoJoint) return std::nullopt;
+  made.arm_ = rig[shoulder].joint;
+  made.arm_axis_ = (axes.place(elbow) - axes.place(shoulder)).normalized();
+  made.trunk_ = axes.trunk();
+  for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
+    const auto joint = static_cast<JointIndex>(i);
+    if (joint != rig[collar].joint && !path_between(skeleton, rig[collar].joint, joint).empty()) {
+      made.below_.push_back(joint);
+    }
+  }
+  return made;
+}
+
+void CharacterCollar::lay(const Skeleton& skeleton, ModelPose& pose) const noexcept {
+  const auto at = [](JointIndex joint) { return static_cast<std::size_t>(joint); };
+  const Quaternionf chest = pose.rotations[at(chest_)] * trunk_;
+  // Up, out to the side, back.
+  const Vector3f arm = chest.conjugate() * (pose.rotations[at(arm_)] * arm_axis_);
+  const float height = std::asin(std::clamp(arm.x(), -1.0f, 1.0f));
+  const float level = std::hypot(arm.y(), arm.z());
+  const float forward = std::atan2(-arm.z(), side_ * arm.y());
+  const float lift = held(kLift * softened(height - kLiftFrom), kMostLift);
+  // An arm that hangs or stands upright points nowhere.
+  const float ahead = level * held(kForward * softened(forward - kForwardFrom), kMostForward);
+  const Quaternionf turn = chest * AngleAxisf(side_ * lift, -Vector3f::UnitZ()) *
+                           AngleAxisf(-side_ * ahead, Vector3f::UnitX()) * chest.conjugate();
+  for (const JointIndex bone : bones_) pose.rotations[at(bone)] = (turn * pose.rotations[at(bone)]).normalized();
+  for (const JointIndex joint : below_) {
+    const Joint& own = skeleton.joint(joint);
+    pose.positions[at(joint)] = pose.positions[at(own.parent)] + pose.rotations[at(own.parent)] * own.offset;
+  }
+}
+
+}  // namespace signweave

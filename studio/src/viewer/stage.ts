@@ -8,6 +8,31 @@ import type { Transport } from './transport'
 /** What a picture took, in ms of the main thread, over the last second or so. */
 export interface FrameCost { mean: number; most: number; pictures: number }
 
+/** Draws signers on a canvas the way all of the studio's pictures are drawn. Throws where the browser cannot. */
+export function signerRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
+  let renderer: WebGLRenderer
+  try {
+    renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: 'high-performance' })
+  } catch {
+    throw new StudioFault('noWebgl')
+  }
+  renderer.toneMapping = ACESFilmicToneMapping
+  renderer.toneMappingExposure = 1.05
+  renderer.shadowMap.enabled = true
+  renderer.shadowMap.type = PCFShadowMap
+  renderer.setClearColor(0x000000, 0)
+  return renderer
+}
+
+/** What a room looks like from its middle, for surfaces that shine; whoever asks gives it back. */
+export function roomFor(renderer: WebGLRenderer): WebGLRenderTarget {
+  const maker = new PMREMGenerator(renderer), room = new RoomEnvironment()
+  const target = maker.fromScene(room, 0.04)
+  room.dispose()
+  maker.dispose()
+  return target
+}
+
 /** Draws one or two motions in step on one canvas, only while something changes. */
 export class Stage {
   readonly panes: Pane[] = []
@@ -29,17 +54,8 @@ export class Stage {
   private height = 1
 
   constructor(private readonly canvas: HTMLCanvasElement, readonly transport: Transport) {
-    try {
-      this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: 'high-performance' })
-    } catch {
-      throw new StudioFault('noWebgl')
-    }
+    this.renderer = signerRenderer(canvas)
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio))
-    this.renderer.toneMapping = ACESFilmicToneMapping
-    this.renderer.toneMappingExposure = 1.05
-    this.renderer.shadowMap.enabled = true
-    this.renderer.shadowMap.type = PCFShadowMap
-    this.renderer.setClearColor(0x000000, 0)
     this.observer = new ResizeObserver(() => this.resize())
     this.observer.observe(canvas.parentElement!)
     canvas.addEventListener('webglcontextlost', this.lost)
@@ -81,12 +97,7 @@ export class Stage {
 
   /** What a room looks like from its middle, for surfaces that shine; made when first asked for. */
   surroundings = (): Texture => {
-    if (!this.room) {
-      const maker = new PMREMGenerator(this.renderer), room = new RoomEnvironment()
-      this.room = maker.fromScene(room, 0.04)
-      room.dispose()
-      maker.dispose()
-    }
+    this.room ??= roomFor(this.renderer)
     return this.room.texture
   }
 

@@ -1,0 +1,85 @@
+import type { Texture, WebGLRenderer, WebGLRenderTarget } from 'three'
+import type { Api } from '../api/client'
+import type { OpenedMotion } from '../motion/source'
+import { CharacterModel } from '../viewer/character_model'
+import { Pane } from '../viewer/pane'
+import { roomFor, signerRenderer } from '../viewer/stage'
+import { captionOf, drawCaption, type Caption } from './caption'
+import { sightsOf, type Sight } from './sight'
+import type { RenderRequest } from './request'
+
+/** Draws the pictures of one motion, each from its moment alone, on a canvas of exactly the size that was asked for. */
+export class Drawing {
+  /** Holds the picture that was drawn last. */
+  readonly canvas: OffscreenCanvas
+  private readonly context: OffscreenCanvasRenderingContext2D
+  private readonly ground: OffscreenCanvas
+  private readonly caption?: Caption
+  /** Side by side: one, or one for each hand. */
+  private readonly sights: readonly Sight[]
+
+  private constructor(private readonly renderer: WebGLRenderer, private readonly pane: Pane, motion: OpenedMotion, request: RenderRequest, notes: readonly string[]) {
+    const { width, height, view } = request
+    this.canvas = new OffscreenCanvas(width, height)
+    this.context = this.canvas.getContext('2d', { alpha: false })!
+    this.context.fillStyle = '#12161b'
+    this.ground = groundOf(width, height)
+    this.caption = drawCaption(captionOf(motion.declarations, pane.body.hasFace, notes), width, height)
+    const foot = this.caption?.height ?? 0, lens = pane.camera.camera.fov
+    this.sights = sightsOf(motion, pane.signer, view, (shots) => ({ lens, width: width / shots, height, foot }))
+    renderer.setScissorTest(true)
+  }
+
+  /** Dresses the signer and finds the camera's place; all frames must be there. */
+  static async of(api: Api, motion: OpenedMotion, request: RenderRequest): Promise<Drawing> {
+    const renderer = signerRenderer(document.createElement('canvas'))
+    renderer.setPixelRatio(1)
+    renderer.setSize(request.width, request.height, false)
+    const pane = new Pane(motion)
+    const notes: string[] = []
+    let room: WebGLRenderTarget | undefined
+    const surroundings = (): Texture => (room ??= roomFor(renderer)).texture
+    if (motion.character) {
+      try {
+        pane.wear((await CharacterModel.load(await api.character(motion.character))).body(motion.store.skeleton), surroundings)
+      } catch (fault) {
+        console.warn(fault)
+        notes.push(`The surfaces of ${motion.character} could not be had: a drawn body stands in`)
+      }
+    }
+    return new Drawing(renderer, pane, motion, request, notes)
+  }
+
+  /** Draws a moment, in seconds from the motion's first frame. Throws where the browser has given the picture up. */
+  draw(seconds: number): void {
+    const { renderer, pane, context, canvas, caption } = this
+    if (renderer.getContext().isContextLost()) throw new Error('the browser gave the picture up: its graphics stopped')
+    pane.update(seconds)
+    const part = canvas.width / this.sights.length
+    this.sights.forEach((sight, k) => {
+      renderer.setViewport(k * part, 0, part, canvas.height)
+      renderer.setScissor(k * part, 0, part, canvas.height)
+      // The second picture of a moment has the shadows of the first.
+      renderer.shadowMap.autoUpdate = k === 0
+      renderer.render(pane.scene, sight.at(seconds))
+    })
+    context.drawImage(this.ground, 0, 0)
+    context.drawImage(renderer.domElement, 0, 0)
+    for (let k = 1; k < this.sights.length; ++k) context.fillRect(Math.round(k * part) - 1, 0, 2, canvas.height)
+    if (caption) context.drawImage(caption.picture, 0, canvas.height - caption.height)
+  }
+}
+
+/** The plain ground behind the signer, lightest behind the head, as in the viewer when it is dark. */
+function groundOf(width: number, height: number): OffscreenCanvas {
+  const ground = new OffscreenCanvas(width, height)
+  const context = ground.getContext('2d')!
+  const light = context.createRadialGradient(0, 0, 0, 0, 0, 1)
+  light.addColorStop(0, '#414c57')
+  light.addColorStop(1, '#232a31')
+  context.fillStyle = light
+  context.translate(0.5 * width, 0.35 * height)
+  context.scale(Math.SQRT2 * 0.5 * width, Math.SQRT2 * 0.65 * height)
+  context.fillRect(-2, -2, 4, 4)
+  return ground
+}

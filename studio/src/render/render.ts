@@ -10,6 +10,7 @@ import type { RenderRequest } from './request'
 export async function render(request: RenderRequest, delivery: Delivery): Promise<void> {
   const { width, height, rate, kind, at_ms } = request
   const api = new Api()
+  delivery.progress(0, 0) // a sign of life: what comes first takes longest
   const motion = await gather(api, request)
   const { store } = motion
   const { seconds, lasts } = at_ms ? chosenMoments(store.length, store.rate, at_ms) : everyMoment(store.length, store.rate, rate)

@@ -1,14 +1,14 @@
-// Makes Scenario 1 as a film and as pictures, and tells how fast: render_film.mjs SITE OUT_FOLDER API_ADDRESS [CHARACTER] [VIEW].
-// API_ADDRESS is a running `signweave serve` of a database `demo`. Look at the pictures at full size.
+// Makes Scenario 1 as a film and as pictures, and tells how fast: render_film.mjs ADDRESS OUT_FOLDER
+// [CHARACTER] [VIEW] [film|pictures]. ADDRESS is a running `signweave serve DEMO.db --files SITE`. Look at the pictures at full size.
 import { mkdirSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { withBrowser } from './chromium.mjs'
 import { kScenario1, withRenderer } from './render_page.mjs'
 
-const [site, out, api, character = '', view = 'front', only = ''] = process.argv.slice(2)
+const [address, out, character = '', view = 'front', only = ''] = process.argv.slice(2)
 mkdirSync(out, { recursive: true })
 const label = `${character || 'drawn'}_${view}`
-await withRenderer(site, api, async ({ run }) => withBrowser(async (context) => {
+await withRenderer(address, async ({ run }) => withBrowser(async (context) => {
   const page = await context.newPage()
   page.on('console', (message) => console.log(`  page: ${message.text()}`))
   const tell = ({ fault, done, seconds }) => console.log(fault ? `fault: ${fault}` : `${label}: ${JSON.stringify(done)} in ${seconds.toFixed(1)} s: ${(done.frames / seconds).toFixed(1)} pictures a second`)

@@ -1,8 +1,4 @@
-import { createReadStream, existsSync } from 'node:fs'
 import { createServer, request as forward } from 'node:http'
-import { extname, join, normalize } from 'node:path'
-
-const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml' }
 
 async function bodyOf(request) {
   const parts = []
@@ -11,12 +7,14 @@ async function bodyOf(request) {
 }
 
 /**
- * Runs `work(renderer)` with what `signweave render` is for a page: a server of the built site that passes calls on to `api` (the
- * address of a real one) and takes what the page puts. `renderer.run(page, request)` resolves with what was put.
+ * Runs `work(renderer)` with what `signweave render` is for a page: a server that takes what the page puts, and for everything else
+ * hands on what a real one at `real` answers, which serves the built site and the calls. `renderer.run(page, request)` resolves with
+ * what was put; paths that `renderer.lost` matches are not found.
  */
-export async function withRenderer(site, api, work) {
+export async function withRenderer(real, work) {
   const runs = new Map()
   let count = 0
+  const renderer = { run, lost: undefined }
   const server = createServer(async (request, response) => {
     const { pathname } = new URL(request.url, 'http://localhost')
     const [, id, name] = /^\/api\/renders\/([^/]+)\/([^/]+)$/.exec(pathname) ?? []
@@ -25,19 +23,14 @@ export async function withRenderer(site, api, work) {
       const status = runs.get(id)?.(request.method, name, body) ?? 404
       return response.writeHead(status, { 'content-type': 'application/json' }).end(status === 200 ? '{}' : '{"error":{"code":"io","message":"the disk is full"}}')
     }
-    if (pathname.startsWith('/api/')) {
-      const { origin, ...headers } = request.headers // the real server is asked as by its own pages
-      const to = forward(api + request.url, { method: request.method, headers: { ...headers, host: new URL(api).host } }, (answer) => {
-        response.writeHead(answer.statusCode, answer.headers)
-        answer.pipe(response)
-      })
-      to.on('error', () => response.destroy())
-      return request.pipe(to)
-    }
-    const file = join(site, normalize(pathname))
-    if (!existsSync(file)) return response.writeHead(404).end()
-    response.writeHead(200, { 'content-type': kTypes[extname(file)] ?? 'application/octet-stream' })
-    createReadStream(file).pipe(response)
+    if (renderer.lost?.test(pathname)) return response.writeHead(404).end()
+    const { origin, ...headers } = request.headers // the real server is asked as by its own pages
+    const to = forward(real + request.url, { method: request.method, headers: { ...headers, host: new URL(real).host } }, (answer) => {
+      response.writeHead(answer.statusCode, answer.headers)
+      answer.pipe(response)
+    })
+    to.on('error', () => response.destroy())
+    request.pipe(to)
   })
   await new Promise((ready) => server.listen(0, '127.0.0.1', ready))
   const address = `http://127.0.0.1:${server.address().port}`
@@ -75,7 +68,7 @@ export async function withRenderer(site, api, work) {
     return put
   }
   try {
-    return await work({ run, address })
+    return await work(renderer)
   } finally {
     server.closeAllConnections()
     server.close()

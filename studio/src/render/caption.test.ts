@@ -1,0 +1,17 @@
+import { expect, it } from 'vitest'
+import { captionOf, linesOf } from './caption'
+
+it('a caption has each thing once, and says where the face is neutral', () => {
+  expect(captionOf({ a: 'shapes', b: 'shapes' }, true)).toEqual(['shapes'])
+  expect(captionOf({ a: 'shapes' }, false, ['a drawn body'])).toEqual(['shapes', 'No face captured: the face is neutral', 'a drawn body'])
+  expect(captionOf({}, true)).toEqual([])
+})
+
+it('a caption that is too wide goes on in further lines, and loses no word', () => {
+  const measure = (text: string) => text.length
+  expect(linesOf(['one', 'two'], 20, measure)).toEqual(['one  ·  two'])
+  expect(linesOf(['one two', 'three'], 12, measure)).toEqual(['one two', 'three'])
+  expect(linesOf(['a long sentence of words'], 10, measure)).toEqual(['a long', 'sentence', 'of words'])
+  expect(linesOf(['unbreakable'], 4, measure)).toEqual(['unbreakable'])
+  expect(linesOf([], 4, measure)).toEqual([])
+})

@@ -58,12 +58,13 @@ AnnotationDocument cut_document(const AnnotationDocument& document, TimeSpan spa
 
 Outgoing Exported::outgoing() const {
   return {.motion = motion ? &*motion : nullptr,
-          .layout = info.layout,
+          .layout = character ? std::nullopt : info.layout,
           .document = document ? &*document : nullptr,
           .title = info.name,
           .signing_space = signing_space,
-          .rig = info.rig,
-          .declarations = info.declarations};
+          .rig = character ? RigNames{} : info.rig,
+          .declarations = info.declarations,
+          .character = character};
 }
 
 Exported run(const Database& database, const ExportCall& call, const std::vector<std::string>& outputs) {
@@ -98,6 +99,11 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
     }
   }
   return made;
+}
+
+void show_on(Exported& made, const SignerStance& stance, SharedCharacter character) {
+  if (made.motion) made.motion = on_character(*made.motion, stance, character->character, made.notices);
+  made.character = std::move(character);
 }
 
 nlohmann::json json_of(const Exported& exported) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/calls/characters.h"
 #include "app/calls/field.h"
 #include "app/calls/files.h"
 #include "app/calls/json.h"
@@ -18,6 +19,7 @@ struct ExportCall {
   std::optional<std::int64_t> to;
   std::string joints;
   bool signing_space = false;
+  std::string character;
 };
 
 template <class Visit>
@@ -28,6 +30,7 @@ void fields(Visit& visit, ExportCall& call) {
   visit(Field{.name = "to", .help = "annotation time in ms to end at"}, call.to);
   visit(Field{.name = "joints", .help = "joint names, separated by commas; the others are left at rest"}, call.joints);
   visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, call.signing_space);
+  visit(Field{.name = "character", .help = kCharacterHelp}, call.character);
 }
 
 /// What is to be written.
@@ -37,6 +40,8 @@ struct Exported {
   std::optional<Motion> motion;
   std::optional<AnnotationDocument> document;
   bool signing_space = false;
+  SharedCharacter character;  ///< whose joints the motion has; none: those of the recording
+  std::vector<Notice> notices;
 
   Outgoing outgoing() const;
 };
@@ -45,6 +50,9 @@ struct Exported {
 /// is cut where the frames are, so that both begin together. Throws Error{not_found} for a recording or joint that is
 /// not there (with near matches), Error{bad_input}.
 Exported run(const Database& database, const ExportCall& call, const std::vector<std::string>& outputs);
+
+/// Puts what is to be written on a character.
+void show_on(Exported& made, const SignerStance& stance, SharedCharacter character);
 
 /// Recording, and how many frames; the command line adds its files.
 nlohmann::json json_of(const Exported& exported);

@@ -13,6 +13,7 @@
 #include "signweave/formats/eaf.h"
 #include "signweave/formats/face_csv.h"
 #include "signweave/formats/gltf.h"
+#include "signweave/formats/gltf_character.h"
 #include "signweave/formats/positions_csv.h"
 #include "signweave/synthesis/provenance.h"
 
@@ -133,12 +134,20 @@ ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string&
   return options;
 }
 
-Outgoing outgoing(const Synthesized& made, const std::optional<bvh::Layout>& layout, const SheetWishes& sheet) {
+Outgoing outgoing(const Synthesized& made, const SynthesisLook& look) {
   return {.motion = &made.result.motion,
-          .layout = layout,
-          .title = sheet.title,
-          .rig = sheet.rig,
-          .declarations = made.result.declarations};
+          .layout = look.layout,
+          .title = look.sheet.title,
+          .rig = look.sheet.rig,
+          .declarations = made.result.declarations,
+          .character = look.character};
+}
+
+/// The character's own file with the motion in it.
+std::string character_glb(const Outgoing& recording) {
+  const std::filesystem::path& file = recording.character->plain;
+  return gltf::on_character(file.filename().string(), read_file(file), *recording.motion,
+                            {.name = recording.title, .declarations = recording.declarations});
 }
 
 /// Throws where what the ending asks for is not there.
@@ -150,6 +159,9 @@ void require_parts(std::string_view ending, const Outgoing& recording, const std
   if (recording.motion == nullptr) throw Error(ErrorCode::not_found, where + ": the recording has no motion to write");
   if (ending == kFace && recording.motion->tracks().empty()) {
     throw Error(ErrorCode::not_found, where + ": the motion has no scalar tracks to write");
+  }
+  if (ending == ".gltf" && recording.character) {
+    throw Error(ErrorCode::unsupported, where + ": a character is written as .glb, in one file with its pictures");
   }
 }
 
@@ -187,8 +199,8 @@ void check_signing_space(bool wanted, const std::vector<std::string>& paths) {
   throw Error(ErrorCode::bad_input, "--signing-space is drawn on contact sheets: add -o FILE.svg");
 }
 
-std::string synthesis_text(std::string_view ending, const Synthesized& made, const std::optional<bvh::Layout>& layout,
-                           const SheetWishes& sheet, const std::string& motion_file) {
+std::string synthesis_text(std::string_view ending, const Synthesized& made, const SynthesisLook& look,
+                           const std::string& motion_file) {
   const Synthesis& result = made.result;
   if (ending == ".eaf") return eaf::write_text(annotation_of(result, motion_file));
   if (ending == ".json") {
@@ -208,12 +220,12 @@ std::string synthesis_text(std::string_view ending, const Synthesized& made, con
     return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
   }
   if (ending == ".svg") {
-    ContactSheetOptions options = sheet_options(result, sheet.title);
-    options.signing_space = sheet.signing_space;
-    options.rig = map_rig(result.motion, sheet.rig);
+    ContactSheetOptions options = sheet_options(result, look.sheet.title);
+    options.signing_space = look.sheet.signing_space;
+    options.rig = map_rig(result.motion, look.sheet.rig);
     return contact_sheet(result.motion, options);
   }
-  return recording_text(ending, outgoing(made, layout, sheet), std::string(ending));
+  return recording_text(ending, outgoing(made, look), std::string(ending));
 }
 
 std::string recording_text(std::string_view ending, const Outgoing& recording, const std::string& where) {
@@ -221,6 +233,7 @@ std::string recording_text(std::string_view ending, const Outgoing& recording, c
   if (ending == ".eaf") return eaf::write_text(*recording.document);
   const Motion& motion = *recording.motion;
   if (ending == ".bvh") return bvh::write_text(motion, layout_for(recording.layout, motion.skeleton()));
+  if (ending == ".glb" && recording.character) return character_glb(recording);
   if (ending == ".glb" || ending == ".gltf") {
     return gltf::to_bytes(motion, gltf_options(recording),
                           ending == ".glb" ? gltf::Container::binary : gltf::Container::text);
@@ -244,8 +257,7 @@ std::string recording_text(std::string_view ending, const Outgoing& recording, c
   return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
 }
 
-void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made,
-                     const std::optional<bvh::Layout>& layout, const SheetWishes& sheet) {
+void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made, const SynthesisLook& look) {
   std::string motion_file;
   check_folders(paths);
   for (const std::string& path : paths) {
@@ -254,9 +266,9 @@ void write_synthesis(const std::vector<std::string>& paths, const Synthesized& m
   for (const std::string& path : paths) {
     const std::string ending = ending_of(path);
     if (ending == ".eaf" || ending == ".json" || ending == ".svg") {
-      write_text(path, synthesis_text(ending, made, layout, sheet, motion_file));
+      write_text(path, synthesis_text(ending, made, look, motion_file));
     } else {
-      write_recording(path, outgoing(made, layout, sheet));
+      write_recording(path, outgoing(made, look));
     }
   }
 }
@@ -267,6 +279,8 @@ void write_recording(const std::string& path, const Outgoing& recording) {
   // The long ones go to the file piece by piece.
   if (ending == ".bvh") {
     bvh::write(path, *recording.motion, layout_for(recording.layout, recording.motion->skeleton()));
+  } else if (ending == ".glb" && recording.character) {
+    write_text(path, character_glb(recording));
   } else if (ending == ".glb" || ending == ".gltf") {
     gltf::write(path, *recording.motion, gltf_options(recording));
   } else if (ending == ".csv") {

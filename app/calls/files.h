@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/calls/characters.h"
 #include "signweave/annotation/document.h"
 #include "signweave/formats/bvh.h"
 #include "signweave/motion/motion.h"
@@ -35,14 +36,20 @@ struct SheetWishes {
   RigNames rig;  ///< what a mapping file said of the skeleton
 };
 
+/// How a synthesis is written.
+struct SynthesisLook {
+  std::optional<bvh::Layout> layout;  ///< for .bvh
+  SheetWishes sheet;                  ///< for .svg
+  SharedCharacter character;          ///< whose joints it has; for .glb
+};
+
 /// Writes a synthesis to each path, by its ending. An annotation written beside a motion links it.
-void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made,
-                     const std::optional<bvh::Layout>& layout, const SheetWishes& sheet);
+void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made, const SynthesisLook& look);
 
 /// The same as text or bytes, of one ending. `motion_file`: the name of the motion's own file, which an annotation
 /// links; empty for none.
-std::string synthesis_text(std::string_view ending, const Synthesized& made, const std::optional<bvh::Layout>& layout,
-                           const SheetWishes& sheet, const std::string& motion_file);
+std::string synthesis_text(std::string_view ending, const Synthesized& made, const SynthesisLook& look,
+                           const std::string& motion_file);
 
 /// What there is of a recording to write. Borrowed.
 struct Outgoing {
@@ -53,6 +60,7 @@ struct Outgoing {
   bool signing_space = false;                                     ///< for .svg
   RigNames rig;                                                   ///< what a mapping file said of the skeleton
   std::vector<std::pair<std::string, std::string>> declarations;  ///< what its sources say of themselves
+  SharedCharacter character{};                                    ///< whose joints the motion has; for .glb
 };
 
 /// Writes a motion or, to .eaf, an annotation document. Throws Error{not_found} where what the ending asks for is not

@@ -111,8 +111,8 @@ TEST(SchemaOfCall, TellsTypesBoundsAndDefaults) {
   EXPECT_EQ(sign.properties["tempo"]["type"], "number");
   EXPECT_EQ(sign.properties["tempo"]["maximum"], 4.0);
   EXPECT_EQ(sign.properties["tempo"]["default"], 1.0);
-  EXPECT_EQ(sign.properties["duration"]["type"], (json{"string", "number"}));
-  EXPECT_EQ(sign.properties["align"]["enum"], (json{"auto", "ground", "none"}));
+  EXPECT_EQ(sign.properties["duration"]["type"], (nlohmann::ordered_json{"string", "number"}));
+  EXPECT_EQ(sign.properties["align"]["enum"], (nlohmann::ordered_json{"auto", "ground", "none"}));
   EXPECT_EQ(schema_of_call<ImportCall>().properties["sign_tier"]["items"]["type"], "string");
 }
 

@@ -111,9 +111,20 @@ json report_of(const Synthesized& made, const SynthesisChoices& choices) {
   return report;
 }
 
-SynthesisLook look_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title) {
+const RecordingInfo& signer_of(const Synthesized& made) {
+  return made.contents->at(made.layout_from);
+}
+
+void show_on(Synthesized& made, const SignerStance& stance, const CharacterFile& character) {
+  made.result.motion = on_character(made.result.motion, stance, character.character, made.result.notices);
+}
+
+SynthesisLook look_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
+                      SharedCharacter character) {
   SynthesisLook look;
   look.sheet = {.title = title, .signing_space = choices.signing_space, .rig = {}};
+  look.character = std::move(character);
+  if (look.character) return look;
   if (const RecordingInfo* source = made.contents->find(made.layout_from)) {
     look.layout = source->layout;
     look.sheet.rig = source->rig;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/calls/characters.h"
 #include "app/calls/field.h"
 #include "app/calls/files.h"
 #include "app/calls/json.h"
@@ -18,6 +19,7 @@ struct SynthesisChoices {
   std::string rate;
   std::string align = "auto";
   bool signing_space = false;
+  std::string character;
   bool explain = false;
 };
 
@@ -28,8 +30,9 @@ std::string transition_help();
 std::string check_duration(const std::string& text);
 std::string check_rate(const std::string& text);
 
+/// What says how the signing goes, but for its frame rate.
 template <class Visit>
-void fields(Visit& visit, SynthesisChoices& choices) {
+void signing_fields(Visit& visit, SynthesisChoices& choices) {
   visit(Field{.name = "transition", .help = transition_help(), .shows_default = true, .one_of = transition_names()},
         choices.transition);
   visit(Field{.name = "duration",
@@ -42,17 +45,23 @@ void fields(Visit& visit, SynthesisChoices& choices) {
   visit(
       Field{.name = "tempo", .help = "0.25 to 4; above 1 is faster", .shows_default = true, .range = Range{0.25, 4.0}},
       choices.tempo);
-  visit(Field{.name = "rate",
-              .help = "frames a second of the result; the highest of its sources where not given",
-              .or_number = true,
-              .check = check_rate},
-        choices.rate);
   visit(Field{.name = "align",
               .help = "bring signers to one place: auto (other recordings than the first or the edited one), ground "
                       "(all), none",
               .shows_default = true,
               .one_of = {"auto", "ground", "none"}},
         choices.align);
+  visit(Field{.name = "character", .help = kCharacterHelp}, choices.character);
+}
+
+template <class Visit>
+void fields(Visit& visit, SynthesisChoices& choices) {
+  signing_fields(visit, choices);
+  visit(Field{.name = "rate",
+              .help = "frames a second of the result; the highest of its sources where not given",
+              .or_number = true,
+              .check = check_rate},
+        choices.rate);
   visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, choices.signing_space);
   visit(Field{.name = "explain", .help = "show candidates, costs and junctions"}, choices.explain);
 }
@@ -109,11 +118,14 @@ std::string title_of(const EditCall& call);
 /// choose from.
 nlohmann::json report_of(const Synthesized& made, const SynthesisChoices& choices);
 
+/// The recording whose signer the result has, for stance_of.
+const RecordingInfo& signer_of(const Synthesized& made);
+/// Puts the result on a character.
+void show_on(Synthesized& made, const SignerStance& stance, const CharacterFile& character);
+
 /// How the result is written: the layout of its source's file without that file's oddities, and what heads a sheet.
-struct SynthesisLook {
-  std::optional<bvh::Layout> layout;
-  SheetWishes sheet;
-};
-SynthesisLook look_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title);
+/// `character`: whose joints it has; none: those of its source.
+SynthesisLook look_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
+                      SharedCharacter character);
 
 }  // namespace signweave::calls

@@ -79,6 +79,7 @@ Run segment(CLI::App& verb);
 Run stats(CLI::App& verb);
 Run evaluate(CLI::App& verb);
 Run serve(CLI::App& verb);
+Run render(CLI::App& verb);
 Run formats(CLI::App& verb);
 
 }  // namespace signweave::cli

@@ -30,8 +30,10 @@ Run edit(CLI::App& verb) {
     const Database database(options->folder, kv::Access::read_only);
     report_damage(database, io);
     check_signing_space(call.how.signing_space, options->delivery.outputs);
-    const Synthesized made = calls::run(database, call);
-    deliver(made, call.how, options->delivery, title_of(call), io);
+    const calls::SharedCharacter character = character_of(call.how.character);
+    Synthesized made = calls::run(database, call);
+    if (character) show_on(made, stance_of(database, signer_of(made)), *character);
+    deliver(made, call.how, options->delivery, title_of(call), character, io);
   };
 }
 

@@ -5,6 +5,7 @@
 #include "app/calls/export_call.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
+#include "app/cli/delivery.h"
 
 namespace signweave::cli {
 
@@ -23,7 +24,10 @@ Run export_recording(CLI::App& verb) {
     check_signing_space(options->call.signing_space, options->outputs);
     const Database database(options->folder, kv::Access::read_only);
     report_damage(database, io);
-    const calls::Exported made = calls::run(database, options->call, options->outputs);
+    const calls::SharedCharacter character = character_of(options->call.character);
+    calls::Exported made = calls::run(database, options->call, options->outputs);
+    if (character) show_on(made, stance_of(database, made.info), character);
+    print_notices(io, made.notices);
     for (const std::string& path : options->outputs) write_recording(path, made.outgoing());
     for (const auto& [name, value] : made.info.declarations) io.err << "signweave: " << value << '\n';
     if (io.json) {

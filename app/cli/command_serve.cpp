@@ -25,6 +25,8 @@ struct ServeArguments {
   std::string listen = "127.0.0.1:8080";
   bool writable = false;
   std::string token_file;
+  std::string characters;
+  std::string media;
   server::ServerOptions server;
 };
 
@@ -105,9 +107,19 @@ void run_serve(const ServeArguments& given, Io& io) {
   if (!options.files.empty() && !std::filesystem::is_directory(options.files)) {
     throw Error(ErrorCode::not_found, fmt::format("{}: no folder", options.files.string()));
   }
+  if (!given.media.empty() && !std::filesystem::is_directory(given.media)) {
+    throw Error(ErrorCode::not_found, fmt::format("{}: no folder", given.media));
+  }
   (void)server::Access(options);  // before databases are opened, which may take a while
 
   server::ServedDatabases databases;
+  if (!given.characters.empty()) {
+    databases.characters = calls::Characters(given.characters);
+  } else if (const auto beside = options.files / "characters";
+             !options.files.empty() && std::filesystem::is_directory(beside)) {
+    databases.characters = calls::Characters(beside);
+  }
+  databases.media = given.media;
   for (const std::string& folder : given.folders) databases.add(folder, given.writable);
   for (const auto& one : databases.all()) {
     report_damage(one->database(), io);
@@ -140,6 +152,11 @@ Run serve(CLI::App& verb) {
       ->capture_default_str();
   verb.add_flag("--writable", options->writable, "let imports and removals change the databases");
   verb.add_option("--files", server.files, "serve the files of this folder beside the calls");
+  verb.add_option(
+      "--characters", options->characters,
+      "folder of the characters (.glb) that motions may be shown on; 'characters' of the served files where "
+      "not given");
+  verb.add_option("--media", options->media, "folder of the videos that annotations link");
   verb.add_option(
       "--token-file", options->token_file,
       "the token that clients must send, as 'Authorization: Bearer TOKEN'; SIGNWEAVE_TOKEN where not given");

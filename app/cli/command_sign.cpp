@@ -25,8 +25,10 @@ Run sign(CLI::App& verb) {
     const Database database(options->folder, kv::Access::read_only);
     report_damage(database, io);
     check_signing_space(options->call.how.signing_space, options->delivery.outputs);
-    const Synthesized made = calls::run(database, options->call);
-    deliver(made, options->call.how, options->delivery, title, io);
+    const calls::SharedCharacter character = character_of(options->call.how.character);
+    Synthesized made = calls::run(database, options->call);
+    if (character) show_on(made, stance_of(database, signer_of(made)), *character);
+    deliver(made, options->call.how, options->delivery, title, character, io);
   };
 }
 

@@ -68,14 +68,17 @@ void add_outputs(CLI::App& verb, std::vector<std::string>& outputs) {
       ->check([](const std::string& path) { return check_output(path); });
 }
 
+calls::SharedCharacter character_of(const std::string& file) {
+  return file.empty() ? nullptr : calls::read_character_file(file);
+}
+
 void add_timings(CLI::App& verb, Delivery& delivery) {
   verb.add_flag("--timings", delivery.timings, "show how long each step took");
 }
 
 void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, const Delivery& delivery,
-             const std::string& title, Io& io) {
-  const calls::SynthesisLook look = look_of(made, choices, title);
-  write_synthesis(delivery.outputs, made, look.layout, look.sheet);
+             const std::string& title, calls::SharedCharacter character, Io& io) {
+  write_synthesis(delivery.outputs, made, look_of(made, choices, title, std::move(character)));
   print_notices(io, made.result.notices);
   for (const auto& [name, value] : made.result.declarations) io.err << "signweave: " << value << '\n';
   const Synthesis& result = made.result;

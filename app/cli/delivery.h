@@ -18,6 +18,8 @@ void add_timings(CLI::App& verb, Delivery& delivery);
 
 /// Writes the files that were asked for, and what was asked to be told. `title` heads a contact sheet.
 void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, const Delivery& delivery,
-             const std::string& title, Io& io);
+             const std::string& title, calls::SharedCharacter character, Io& io);
+/// The character of a choice; null where none was asked for.
+calls::SharedCharacter character_of(const std::string& file);
 
 }  // namespace signweave::cli

@@ -37,6 +37,8 @@ constexpr Command kCommands[] = {
     {"evaluate", "cut captured movements out, make them again by each method, compare",
      "signweave evaluate recordings/ --plot errors.svg", evaluate},
     {"serve", "answer over HTTP, and stream signing live", "signweave serve corpus.db --listen 127.0.0.1:8080", serve},
+    {"render", "draw signing as a film or as pictures",
+     "signweave render corpus.db 'VANNES MATIN PLUIE' -o film.webm --studio site", render},
     {"formats", "the file formats, and what each can hold", "signweave formats", formats},
 };
 

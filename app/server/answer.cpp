@@ -20,6 +20,7 @@ constexpr FileFormat kFormats[] = {
     {"csv", ".csv", "text/csv; charset=utf-8"},
     {"face.csv", ".face.csv", "text/csv; charset=utf-8"},
     {"svg", ".svg", "image/svg+xml"},
+    {"frames", ".frames", "application/vnd.signweave.frames"},
 };
 
 /// One line, its options named as the API's fields are: "--replace-motion" is "replace_motion".

@@ -55,6 +55,18 @@ constexpr const char* kDatabaseAnswers = R"json({
       "defects": {"type": "array", "items": {"type": "object", "required": ["kind", "joint", "value", "text"],
         "properties": {"kind": {"type": "string"}, "joint": {"type": ["string", "null"]}, "value": {"type": "number"},
           "text": {"type": "string"}, "first_frame": {"type": "integer"}, "end_frame": {"type": "integer"}}}}}},
+  "Characters": {"type": "object", "required": ["characters"], "properties": {"characters": {"type": "array",
+    "items": {"type": "object", "required": ["name", "file", "height", "face_units"], "properties": {
+      "name": {"type": "string"}, "file": {"type": "string"},
+      "height": {"type": "number", "description": "metres"},
+      "face_units": {"type": "array", "items": {"type": "string"}}}}}}},
+  "Media": {"type": "object", "required": ["media"], "properties": {"media": {"type": "array",
+    "items": {"type": "object", "required": ["file", "mime", "origin_ms", "url"], "properties": {
+      "file": {"type": "string"}, "mime": {"type": "string"},
+      "origin_ms": {"type": "integer", "description": "time of the medium at annotation time 0"},
+      "url": {"type": ["string", "null"], "description": "null where the server has not got it"}}}}}},
+  "RenderedFile": {"type": "object", "required": ["file", "bytes"], "properties": {
+    "file": {"type": "string"}, "bytes": {"type": "integer"}}},
   "Check": {"type": "object", "required": ["recordings", "faults"], "properties": {
     "recordings": {"type": "integer"}, "faults": {"type": "array", "items": {"type": "string"}}}},
   "FileFormats": {"type": "array", "items": {"type": "object",

@@ -153,9 +153,7 @@ std::optional<ApiResponse> Api::refusal(const ApiRequest& request) {
     const Route& route = route_of(request, allowed);
     const Call call{.state = *state_, .request = request, .route = route, .names = *match(route, request.path)};
     check_request(call);
-    if (route.takes_file) {
-      state_->uploads.require_open(call.database().name(), call.names.at("upload"), call.names.at("file"));
-    }
+    if (route.require != nullptr) route.require(call);
     wanted = true;
     return ApiResponse{};
   });

@@ -29,6 +29,7 @@ struct ApiResponse {
   std::string content_type = "application/json";
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
+  std::filesystem::path file{};  ///< where it is given, the body is this file, or the part of it that was asked for
 };
 
 struct ApiLimits {

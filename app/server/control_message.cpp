@@ -108,6 +108,8 @@ constexpr Field kFields[] = {
      [](ControlMessage& m, const std::string& n, const Json& v) { m.open.player.loop = truth_of(n, v); }},
     {Control::open, "recording", false,
      [](ControlMessage& m, const std::string& n, const Json& v) { m.open.player.recording = text_of(n, v); }},
+    {Control::open, "character", false,
+     [](ControlMessage& m, const std::string& n, const Json& v) { m.open.character = text_of(n, v); }},
     {Control::open, "transition", false,
      [](ControlMessage& m, const std::string& n, const Json& v) { m.open.player.synthesis.method = method_of(n, v); }},
     {Control::open, "duration", false,

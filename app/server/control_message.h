@@ -21,6 +21,7 @@ struct StreamOptions {
   PlayerOptions player;
   std::size_t batch = 1;  ///< frames of a message at most, 1 to 600
   Pace pace = Pace::live;
+  std::string character;  ///< whose joints the frames have; empty: the recording's
 };
 
 enum class Control { open, sign, append, pause, resume, seek, tempo, loop, stop, ping };

@@ -33,7 +33,10 @@ FrameSender::FrameSender(IoThread& thread, ServedDatabase& database, StreamSocke
       database_(database.name()),
       pace_(options.pace),
       batch_(options.batch),
-      player_(database.signing(), options.player) {}
+      player_(database.signing(), options.player),
+      served_(database) {
+  if (!options.character.empty()) character_ = thread.context.databases.characters.at(options.character);
+}
 
 FrameSender::~FrameSender() {
   thread_.pacer.forget(*this);
@@ -212,7 +215,10 @@ std::size_t FrameSender::take(std::size_t most, bool keep, std::size_t after) no
       return taken;
     }
     if (ready_ > 0) --ready_;
-    if (keep) encode(frame, {to + taken * frame_bytes_, frame_bytes_});
+    if (!keep) continue;
+    if (retargeter_) retargeter_->pose(frame.pose, shown_.view());
+    const FrameView sent{retargeter_ ? shown_.view() : pose_.view(), tracks_};
+    encode(sent, {to + taken * frame_bytes_, frame_bytes_});
   }
   return most;
 }
@@ -257,8 +263,22 @@ void FrameSender::prepare(std::size_t frames) {
 void FrameSender::announce() {
   const StreamHeader* header = player_.header();
   if (announced_ || header == nullptr) return;
+  StreamHeader told = *header;
+  if (character_) {
+    std::shared_ptr<const calls::SignerStance> stance;
+    try {
+      stance = served_.stance(served_.database().contents(), header->layout_from);
+    } catch (const Error& error) {  // its motion is damaged, or was removed
+      out_.send_text(error_text(error.code(), error.what(), {}));
+      return stop();
+    }
+    retargeter_.emplace(*header->skeleton, stance->signer, character_->character,
+                        RetargetOptions{.ground = stance->ground, .face_joints = header->tracks.empty()});
+    told.skeleton = character_->character.skeleton;
+    shown_ = Pose(*told.skeleton);
+  }
   announced_ = true;
-  shape_ = header->shape();
+  shape_ = told.shape();
   frame_bytes_ = bytes_of(shape_);
   rate_ = header->rate;
   batch_ = batch_of(batch_, frame_bytes_, thread_.context.options.limits.message_bytes);
@@ -267,7 +287,10 @@ void FrameSender::announce() {
   tracks_.resize(shape_.tracks);
   const auto half_second = static_cast<std::size_t>(rate_.hertz() / 2);
   ahead_ = std::clamp<std::size_t>(std::max(half_second, 2 * batch_), 64, Player::kMostReady);
-  out_.send_text(header_text(*header, database_, pace_, batch_));
+  out_.send_text(header_text(told, {.database = database_,
+                                    .character = character_ ? character_->name : std::string_view(),
+                                    .pace = pace_,
+                                    .batch = batch_}));
 }
 
 void FrameSender::tell_events() {

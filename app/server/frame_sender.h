@@ -11,6 +11,7 @@
 #include "app/server/control_message.h"
 #include "app/server/served_database.h"
 #include "app/server/stream_socket.h"
+#include "signweave/retarget/retarget.h"
 #include "signweave/stream/frame_codec.h"
 #include "signweave/stream/player.h"
 
@@ -60,8 +61,12 @@ class FrameSender final : public Paced {
   bool stopped_ = false;
   FrameShape shape_;
   std::size_t frame_bytes_ = 0;
-  std::vector<std::byte> message_;  // room for a WebSocket header, the message's header, the frames
-  Pose pose_;                       // the frame that was taken
+  ServedDatabase& served_;
+  calls::SharedCharacter character_;      // whose joints the frames have; null: the recording's
+  std::optional<Retargeter> retargeter_;  // onto it
+  Pose shown_;                            // the frame on the character
+  std::vector<std::byte> message_;        // room for a WebSocket header, the message's header, the frames
+  Pose pose_;                             // the frame that was taken
   std::vector<float> tracks_;
 
   // Frame `since_` after `start_` is due at start_ + since_ / rate.

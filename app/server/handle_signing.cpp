@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include "app/calls/export_call.h"
+#include "app/calls/rig_json.h"
 #include "app/calls/synthesis_call.h"
+#include "app/server/frames_answer.h"
 #include "app/server/routes.h"
 #include "signweave/core/text.h"
 
@@ -10,7 +12,7 @@ namespace signweave::server {
 namespace {
 
 std::vector<std::string> motion_formats() {
-  return {"bvh", "glb", "gltf", "json", "csv", "face.csv", "svg"};
+  return {"bvh", "glb", "gltf", "json", "csv", "face.csv", "svg", "frames"};
 }
 std::vector<std::string> synthesis_formats() {
   std::vector<std::string> names = motion_formats();
@@ -18,7 +20,8 @@ std::vector<std::string> synthesis_formats() {
   return names;
 }
 constexpr const char* kSynthesisHelp =
-    "the file itself instead of the report: json with every pose, eaf with the annotation, svg as a contact sheet";
+    "the file itself instead of the report: json with every pose, eaf with the annotation, svg as a contact sheet, "
+    "frames with every pose in the bytes of a stream";
 
 }  // namespace
 
@@ -67,19 +70,46 @@ void require_sheet(bool signing_space, const std::string& format) {
   throw Error(ErrorCode::bad_input, "signing_space: is drawn on contact sheets: ask for format svg");
 }
 
-ApiResponse deliver(Call& call, const Synthesized& made, const calls::SynthesisChoices& how, const std::string& title,
+/// Null where none is wanted.
+calls::SharedCharacter wanted_character(const Call& call, const std::string& name) {
+  return name.empty() ? nullptr : call.state.databases.characters.at(name);
+}
+
+nlohmann::ordered_json rig_json(const Motion& motion, const RigNames& names, const calls::CharacterFile* character) {
+  return calls::json_of_rig(motion.skeleton(),
+                            character != nullptr ? character->character.rig : map_rig(motion, names));
+}
+
+ApiResponse deliver(Call& call, Synthesized made, const calls::SynthesisChoices& how, const std::string& title,
                     const std::string& format) {
+  const calls::SharedCharacter character = wanted_character(call, how.character);
+  if (character) {
+    const RecordingInfo& signer = calls::signer_of(made);
+    show_on(made, *call.database().stance(made.contents, signer.name), *character);
+  }
   call.declare(made.result.declarations);
   call.notices.insert(call.notices.end(), made.result.notices.begin(), made.result.notices.end());
-  if (format.empty()) {
+  const auto report_json = [&] {
     nlohmann::json report = calls::report_of(made, how);
     report["declarations"] = call.declarations;
     report["notices"] = calls::json_of(call.notices);
-    return json_answer(report);
-  }
+    return report;
+  };
+  if (format.empty()) return json_answer(report_json());
   const FileFormat& file = file_format(format);
-  const calls::SynthesisLook look = calls::look_of(made, how, title);
-  return file_answer(file, "signing", calls::synthesis_text(file.ending, made, look.layout, look.sheet, ""));
+  if (format == "frames") {
+    return file_answer(file, "signing",
+                       frames_text(made.result.motion,
+                                   {.database = call.database().name(),
+                                    .recording = made.layout_from,
+                                    .declarations = made.result.declarations,
+                                    .character = how.character,
+                                    .rig = rig_json(made.result.motion, calls::signer_of(made).rig, character.get()),
+                                    .report = report_json()}));
+  }
+  return file_answer(
+      file, "signing",
+      calls::synthesis_text(file.ending, made, calls::look_of(made, how, title, character), std::string()));
 }
 
 }  // namespace
@@ -129,9 +159,22 @@ ApiResponse export_motion(Call& call) {
   if (format.empty()) format = "bvh";
   require_sheet(parameters.signing_space, format);
   const FileFormat& file = file_format(format);
-  const calls::Exported made =
-      calls::run(call.database().database(), parameters, {parameters.recording + std::string(file.ending)});
+  const calls::SharedCharacter character = wanted_character(call, parameters.character);
+  const Database& database = call.database().database();
+  calls::Exported made = calls::run(database, parameters, {parameters.recording + std::string(file.ending)});
+  if (character) show_on(made, *call.database().stance(database.contents(), made.info.name), character);
   call.declare(made.info.declarations);
+  call.notices.insert(call.notices.end(), made.notices.begin(), made.notices.end());
+  if (format == "frames") {
+    const double origin = 1e3 * made.info.clock.time_of(made.frames.begin).count();
+    return file_answer(file, made.info.name,
+                       frames_text(*made.motion, {.database = call.database().name(),
+                                                  .recording = made.info.name,
+                                                  .declarations = made.info.declarations,
+                                                  .character = parameters.character,
+                                                  .origin_ms = origin,
+                                                  .rig = rig_json(*made.motion, made.info.rig, character.get())}));
+  }
   return file_answer(file, made.info.name, calls::recording_text(file.ending, made.outgoing(), made.info.name));
 }
 

@@ -93,6 +93,10 @@ ApiResponse discard_upload(Call& call) {
   return json_answer(json{{"discarded", call.names.at("upload")}});
 }
 
+void require_upload(const Call& call) {
+  call.state.uploads.require_open(call.database().name(), call.names.at("upload"), call.names.at("file"));
+}
+
 ApiResponse put_file(Call& call) {
   return json_answer(call.state.uploads.put(call.database().name(), call.names.at("upload"), call.names.at("file"),
                                             call.request.body_file, call.request.body));

@@ -322,6 +322,12 @@ void HttpSession::call() {
 
 void HttpSession::answered(ApiResponse answer) {
   release();  // the body went with the call
+  if (!answer.file.empty()) {
+    std::optional<StaticFile> file = open_plain(answer.file);
+    if (!file) return reply(error_reply(404, "not_found", "the file is not there any more"));
+    file->content_type = std::move(answer.content_type);
+    return send_file(*std::move(file), std::move(answer.headers));
+  }
   if (answer.body.size() > kChunk && !hold(answer.body.size())) {
     thread_.metrics.refused.add();
     return reply(no_room());

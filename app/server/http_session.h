@@ -50,6 +50,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   bool hold(std::uint64_t bytes);
   void release();
   void serve_file();
+  void send_file(StaticFile file, std::vector<std::pair<std::string, std::string>> headers);
   void upgrade();
   void reply(Reply reply);
   void send_head();
@@ -82,8 +83,9 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
 
   Reply reply_;
   std::string head_;
-  int file_ = -1;           // the answer's body, where it is a file
-  std::uint64_t sent_ = 0;  // of the answer's body
+  int file_ = -1;             // the answer's body, where it is a file
+  std::uint64_t begins_ = 0;  // where in the file the answer's body does
+  std::uint64_t sent_ = 0;    // of the answer's body
   std::uint64_t length_ = 0;
   std::size_t lingered_ = 0;
 };

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
@@ -23,23 +24,49 @@ void HttpSession::serve_file() {
   const Context& context = thread_.context;
   std::optional<StaticFile> file = open_static(context.options.files, decision_.target.path);
   if (!file) return reply(error_reply(404, "not_found", "there is no such page"));
+  send_file(*std::move(file), {});
+}
+
+void HttpSession::send_file(StaticFile file, std::vector<std::pair<std::string, std::string>> headers) {
   const auto& request = parser_->get();
   const auto field = [&](http::field name) {
     const auto text = request[name];
     return std::string_view(text.data(), text.size());
   };
   const std::string_view known = field(http::field::if_none_match);
-  const bool unchanged = known.empty() ? field(http::field::if_modified_since) == file->last_modified
-                                       : known == "*" || known.find(file->etag) != std::string_view::npos;
-  Reply answer{.status = unchanged ? 304 : 200,
-               .content_type = unchanged ? "" : file->content_type,
-               .headers = {{"ETag", file->etag}, {"Last-Modified", file->last_modified}, {"Cache-Control", "no-cache"}},
+  const bool unchanged = known.empty() ? field(http::field::if_modified_since) == file.last_modified
+                                       : known == "*" || known.find(file.etag) != std::string_view::npos;
+  const std::string_view still = field(http::field::if_range);
+  std::optional<ByteRange> range;
+  if (!unchanged && (still.empty() || still == file.etag || still == file.last_modified)) {
+    range = range_of(field(http::field::range), file.size);
+  }
+  headers.insert(headers.end(), {{"ETag", file.etag},
+                                 {"Last-Modified", file.last_modified},
+                                 {"Cache-Control", "no-cache"},
+                                 {"Accept-Ranges", "bytes"}});
+  if (range && range->end == 0) {
+    ::close(file.descriptor);
+    Reply refusal = error_reply(416, "bad_input", "the Range lies outside of the file");
+    refusal.headers.emplace_back("Content-Range", fmt::format("bytes */{}", file.size));
+    return reply(std::move(refusal));
+  }
+  Reply answer{.status = unchanged ? 304
+                         : range   ? 206
+                                   : 200,
+               .content_type = unchanged ? "" : file.content_type,
+               .headers = std::move(headers),
                .body = ""};
   if (unchanged) {
-    ::close(file->descriptor);
+    ::close(file.descriptor);
   } else {
-    file_ = file->descriptor;
-    length_ = file->size;
+    file_ = file.descriptor;
+    begins_ = range ? range->begin : 0;
+    length_ = range ? range->end - range->begin : file.size;
+    if (range) {
+      answer.headers.emplace_back("Content-Range",
+                                  fmt::format("bytes {}-{}/{}", range->begin, range->end - 1, file.size));
+    }
   }
   reply(std::move(answer));
 }
@@ -85,7 +112,7 @@ void HttpSession::send_next() {
   const auto chunk = static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, length_ - sent_));
   if (file_ < 0) return send_chunk(reply_.body.data() + sent_, chunk);
   chunk_.resize(kChunk);
-  boost::asio::post(thread_.context.disk, [self = shared_from_this(), chunk, at = sent_]() mutable {
+  boost::asio::post(thread_.context.disk, [self = shared_from_this(), chunk, at = begins_ + sent_]() mutable {
     const ssize_t n = ::pread(self->file_, self->chunk_.data(), chunk, static_cast<off_t>(at));
     IoThread& thread = self->thread_;
     boost::asio::post(thread.io, [self = std::move(self), n] {

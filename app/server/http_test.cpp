@@ -139,6 +139,33 @@ TEST(Http, FilesComeWhenTheyChanged) {
   EXPECT_EQ(get(server.port(), "/").status, 404) << "the folder has no index.html";
 }
 
+TEST(Http, PartsOfFilesComeWhereTheyAreAskedFor) {
+  const kv::TestFolder folder;
+  std::string long_text;
+  for (int i = 0; long_text.size() < 200'000; ++i) long_text += std::to_string(i) + '\n';
+  std::ofstream(folder / "long.txt") << long_text;
+  const TestServer server({.files = folder / ""});
+  const auto part = [&](const std::string& headers) { return get(server.port(), "/long.txt", headers); };
+  const Answer some = part("Range: bytes=100000-170000\r\n");
+  EXPECT_EQ(some.status, 206);
+  EXPECT_EQ(some.body, long_text.substr(100'000, 70'001));
+  EXPECT_THAT(some.head, HasSubstr("Content-Range: bytes 100000-170000/" + std::to_string(long_text.size()) + "\r\n"));
+  EXPECT_EQ(part("Range: bytes=-7\r\n").body, long_text.substr(long_text.size() - 7));
+  const Answer beyond = part("Range: bytes=9999999-\r\n");
+  EXPECT_EQ(beyond.status, 416);
+  EXPECT_THAT(beyond.head, HasSubstr("Content-Range: bytes */" + std::to_string(long_text.size()) + "\r\n"));
+  const Answer whole = part("Range: bytes=0-1\r\nIf-Range: \"another\"\r\n");
+  EXPECT_EQ(whole.status, 200) << "it has changed since";
+  EXPECT_EQ(whole.body, long_text);
+  EXPECT_THAT(whole.head, HasSubstr("Accept-Ranges: bytes\r\n"));
+  // One connection, a part and then a whole: nothing of the first is left.
+  Client client(server.port());
+  client.send("GET /long.txt HTTP/1.1\r\nHost: localhost\r\nRange: bytes=5-9\r\n\r\n");
+  EXPECT_EQ(read_answer(client).body, long_text.substr(5, 5));
+  client.send("GET /long.txt HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(read_answer(client).body, long_text);
+}
+
 TEST(Http, AllowedOriginsMayRead) {
   const TestServer server({.allowed_origins = {"https://signs.example.org"}});
   EXPECT_THAT(get(server.port(), "/api/databases", "Origin: https://signs.example.org\r\n").head,

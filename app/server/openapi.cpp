@@ -91,8 +91,7 @@ Json body_of(const Route& route) {
 Json files_of(const Route& route) {
   Json content = Json::object();
   if (route.answer.empty() && !route.may_be_file) {  // always a file, of one kind where there is no choice
-    const Json& properties = route.parameters().properties;
-    if (!properties.contains("format")) content[std::string(file_format("eaf").media_type)] = Json::object();
+    if (!route.media_type.empty()) content[std::string(route.media_type)] = Json::object();
   }
   if (route.parameters == nullptr) return content;
   const Json properties = route.parameters().properties;

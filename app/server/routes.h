@@ -49,9 +49,11 @@ struct Route {
   calls::SchemaWriter (*parameters)() = nullptr;
   std::string_view answer = {};  ///< its schema in the document's components; empty: a file
   int status = 200;
-  bool may_be_file = false;  ///< beside the JSON answer
-  bool changes = false;      ///< refused with 403 for a database that is served for reading only
-  bool takes_file = false;   ///< the request's body is a file
+  bool may_be_file = false;                ///< beside the JSON answer
+  bool changes = false;                    ///< refused with 403 for a database that is served for reading only
+  bool takes_file = false;                 ///< the request's body is a file
+  void (*require)(const Call&) = nullptr;  ///< throws where no such body could make the request good
+  std::string_view media_type = {};        ///< of an answer that is a file, where no field tells
 };
 
 std::span<const Route> routes();
@@ -99,6 +101,12 @@ ApiResponse find_segments(Call& call);  // handle_search.cpp
 ApiResponse count_transitions(Call& call);
 ApiResponse propose_segments(Call& call);
 ApiResponse evaluate_methods(Call& call);
+ApiResponse list_characters(Call& call);  // handle_characters.cpp
+ApiResponse show_character(Call& call);
+ApiResponse list_media(Call& call);
+ApiResponse show_media(Call& call);
+ApiResponse put_rendered(Call& call);  // handle_renders.cpp
+void require_render(const Call& call);
 ApiResponse sign_utterance(Call& call);  // handle_signing.cpp
 ApiResponse edit_recording(Call& call);
 ApiResponse export_motion(Call& call);
@@ -109,6 +117,7 @@ ApiResponse open_upload(Call& call);  // handle_uploads.cpp
 ApiResponse show_upload(Call& call);
 ApiResponse discard_upload(Call& call);
 ApiResponse put_file(Call& call);
+void require_upload(const Call& call);
 ApiResponse import_upload(Call& call);
 ApiResponse list_jobs(Call& call);
 ApiResponse show_job(Call& call);

@@ -25,6 +25,22 @@ void ServedDatabase::change(const std::function<void(Database&)>& change) {
   signing_.warm_up();  // here, not when the next stream waits for its first frame
 }
 
+std::shared_ptr<const calls::SignerStance> ServedDatabase::stance(const std::shared_ptr<const Contents>& contents,
+                                                                  const std::string& recording) {
+  {
+    const std::lock_guard lock(stances_lock_);
+    if (stances_of_ != contents) {
+      stances_.clear();
+      stances_of_ = contents;
+    }
+    if (const auto known = stances_.find(recording); known != stances_.end()) return known->second;
+  }
+  auto made = std::make_shared<const calls::SignerStance>(calls::stance_of(database_, contents->at(recording)));
+  const std::lock_guard lock(stances_lock_);
+  if (stances_of_ == contents) stances_.emplace(recording, made);
+  return made;
+}
+
 void ServedDatabases::add(const std::filesystem::path& folder, bool writable) {
   std::filesystem::path path = folder.lexically_normal();
   if (!path.has_filename()) path = path.parent_path();

@@ -7,8 +7,10 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <ctime>
 #include <utility>
 
@@ -85,7 +87,54 @@ int open_beneath(int folder, const std::string& path) {
   return file < 0 && errno == ENOSYS ? open_without_links(folder, path) : file;
 }
 
+StaticFile described(int descriptor, const struct stat& status, std::string_view name) {
+  return {.descriptor = descriptor,
+          .size = static_cast<std::uint64_t>(status.st_size),
+          .content_type = std::string(content_type_of(name)),
+          .etag = fmt::format("\"{:x}-{:x}-{:x}\"", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec),
+          .last_modified = http_date(status.st_mtim.tv_sec)};
+}
+
+bool read_number(std::string_view text, std::uint64_t& value) {
+  const char* const end = text.data() + text.size();
+  const auto [parsed, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc{} && parsed == end;
+}
+
 }  // namespace
+
+std::optional<StaticFile> open_plain(const std::filesystem::path& path) {
+  Descriptor file(::open(path.c_str(), kOpenFlags));
+  struct stat status {};
+  if (file.get() < 0 || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return described(file.release(), status, path.native());
+}
+
+std::optional<ByteRange> range_of(std::string_view header, std::uint64_t size) {
+  constexpr std::string_view kUnit = "bytes=";
+  if (!header.starts_with(kUnit)) return std::nullopt;
+  header.remove_prefix(kUnit.size());
+  const std::size_t dash = header.find('-');
+  if (dash == header.npos || header.find(',') != header.npos) return std::nullopt;
+  const std::string_view first = header.substr(0, dash);
+  const std::string_view last = header.substr(dash + 1);
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;
+  if (first.empty()) {  // the last bytes
+    if (!read_number(last, end)) return std::nullopt;
+    if (end == 0 || size == 0) return ByteRange{};
+    return ByteRange{size - std::min(end, size), size};
+  }
+  if (!read_number(first, begin)) return std::nullopt;
+  if (last.empty()) {
+    end = size;
+  } else {
+    if (!read_number(last, end) || end < begin) return std::nullopt;
+    end = end < size ? end + 1 : size;
+  }
+  if (begin >= size) return ByteRange{};
+  return ByteRange{begin, end};
+}
 
 std::string_view content_type_of(std::string_view name) noexcept {
   for (const auto& [ending, type] : kTypes) {
@@ -125,12 +174,7 @@ std::optional<StaticFile> open_static(const std::filesystem::path& folder, const
       continue;
     }
     if (!S_ISREG(status.st_mode)) return std::nullopt;
-    return StaticFile{
-        .descriptor = file.release(),
-        .size = static_cast<std::uint64_t>(status.st_size),
-        .content_type = std::string(content_type_of(path)),
-        .etag = fmt::format("\"{:x}-{:x}-{:x}\"", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec),
-        .last_modified = http_date(status.st_mtim.tv_sec)};
+    return described(file.release(), status, path);
   }
   return std::nullopt;
 }

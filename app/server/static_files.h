@@ -23,6 +23,18 @@ struct StaticFile {
 /// a backslash or NUL are no names here, and the kernel resolves the rest beneath the folder, whatever links lie there.
 std::optional<StaticFile> open_static(const std::filesystem::path& folder, const std::vector<std::string>& segments);
 
+/// The same of one plain file, whatever folder it is in.
+std::optional<StaticFile> open_plain(const std::filesystem::path& path);
+
+/// What a Range header asks for of `size` bytes.
+struct ByteRange {
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;  ///< not part of it; 0: the range is not satisfiable
+};
+/// One range of bytes (RFC 9110, section 14): "bytes=0-99", "bytes=100-", "bytes=-100". None where the header asks for
+/// something else, which may be left unheard.
+std::optional<ByteRange> range_of(std::string_view header, std::uint64_t size);
+
 /// By the name's ending; "application/octet-stream" where it tells nothing.
 std::string_view content_type_of(std::string_view name) noexcept;
 

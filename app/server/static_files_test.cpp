@@ -101,5 +101,25 @@ TEST(StaticFiles, AChangeHasAnotherTag) {
   EXPECT_EQ(http_date(784'111'777), "Sun, 06 Nov 1994 08:49:37 GMT");
 }
 
+TEST(StaticFiles, RangesAreThoseOfTheStandard) {
+  const auto range = [](std::string_view header) { return range_of(header, 100); };
+  const auto is = [&](std::string_view header, std::uint64_t begin, std::uint64_t end) {
+    const auto found = range(header);
+    return found && found->begin == begin && found->end == end;
+  };
+  EXPECT_TRUE(is("bytes=0-9", 0, 10));
+  EXPECT_TRUE(is("bytes=90-", 90, 100));
+  EXPECT_TRUE(is("bytes=90-1000", 90, 100));
+  EXPECT_TRUE(is("bytes=-10", 90, 100));
+  EXPECT_TRUE(is("bytes=-1000", 0, 100));
+  EXPECT_TRUE(is("bytes=100-", 0, 0)) << "beyond the end";
+  EXPECT_TRUE(is("bytes=-0", 0, 0));
+  for (const char* unheard : {"", "bytes", "bytes=", "bytes=-", "bytes=9-1", "bytes=a-b", "lines=0-9", "bytes=0-1,5-6",
+                              "bytes=99999999999999999999-", "bytes=1 -2"}) {
+    EXPECT_FALSE(range(unheard)) << unheard;
+  }
+  EXPECT_TRUE(range_of("bytes=-5", 0)->end == 0) << "of nothing";
+}
+
 }  // namespace
 }  // namespace signweave::server

@@ -96,7 +96,8 @@ TEST(StreamDocument, TheHeaderIsAsItIsSaid) {
       .layout_from = "meteo",
       .declarations = {{"signweave:placeholder", "synthetic motion: placeholder shapes, not LSF"}}};
   ASSERT_EQ(blocks("header").size(), 1u);
-  EXPECT_EQ(Json::parse(header_text(header, "demo", Pace::live, 1)), Json::parse(blocks("header").front()));
+  EXPECT_EQ(Json::parse(header_text(header, {.database = "demo", .pace = Pace::live})),
+            Json::parse(blocks("header").front()));
 }
 
 TEST(StreamDocument, TheBytesAreAsTheTableSays) {

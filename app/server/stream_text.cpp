@@ -37,7 +37,7 @@ std::string_view name_of(PlayerEvent::Kind kind) noexcept {
 
 }  // namespace
 
-std::string header_text(const StreamHeader& header, std::string_view database, Pace pace, std::size_t batch) {
+std::string header_text(const StreamHeader& header, const HeaderContext& context) {
   Json joints = Json::array();
   const Skeleton& skeleton = *header.skeleton;
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
@@ -55,21 +55,23 @@ std::string header_text(const StreamHeader& header, std::string_view database, P
   for (const JointIndex joint : skeleton.translated_joints()) translated.push_back(static_cast<std::int64_t>(joint));
   Json declarations = Json::array();
   for (const auto& [name, value] : header.declarations) declarations.push_back({{"name", name}, {"value", value}});
-  return line_of({{"type", "header"},
-                  {"database", database},
-                  {"recording", header.layout_from},
-                  {"declarations", std::move(declarations)},
-                  {"rate", header.rate.hertz()},
-                  {"rate_fraction", {header.rate.numerator, header.rate.denominator}},
-                  {"pace", pace == Pace::live ? "live" : "fast"},
-                  {"batch", batch},
-                  {"layout", 1},
-                  {"message_header_bytes", kMessageHeaderBytes},
-                  {"frame_bytes", bytes_of(header.shape())},
-                  {"joints", std::move(joints)},
-                  {"translated", std::move(translated)},
-                  {"tips", std::move(tips)},
-                  {"tracks", header.tracks}});
+  Json json = {{"type", "header"}, {"database", context.database}, {"recording", header.layout_from}};
+  if (!context.character.empty()) json["character"] = context.character;
+  json["declarations"] = std::move(declarations);
+  json["rate"] = header.rate.hertz();
+  json["rate_fraction"] = {header.rate.numerator, header.rate.denominator};
+  if (context.pace) {
+    json["pace"] = *context.pace == Pace::live ? "live" : "fast";
+    json["batch"] = context.batch;
+  }
+  json["layout"] = 1;
+  json["message_header_bytes"] = kMessageHeaderBytes;
+  json["frame_bytes"] = bytes_of(header.shape());
+  json["joints"] = std::move(joints);
+  json["translated"] = std::move(translated);
+  json["tips"] = std::move(tips);
+  json["tracks"] = header.tracks;
+  return line_of(json);
 }
 
 std::string ok_text(std::string_view id, std::uint64_t frame) {

@@ -13,8 +13,15 @@ namespace signweave::server {
 
 // What a stream's server says in JSON, one line each; docs/stream.md shows every one.
 
+/// What a header tells beside the player's own.
+struct HeaderContext {
+  std::string_view database;
+  std::string_view character = {};  ///< whose joints they are; empty: the recording's
+  std::optional<Pace> pace{};       ///< none: of frames that are there already
+  std::size_t batch = 1;
+};
 /// {"type": "header", …}: what the frames are of.
-std::string header_text(const StreamHeader& header, std::string_view database, Pace pace, std::size_t batch);
+std::string header_text(const StreamHeader& header, const HeaderContext& context);
 /// {"type": "ok", …}; `frame` is the next frame's number.
 std::string ok_text(std::string_view id, std::uint64_t frame);
 std::string error_text(ErrorCode code, std::string_view message, std::string_view id);

@@ -29,6 +29,8 @@ class TestApi {
   }
 
   Api& api() { return *api_; }
+  /// What is served beside the databases; to be set before it is asked for.
+  ServedDatabases& served() { return databases_; }
   const Database& database() { return databases_.at("demo").database(); }
   std::filesystem::path scratch() const { return folder_ / "scratch"; }
 

@@ -16,6 +16,7 @@
 #include "signweave/formats/body_mesh.h"
 #include "signweave/formats/face_mesh.h"
 #include "signweave/formats/gltf_document.h"
+#include "signweave/formats/gltf_keys.h"
 
 namespace signweave::gltf {
 namespace {
@@ -31,15 +32,6 @@ constexpr std::size_t kMostTextBytes = std::size_t{64} << 20;
 template <std::integral Number>
 std::size_t at(Number number) {
   return static_cast<std::size_t>(number);
-}
-
-/// As JSON takes it: what is not UTF-8 loses its bytes beyond ASCII.
-std::string utf8(std::string text) {
-  if (!is_utf8(text)) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; }, '?');
-  }
-  return text;
 }
 
 /// Gives out each name once: the second "Hand" is "Hand 2".
@@ -61,30 +53,6 @@ class Names {
 
 std::vector<double> doubles(const Vector3f& v) {
   return {v.x(), v.y(), v.z()};
-}
-
-void require_finite(const Motion& motion) {
-  const auto refuse = [](std::size_t frame, const std::string& what) {
-    throw Error(ErrorCode::bad_input,
-                fmt::format("frame {}: {} is not a finite number; glTF has no other", frame, what));
-  };
-  const Skeleton& skeleton = motion.skeleton();
-  const std::size_t joints = skeleton.joint_count();
-  for (std::size_t i = 0; i < motion.rotations().size(); ++i) {
-    const float square = motion.rotations()[i].squaredNorm();
-    if (std::isfinite(square) && square > 1e-12f) continue;
-    refuse(i / joints, "the rotation of '" + skeleton.joint(static_cast<JointIndex>(i % joints)).name + "'");
-  }
-  const auto moved = skeleton.translated_joints();
-  for (std::size_t i = 0; i < motion.translations().size(); ++i) {
-    if (motion.translations()[i].allFinite()) continue;
-    refuse(i / moved.size(), "the translation of '" + skeleton.joint(moved[i % moved.size()]).name + "'");
-  }
-  for (const ScalarTrack& track : motion.tracks()) {
-    for (std::size_t frame = 0; frame < track.values.size(); ++frame) {
-      if (!std::isfinite(track.values[frame])) refuse(frame, "track '" + track.name + "'");
-    }
-  }
 }
 
 RigMap rig_of(const Motion& motion, const WriteOptions& options) {
@@ -263,16 +231,9 @@ class Writer {
   }
 
   void add_rotations() {
-    const std::size_t joints = skeleton_.joint_count();
-    std::vector<Eigen::Vector4f> keys(at(motion_.frame_count()));
-    for (std::size_t joint = 0; joint < joints; ++joint) {
-      for (std::size_t frame = 0; frame < keys.size(); ++frame) {
-        const Eigen::Vector4d wanted = motion_.rotations()[frame * joints + joint].coeffs().cast<double>();
-        keys[frame] = wanted.normalized().cast<float>();
-        // q and -q are one rotation; a viewer blends neighbours as they are signed.
-        if (frame > 0 && keys[frame].dot(keys[frame - 1]) < 0) keys[frame] *= -1;
-      }
-      const bool moves = std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return key != keys[0]; });
+    std::vector<Eigen::Vector4f> keys;
+    for (std::size_t joint = 0; joint < skeleton_.joint_count(); ++joint) {
+      const bool moves = rotation_keys(motion_, joint, keys);
       if (!moves && (keys[0] == Eigen::Vector4f(0, 0, 0, 1) || keys[0] == Eigen::Vector4f(0, 0, 0, -1))) continue;
       const std::span<const Eigen::Vector4f> all(keys);
       add_channel(static_cast<int>(joint), "rotation", document_.quaternions(moves ? all : all.first(1)), moves);
@@ -281,11 +242,9 @@ class Writer {
 
   /// One that stays where it is in frame 0 needs no keys: that is where its node is.
   void add_translations() {
-    const std::size_t moved = skeleton_.translation_count();
-    std::vector<Vector3f> keys(at(motion_.frame_count()));
-    for (std::size_t i = 0; i < moved; ++i) {
-      for (std::size_t frame = 0; frame < keys.size(); ++frame) keys[frame] = motion_.translations()[frame * moved + i];
-      if (std::all_of(keys.begin(), keys.end(), [&](const Vector3f& key) { return key == keys[0]; })) continue;
+    std::vector<Vector3f> keys;
+    for (std::size_t i = 0; i < skeleton_.translation_count(); ++i) {
+      if (!translation_keys(motion_, i, keys)) continue;
       add_channel(skeleton_.translated_joints()[i], "translation", document_.vectors(keys, false), true);
     }
   }

@@ -348,6 +348,7 @@ TEST(KvStore, AnEngineThatTheBuildLacksIsNamedAsSuch) {
   const std::pair<const char*, const char*> rows[] = {
       {"lmdb", "data.mdb"}, {"berkeley", "data.bdb"}, {"tokyo", "data.tch"}};
   for (const auto& [name, file] : rows) {
+    const auto& engine = name;  // a lambda takes no structured binding
     TestFolder folder;
     std::ofstream(folder / file) << "a store of that engine";
     std::string text;
@@ -358,7 +359,7 @@ TEST(KvStore, AnEngineThatTheBuildLacksIsNamedAsSuch) {
     }
     EXPECT_EQ(code, ErrorCode::unsupported);
     EXPECT_THAT(text, HasSubstr("its storage engine '" + std::string(name) + "' was left out of this build"));
-    EXPECT_EQ(code_of([&] { create(folder.path() / "db", name); }, &text), ErrorCode::unsupported);
+    EXPECT_EQ(code_of([&] { create(folder.path() / "db", engine); }, &text), ErrorCode::unsupported);
     EXPECT_THAT(text, HasSubstr("left out of this build"));
   }
 }

@@ -23,16 +23,24 @@ struct Section {
 };
 /// Measured on a woman and a man, who differ by less than 8 mm once scaled by height. It ends in points, so that
 /// nothing jumps at its ends.
-constexpr std::array<Section, 10> kTrunk = {{{0.17f, -0.030f, 0.001f, 0.001f},
+constexpr std::array<Section, 13> kTrunk = {{{0.17f, -0.030f, 0.001f, 0.001f},
                                              {0.12f, -0.025f, 0.045f, 0.060f},
                                              {0.05f, 0.000f, 0.068f, 0.120f},
                                              {0.00f, 0.012f, 0.088f, 0.165f},
                                              {-0.05f, 0.022f, 0.102f, 0.175f},
                                              {-0.10f, 0.028f, 0.110f, 0.170f},
                                              {-0.20f, 0.032f, 0.105f, 0.158f},
-                                             {-0.35f, 0.030f, 0.100f, 0.150f},
-                                             {-0.50f, 0.020f, 0.112f, 0.175f},
-                                             {-0.60f, 0.020f, 0.001f, 0.001f}}};
+                                             {-0.35f, 0.012f, 0.116f, 0.168f},
+                                             {-0.45f, -0.008f, 0.130f, 0.187f},
+                                             {-0.55f, 0.012f, 0.102f, 0.190f},
+                                             {-0.70f, 0.035f, 0.085f, 0.194f},
+                                             {-0.85f, 0.020f, 0.070f, 0.200f},
+                                             {-1.00f, 0.020f, 0.001f, 0.001f}}};
+/// Above the first the chest tells where the trunk is, below the second the pelvis.
+constexpr float kChest = -0.15f;
+constexpr float kPelvis = -0.45f;
+/// Nothing of the trunk is farther from the middle between the shoulders, forward or to the side.
+constexpr float kFar = 0.25f;
 /// The head's middle lies so far behind the middle between the eyes; half its width, height and depth.
 constexpr float kHeadBehind = 0.066f;
 const Vector3f kHead = {0.078f, 0.118f, 0.095f};
@@ -73,13 +81,17 @@ BodySurface::BodySurface(const Character& character, const RigAxes& axes) : scal
   columns << axes.trunk() * Vector3f::UnitY(), axes.trunk() * Vector3f::UnitX(), axes.trunk() * -Vector3f::UnitZ();
   const Quaternionf turn(columns);
   JointIndex chest = kNoJoint;
+  JointIndex pelvis = kNoJoint;
   for (const Part part : {Part::pelvis, Part::spine, Part::chest}) {
-    if (rig.has(part)) chest = rig[part].joint;
+    if (!rig.has(part)) continue;
+    chest = rig[part].joint;
+    if (pelvis == kNoJoint) pelvis = chest;
   }
   const auto at_rest = [&](JointIndex joint) { return axes.places()[static_cast<std::size_t>(joint)]; };
   if (chest != kNoJoint && rig.has(Part::left_upper_arm) && rig.has(Part::right_upper_arm)) {
     const Vector3f middle = 0.5f * (axes.place(Part::left_upper_arm) + axes.place(Part::right_upper_arm));
-    trunk_ = Space{chest, middle - at_rest(chest), turn};
+    chest_ = Space{chest, middle - at_rest(chest), turn};
+    pelvis_ = Space{pelvis, middle - at_rest(pelvis), turn};
   }
   if (rig.has(Part::head) && character.eyes.squaredNorm() > 0) {
     head_ = Space{rig[Part::head].joint, character.eyes - at_rest(rig[Part::head].joint), turn};
@@ -87,7 +99,7 @@ BodySurface::BodySurface(const Character& character, const RigAxes& axes) : scal
 }
 
 void BodySurface::place(const ModelPose& pose) noexcept {
-  for (std::optional<Space>* space : {&trunk_, &head_}) {
+  for (std::optional<Space>* space : {&chest_, &pelvis_, &head_}) {
     if (!*space) continue;
     const auto joint = static_cast<std::size_t>((*space)->joint);
     (*space)->origin_now = pose.positions[joint] + pose.rotations[joint] * (*space)->origin;
@@ -109,13 +121,24 @@ Vector3f BodySurface::head_way(const Vector3f& point, float radius) noexcept {
 
 Vector3f BodySurface::way_out(const Vector3f& point, float radius) const noexcept {
   Vector3f way = Vector3f::Zero();
-  const auto add = [&](const std::optional<Space>& space, Vector3f (*out)(const Vector3f&, float) noexcept) {
-    if (!space) return;
-    const Vector3f inside = space->turn_now.conjugate() * (point - space->origin_now) / scale_;
-    way += scale_ * (space->turn_now * out(inside, radius / scale_));
+  const float ball = radius / scale_;
+  const auto inside = [&](const Space& space) {
+    return Vector3f(space.turn_now.conjugate() * (point - space.origin_now) / scale_);
   };
-  add(trunk_, trunk_way);
-  add(head_, head_way);
+  if (chest_) {
+    const Vector3f high = inside(*chest_);
+    const Vector3f low = inside(*pelvis_);
+    const float share = std::clamp((kChest - high.y()) / (kChest - kPelvis), 0.0f, 1.0f);
+    const Vector3f mixed = (1 - share) * high + share * low;
+    if (std::abs(mixed.x()) < kFar && std::abs(mixed.z()) < kFar) {
+      const Vector3f out = trunk_way(mixed, ball);
+      way += scale_ * ((1 - share) * (chest_->turn_now * out) + share * (pelvis_->turn_now * out));
+    }
+  }
+  if (head_) {
+    const Vector3f from_eyes = inside(*head_);
+    if (from_eyes.squaredNorm() < kFar * kFar) way += scale_ * (head_->turn_now * head_way(from_eyes, ball));
+  }
   return way;
 }
 

@@ -9,9 +9,9 @@
 
 namespace signweave {
 
-/// Roughly where a character's clothes and face are, so that hands stay outside: the trunk as sections that round off
-/// to the sides, the head as one such body. Told from height, shoulders and eyes alone, with the proportions of the
-/// characters of studio/avatar. (ours)
+/// Roughly where a character's clothes and face are, so that hands stay outside: the trunk down to the thighs as
+/// sections that round off to the sides, the head as one such body. Told from height, shoulders and eyes alone, with
+/// the proportions of the characters of studio/avatar. (ours)
 class BodySurface {
  public:
   BodySurface(const Character& character, const RigAxes& axes);
@@ -39,7 +39,8 @@ class BodySurface {
   static Eigen::Vector3f head_way(const Eigen::Vector3f& point, float radius) noexcept;
 
   float scale_ = 1;
-  std::optional<Space> trunk_;
+  std::optional<Space> chest_;   ///< with the pelvis, or neither
+  std::optional<Space> pelvis_;  ///< its origin, too, is between the shoulders at rest
   std::optional<Space> head_;
 };
 

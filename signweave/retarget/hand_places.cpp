@@ -142,4 +142,14 @@ WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>&
   return goals;
 }
 
+Vector3f out_of_body(const TwoHands& hand, const ModelPose& pose, const BodySurface& surface,
+                     const Vector3f& goal) noexcept {
+  Points points;
+  const Vector3f wrist = pose.positions[static_cast<std::size_t>(hand.wrist)];
+  for (std::size_t i = 0; i < hand.fingers->count(); ++i) {
+    points.own[points.count++] = position_of(hand.fingers->point(i).own, pose) - wrist;
+  }
+  return goal + way_out(points, surface, goal);
+}
+
 }  // namespace signweave

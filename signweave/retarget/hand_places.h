@@ -45,4 +45,9 @@ WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>&
                        const std::optional<HeadSpace>& own_head, const std::array<std::optional<TwoHands>, 2>& hands,
                        const BodySurface& surface, float unit_ratio) noexcept;
 
+/// `goal` of a character's wrist (metres, model space), moved out along the surface where a point of the hand lies in
+/// the body. `pose` is the character's.
+Eigen::Vector3f out_of_body(const TwoHands& hand, const ModelPose& pose, const BodySurface& surface,
+                            const Eigen::Vector3f& goal) noexcept;
+
 }  // namespace signweave

@@ -1,5 +1,9 @@
 #include "signweave/retarget/leg.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "signweave/retarget/arm.h"
 #include "signweave/retarget/drives.h"
 
@@ -11,6 +15,14 @@ using Eigen::Vector3f;
 
 constexpr std::size_t at(JointIndex joint) {
   return static_cast<std::size_t>(joint);
+}
+
+/// A knee bent less than the first angle does not show its plane; above the second it does.
+constexpr float kPlaneFrom = 12 * std::numbers::pi_v<float> / 180;
+constexpr float kPlaneTo = 40 * std::numbers::pi_v<float> / 180;
+
+Vector3f across(const Vector3f& vector, const Vector3f& axis) {
+  return vector - vector.dot(axis) * axis;
 }
 
 }  // namespace
@@ -35,7 +47,13 @@ std::optional<CharacterLeg> CharacterLeg::make(const Character& character, const
   if (leg.upper_length_ < 1e-3f || leg.lower_length_ < 1e-3f) return std::nullopt;
   leg.upper_axis_ = upper.normalized();
   leg.lower_axis_ = lower.normalized();
-  leg.bend_ = -(axes[thigh] * Vector3f::UnitY());
+  leg.upper_ahead_ = axes[thigh] * Vector3f::UnitY();
+  leg.lower_ahead_ = axes[shin] * Vector3f::UnitY();
+  leg.foot_ = rig[foot].joint;
+  leg.foot_ahead_ = axes[foot] * -Vector3f::UnitZ();
+  leg.pelvis_ = skeleton.joint(leg.upper_.front()).parent;
+  if (leg.pelvis_ == kNoJoint) return std::nullopt;
+  leg.pelvis_ahead_ = axes.trunk() * -Vector3f::UnitZ();
   for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
     const auto joint = static_cast<JointIndex>(i);
     if (joint != rig[thigh].joint && !path_between(skeleton, rig[thigh].joint, joint).empty()) {
@@ -48,12 +66,21 @@ std::optional<CharacterLeg> CharacterLeg::make(const Character& character, const
 void CharacterLeg::lay(const Skeleton& skeleton, const Vector3f& goal, ModelPose& pose) const noexcept {
   const Quaternionf upper = pose.rotations[at(upper_.back())];
   const TwoBones told = {upper * upper_axis_, pose.rotations[at(lower_.front())] * lower_axis_};
+  // The knee looks to where hips and toes look: some sources turn thighs about themselves at will.
+  const Vector3f ahead = pose.rotations[at(pelvis_)] * pelvis_ahead_ + pose.rotations[at(foot_)] * foot_ahead_;
   const Vector3f way = goal - pose.positions[at(upper_.front())];
-  const TwoBones bones = reach(told, upper_length_, lower_length_, way, upper * bend_);
-  const Quaternionf turned = turn_between(told.upper, bones.upper);
-  const Quaternionf bent = turn_between(told.lower, bones.lower);
-  for (const JointIndex joint : upper_) pose.rotations[at(joint)] = (turned * pose.rotations[at(joint)]).normalized();
-  for (const JointIndex joint : lower_) pose.rotations[at(joint)] = (bent * pose.rotations[at(joint)]).normalized();
+  const TwoBones bones = reach(told, upper_length_, lower_length_, way, -ahead);
+  const Vector3f level = across(ahead, bones.upper);
+  const Vector3f plane = -across(bones.lower, bones.upper);
+  const float bent = std::atan2(plane.norm(), bones.upper.dot(bones.lower));
+  const float weight = std::clamp((bent - kPlaneFrom) / (kPlaneTo - kPlaneFrom), 0.0f, 1.0f);
+  Vector3f side = (1 - weight) * level.normalized();
+  if (plane.norm() > 1e-4f) side += weight * plane.normalized();
+  const Quaternionf thigh = axes_along(bones.upper, side) * axes_along(upper_axis_, upper_ahead_).conjugate();
+  const Vector3f carried = turn_between(bones.upper, bones.lower) * across(side, bones.upper);
+  const Quaternionf shin = axes_along(bones.lower, carried) * axes_along(lower_axis_, lower_ahead_).conjugate();
+  for (const JointIndex joint : upper_) pose.rotations[at(joint)] = thigh;
+  for (const JointIndex joint : lower_) pose.rotations[at(joint)] = shin;
   for (const JointIndex joint : below_) {
     const Joint& own = skeleton.joint(joint);
     pose.positions[at(joint)] = pose.positions[at(own.parent)] + pose.rotations[at(own.parent)] * own.offset;

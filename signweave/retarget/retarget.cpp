@@ -198,7 +198,7 @@ void Retargeter::lay_legs() noexcept {
     goal.y() = ankle_ + scale_ * (position_of(signer_.rig[foot], from_).y() - options_.ground - source_ankle_);
     const Vector3f told = position_of(character_->rig[foot], to_);
     const float weight = smooth_step((goal - told).norm(), kFootFrom, kFootTo);
-    if (weight > 0) leg->lay(*character_->skeleton, told + weight * (goal - told), to_);
+    leg->lay(*character_->skeleton, told + weight * (goal - told), to_);
   }
 }
 
@@ -243,6 +243,7 @@ void Retargeter::lay_arms() noexcept {
       const float weight = smooth_step(stretch, kStretchFrom, kStretchTo);
       const float kept = (1 - weight) * std::min(stretch, 1.0f) + weight * std::min(told, 1.0f);
       if (stretch > 1e-3f) *goals.wrists[i] = shoulder + way * (kept / stretch);
+      *goals.wrists[i] = out_of_body(*hands[i], to_, surface_, *goals.wrists[i]);
     }
     arms_[i]->lay(skeleton, goals.wrists[i], {drives_.upper_twist[i], drives_.lower_twist[i]}, to_);
   }

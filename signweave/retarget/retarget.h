@@ -43,6 +43,10 @@ class Retargeter {
   /// `out` has the counts of the character's skeleton. Numbers that are none in the source give the character's rest.
   void pose(PoseView source, MutablePoseView out) noexcept;
 
+  /// Metres of the character's signing space for one of the source's: the ratio of shoulder widths, as far as the ratio
+  /// of arm lengths lets it be.
+  float unit_ratio() const noexcept { return unit_ratio_; }
+
   /// What is missing or approximate for this source: a line each. Such parts stay at rest.
   const std::vector<Notice>& notices() const noexcept { return notices_; }
 

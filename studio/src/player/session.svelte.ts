@@ -53,7 +53,9 @@ export class Session {
   private current?: Opening
   private next?: Opening
   private steps = $state.raw<Steps | undefined>()
-  private original?: Promise<AnnotationDocument | undefined>
+  /** Of an edit, the annotation of the recording that was edited. */
+  original = $state.raw<AnnotationDocument>(kEmpty)
+  private originalRead?: Promise<void>
   /** Of a live stream: from which frame on which gloss is signed; none at rest. */
   private readonly places: { frame: number; gloss?: string }[] = []
   private closed = false
@@ -161,7 +163,8 @@ export class Session {
   private async pair(left: Strand, made: Strand): Promise<void> {
     if (this.shown.page !== 'edit' || this.shown.swap || this.steps) return
     const signs = made.motion.signs ?? []
-    const glosses = (await this.original)?.tiers.find(({ depth, annotations }) => depth === 0 && annotations.length === signs.length)
+    await this.originalRead
+    const glosses = this.original.tiers.find(({ depth, annotations }) => depth === 0 && annotations.length === signs.length)
     if (glosses) this.steps = stepsOfSigns(signs, glosses.annotations, left.motion.originMs)
   }
 
@@ -172,7 +175,7 @@ export class Session {
       void this.annotate(api.annotation(database, shown.recording))
       api.media(database, shown.recording).then((media) => (this.media = media), (fault: unknown) => this.note(fault))
     } else if (shown.page === 'edit') {
-      this.original = api.annotation(database, shown.recording).then(readEaf).catch((fault: unknown) => this.note(fault))
+      this.originalRead = api.annotation(database, shown.recording).then((eaf) => void (this.original = readEaf(eaf))).catch((fault: unknown) => this.note(fault))
       void this.annotate(api.madeAnnotation(database, 'edit', bodyOf(shown)))
     } else if (shown.pace === 'live') this.annotated = true
     else void this.annotate(api.madeAnnotation(database, 'sign', bodyOf(shown)))

@@ -7,35 +7,36 @@ const kProgressMs = 500
 /** What is put at the end of a render. */
 export interface Done { readonly frames: number; readonly seconds: number; readonly codec: string }
 
-/** Puts what was rendered to the server that asked for it. After `done` or `fault` nothing more goes out. */
+/** Puts what was rendered to the server that asked for it, one thing after the other. After `done` or `fault` nothing more goes out. */
 export class Delivery {
   private over = false
-  private told = -Infinity
-  private telling: Promise<void> = Promise.resolve()
+  /** When a word on progress was last taken, ms of the page's clock; none while one is on its way. */
+  private told: number | undefined = -Infinity
+  private queue: Promise<unknown> = Promise.resolve()
 
   constructor(private readonly put: string) {}
 
   /** One file; resolves when the server has it, and rejects with what the server says where it did not take it. */
-  async file(name: string, body: Blob | ArrayBuffer | string): Promise<void> {
-    if (this.over) throw new Error('the render has ended')
-    await this.send(name, body)
+  async file(name: string, body: Blob | ArrayBuffer): Promise<void> {
+    if (!this.over) await this.send(name, body)
   }
 
-  /** Says how far it is, where it was not said in the last half second. */
+  /** Says how far it is, where that was not said in the last half second. */
   progress(done: number, of: number): void {
-    const now = performance.now()
-    if (this.over || now - this.told < kProgressMs) return
-    this.told = now
-    this.telling = this.telling.then(() => this.send('progress', JSON.stringify({ done, of })))
-    // A word on progress that is refused ends the render like everything else, but only once.
-    this.telling.catch((fault: unknown) => this.fault(fault))
+    if (this.over || this.told === undefined || performance.now() - this.told < kProgressMs) return
+    this.told = undefined
+    this.send('progress', JSON.stringify({ done, of })).catch((fault: unknown) => this.fault(fault)).finally(() => (this.told = performance.now()))
   }
 
   async done(what: Done): Promise<void> {
-    await this.telling
     if (this.over) return
     this.over = true
-    await this.send('done', JSON.stringify(what))
+    try {
+      await this.send('done', JSON.stringify(what))
+    } catch (fault) {
+      this.over = false // so that it can be told
+      throw fault
+    }
   }
 
   /** Ends the render with one plain line. */
@@ -51,7 +52,13 @@ export class Delivery {
     return this.over
   }
 
-  private async send(name: string, body: Blob | ArrayBuffer | string): Promise<void> {
+  private send(name: string, body: Blob | ArrayBuffer | string): Promise<void> {
+    const sent = this.queue.then(() => this.fetch(name, body))
+    this.queue = sent.catch(() => {})
+    return sent
+  }
+
+  private async fetch(name: string, body: Blob | ArrayBuffer | string): Promise<void> {
     const response = await fetch(`${this.put}/${name}`, { method: 'PUT', body }).catch(() => undefined)
     if (!response) throw new Error(`the server did not take ${name}: it does not answer`)
     if (response.ok) return

@@ -1,9 +1,9 @@
-import type { Texture, WebGLRenderer, WebGLRenderTarget } from 'three'
+import type { WebGLRenderer } from 'three'
 import type { Api } from '../api/client'
 import type { OpenedMotion } from '../motion/source'
 import { CharacterModel } from '../viewer/character_model'
 import { Pane } from '../viewer/pane'
-import { roomFor, signerRenderer } from '../viewer/stage'
+import { signerRenderer } from '../viewer/stage'
 import { captionOf, drawCaption, type Caption } from './caption'
 import { sightsOf, type Sight } from './sight'
 import type { RenderRequest } from './request'
@@ -37,11 +37,9 @@ export class Drawing {
     renderer.setSize(request.width, request.height, false)
     const pane = new Pane(motion)
     const notes: string[] = []
-    let room: WebGLRenderTarget | undefined
-    const surroundings = (): Texture => (room ??= roomFor(renderer)).texture
     if (motion.character) {
       try {
-        pane.wear((await CharacterModel.load(await api.character(motion.character))).body(motion.store.skeleton), surroundings)
+        pane.wear((await CharacterModel.load(await api.character(motion.character))).body(motion.store.skeleton))
       } catch (fault) {
         console.warn(fault)
         notes.push(`The surfaces of ${motion.character} could not be had: a drawn body stands in`)

@@ -91,6 +91,8 @@ export const en = {
   sign: 'Sign',
   signGlosses: 'Sign glosses',
   glosses: 'Glosses in order',
+  glossesHere: 'Glosses here: {n}',
+  tokens: '{n} tokens',
   glossesHint: 'LE MANS in quotes: "LE MANS". MATIN#2 is a token, a comma a pause.',
   pace: 'Pace',
   fast: 'Whole, to look at closely',

@@ -93,6 +93,8 @@ export const fr: Text = {
   sign: 'Signer',
   signGlosses: 'Signer des gloses',
   glosses: 'Gloses dans l’ordre',
+  glossesHere: 'Gloses présentes : {n}',
+  tokens: '{n} occurrences',
   glossesHint: 'LE MANS entre guillemets : "LE MANS". MATIN#2 est une occurrence, une virgule une pause.',
   pace: 'Rythme',
   fast: 'En entier, pour regarder de près',

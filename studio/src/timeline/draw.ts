@@ -6,8 +6,8 @@ import { kindOf, type BoxKind } from './tier_kind'
 import { tickStep, type TimeWindow } from './window'
 
 export const kRulerHeight = 24
-export const kTierHeight = 26
-export const kCurveHeight = 58
+export const kTierHeight = 25
+export const kCurveHeight = 50
 
 /** The colours of the theme, read where the theme changes. */
 export type Colors = Readonly<Record<string, string>>

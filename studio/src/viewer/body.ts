@@ -6,7 +6,7 @@ export interface Body {
   readonly object: Object3D
   /** Whether tracks of the motion move its face. Where not, the face is neutral and the screen says so. */
   readonly hasFace: boolean
-  /** Whether it has surfaces (skin, cloth, eyes) that show the room around them. */
+  /** Whether it has surfaces of its own (skin, cloth, eyes), which want a light of their own. */
   readonly shines: boolean
   /** Takes a pose. Allocates nothing. */
   show(pose: Pose): void

@@ -10,7 +10,12 @@ const kLens = 28 // degrees, vertical: long enough that hands before the body ar
 /** Seconds in which the camera goes two thirds of its way. */
 const kFollow = 0.13
 
-/** Frames the signer as sign language is filmed: from the hips to above the head, with room for the arms. */
+/** From a wrist to beyond the fingertips, metres of a signer of scale 1. */
+const kHand = 0.19
+/** How far an arm that hangs at ease goes down, of its length. */
+const kHang = 0.9
+
+/** Frames the signer as sign language is filmed: from the hips, or from where hanging hands end, to above the head; hands stay in it. */
 export class SignerCamera {
   readonly camera = new PerspectiveCamera(kLens, 1, 0.05, 50)
   /** Radians about the vertical from the front, to the signer's left; and up. */
@@ -37,21 +42,36 @@ export class SignerCamera {
   /** From the head's joint to the middle of the face, metres. */
   private readonly toFace: number
 
-  constructor(private readonly signer: Proportions) {
+  private readonly knuckles: number
+
+  /** With a hand (0 left, 1 right) the view of the hands is of that one alone. */
+  constructor(private readonly signer: Proportions, hand?: 0 | 1) {
     const at = (part: string) => signer.at(part)?.dot(signer.up)
     const feet = Math.min(at('left_foot') ?? 0, at('right_foot') ?? 0)
     const pelvis = at('pelvis') ?? 0.9 * signer.scale
     const top = at('head_top') ?? (at('head') ?? pelvis + 0.6 * signer.scale) + 0.19 * signer.scale
     // Relative to the pelvis, which the camera follows slowly and level.
-    const low = -0.16 * signer.scale, high = top - pelvis + 0.13 * signer.scale
+    const low = Math.min(-0.16 * signer.scale, this.hanging() - pelvis), high = top - pelvis + 0.13 * signer.scale
     this.height = (low + high) / 2
     this.half = { width: 0.56 * signer.scale, height: (high - low) / 2 }
-    this.wholeHeight = (feet - pelvis - 0.08 * signer.scale + high) / 2
-    this.wholeHalf = (high - (feet - pelvis - 0.08 * signer.scale)) / 2
+    this.wholeHeight = (feet - pelvis - 0.13 * signer.scale + high) / 2
+    this.wholeHalf = (high - (feet - pelvis - 0.13 * signer.scale)) / 2
     this.wrists = [signer.joint('left_hand'), signer.joint('right_hand')]
+    const middle = hand === undefined ? -1 : signer.joint(hand === 0 ? 'left_middle_proximal' : 'right_middle_proximal')
+    this.knuckles = hand === undefined ? -1 : middle >= 0 ? middle : this.wrists[hand]
     this.root = Math.max(0, signer.joint('pelvis'))
     this.head = signer.joint('head')
     this.toFace = 0.42 * Math.max(0.12 * signer.scale, top - (at('head') ?? top - 0.19 * signer.scale))
+  }
+
+  /** How high the fingertips of arms that hang are, along up. */
+  private hanging(): number {
+    const { signer } = this
+    const low = (['left', 'right'] as const).flatMap((side) => {
+      const [shoulder, elbow, wrist] = ['upper_arm', 'forearm', 'hand'].map((part) => signer.at(`${side}_${part}`))
+      return shoulder && elbow && wrist ? [shoulder.dot(signer.up) - kHang * (shoulder.distanceTo(elbow) + elbow.distanceTo(wrist)) - kHand * signer.scale] : []
+    })
+    return Math.min(Infinity, ...low)
   }
 
   look(view: View): void {
@@ -62,10 +82,13 @@ export class SignerCamera {
     this.fresh = true
   }
 
-  /** Looks from where another camera does. */
+  /** Looks from where another camera does; where it looked at something else before, at once. */
   like({ view, azimuth, elevation, zoom }: SignerCamera): void {
-    Object.assign(this, { view, azimuth, elevation, zoom })
-    this.fresh = true
+    this.fresh ||= view !== this.view
+    this.view = view
+    this.azimuth = azimuth
+    this.elevation = elevation
+    this.zoom = zoom
   }
 
   orbit(azimuth: number, elevation: number): void {
@@ -78,7 +101,11 @@ export class SignerCamera {
     const { signer, wanted } = this
     const place = model.positions
     let halfHeight = this.half.height, halfWidth = this.half.width
-    if (this.view === 'hands' && this.wrists[0] >= 0 && this.wrists[1] >= 0) {
+    if (this.view === 'hands' && this.knuckles >= 0) {
+      const at = 3 * this.knuckles
+      wanted.set(place[at], place[at + 1], place[at + 2])
+      halfHeight = halfWidth = 0.125 * signer.scale
+    } else if (this.view === 'hands' && this.wrists[0] >= 0 && this.wrists[1] >= 0) {
       const [l, r] = this.wrists
       wanted.set(place[3 * l] + place[3 * r], place[3 * l + 1] + place[3 * r + 1], place[3 * l + 2] + place[3 * r + 2]).multiplyScalar(0.5)
       wanted.addScaledVector(signer.up, 0.04 * signer.scale)
@@ -95,6 +122,14 @@ export class SignerCamera {
       wanted.set(place[root], place[root + 1], place[root + 2])
       wanted.addScaledVector(signer.up, this.view === 'whole' ? this.wholeHeight : this.height)
       if (this.view === 'whole') halfHeight = this.wholeHalf
+      // Hands that reach beyond take the frame with them.
+      for (const wrist of this.wrists) {
+        if (wrist < 0) continue
+        this.along.set(place[3 * wrist], place[3 * wrist + 1], place[3 * wrist + 2]).sub(wanted)
+        halfHeight = Math.max(halfHeight, Math.abs(this.along.dot(signer.up)) + kHand * signer.scale)
+        const aside = this.along.dot(signer.left) * Math.cos(this.azimuth) - this.along.dot(signer.front) * Math.sin(this.azimuth)
+        halfWidth = Math.max(halfWidth, Math.abs(aside) + kHand * signer.scale)
+      }
     }
     const lens = Math.tan((kLens * Math.PI) / 360)
     const distance = Math.max(halfHeight / lens, halfWidth / (lens * aspect)) / this.zoom + 0.15 * signer.scale

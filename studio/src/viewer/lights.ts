@@ -1,4 +1,4 @@
-import { DirectionalLight, HemisphereLight, Scene, Vector3, type Texture } from 'three'
+import { DirectionalLight, HemisphereLight, type Scene, Vector3 } from 'three'
 import type { Proportions } from './proportions'
 
 /** Light as for signed video: the key from above and a little to the side, a weak fill, a rim that parts the arms from the body. */
@@ -9,7 +9,7 @@ export class Lights {
   private readonly sky = new HemisphereLight(0xe8f0ff, 0x6b6058, 1.25)
   private readonly from: Vector3
 
-  constructor(private readonly scene: Scene, private readonly signer: Proportions) {
+  constructor(scene: Scene, private readonly signer: Proportions) {
     const { up, left, front, scale } = signer
     const { key, fill, rim, sky } = this
     this.from = new Vector3().addScaledVector(left, 0.9).addScaledVector(up, 1.5).addScaledVector(front, 1.9)
@@ -34,15 +34,12 @@ export class Lights {
   }
 
   /**
-   * Light for a body: one with surfaces of its own (`surroundings`) takes what comes from all around out of a room, and finer
-   * shadows; a drawn one out of a plain sky.
+   * Light for a body: one with surfaces of its own (skin, cloth) takes a softer sky and finer shadows. What comes from all around is a
+   * sky alone: a picture of a room, blurred for every roughness, took a computer that draws by software twenty seconds.
    */
-  suit(surroundings: Texture | null): void {
-    const real = surroundings !== null
-    this.scene.environment = surroundings
-    this.scene.environmentIntensity = 0.45
-    this.sky.intensity = real ? 0 : 1.25
-    this.rim.intensity = real ? 0.8 : 1.5
+  suit(real: boolean): void {
+    this.sky.intensity = real ? 1.5 : 1.25
+    this.rim.intensity = real ? 0.6 : 1.5
     const { shadow } = this.key
     shadow.normalBias = real ? 0.004 : 0.012
     shadow.bias = real ? -0.0004 : -0.0006

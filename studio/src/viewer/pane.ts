@@ -1,4 +1,4 @@
-import { Scene, Vector3, type Texture } from 'three'
+import { Scene, Vector3 } from 'three'
 import type { FrameStore } from '../motion/frame_store'
 import { Kinematics } from '../motion/kinematics'
 import { restPose, type Pose } from '../motion/pose'
@@ -17,6 +17,8 @@ export class Pane {
   readonly store: FrameStore
   readonly signer: Proportions
   readonly camera: SignerCamera
+  /** What the picture is taken with: the camera, or close up one for each hand, the right one first, as they are seen from the front. */
+  cameras: readonly SignerCamera[]
   body: Body
   /** From the stage's time to this motion's, both in seconds; the same where not set. */
   timeOf: (seconds: number) => number = (seconds) => seconds
@@ -29,6 +31,8 @@ export class Pane {
   private readonly trails: Trails
   private readonly bones: BonesOverlay
   private readonly lights: Lights
+  private readonly alone: readonly SignerCamera[]
+  private readonly hands: readonly SignerCamera[]
   private readonly root = new Vector3()
 
   constructor(readonly motion: OpenedMotion) {
@@ -36,13 +40,15 @@ export class Pane {
     const { skeleton } = motion.store
     this.signer = new Proportions(skeleton, motion.rig)
     this.camera = new SignerCamera(this.signer)
+    this.cameras = this.alone = [this.camera]
+    this.hands = motion.store.hasHand[0] && motion.store.hasHand[1] ? [new SignerCamera(this.signer, 1), new SignerCamera(this.signer, 0)] : []
     this.pose = restPose(skeleton)
     this.model = new Kinematics(skeleton)
     this.trails = new Trails(motion.store)
     this.bones = new BonesOverlay(skeleton, this.model)
     this.body = new DrawnBody(skeleton, motion.rig)
     this.lights = new Lights(this.scene, this.signer)
-    this.lights.suit(null)
+    this.lights.suit(false)
     this.scene.add(this.body.object, this.trails.object, this.bones.object)
     this.trails.object.visible = this.bones.object.visible = false
   }
@@ -54,22 +60,17 @@ export class Pane {
     this.bones.object.visible = shown
   }
 
-  /** Another body in place of this one, which is given up; `surroundings` is what a body that shines shows of the room. */
-  wear(body: Body, surroundings: () => Texture): void {
+  /** Another body in place of this one, which is given up. */
+  wear(body: Body): void {
     this.scene.remove(this.body.object)
     this.body.dispose()
     this.body = body
     this.scene.add(body.object)
-    this.light(surroundings)
+    this.lights.suit(body.shines)
   }
 
-  /** Light for the body that is there. */
-  light(surroundings: () => Texture): void {
-    this.lights.suit(this.body.shines ? surroundings() : null)
-  }
-
-  /** Brings everything to a time of the stage, for a picture of this shape, `elapsed` seconds after the one before. */
-  update(seconds: number, aspect: number, elapsed: number): void {
+  /** Brings everything to a time of the stage, in seconds. */
+  update(seconds: number): void {
     const time = this.timeOf(seconds)
     const { store, model } = this
     store.sample(time, this.pose)
@@ -78,9 +79,15 @@ export class Pane {
     this.body.show(this.pose)
     if (this.trails.object.visible) this.trails.update(time)
     if (this.bones.object.visible) this.bones.update()
-    this.camera.update(model, aspect, elapsed)
+    this.cameras = this.camera.view === 'hands' && this.hands.length > 0 ? this.hands : this.alone
     const root = 3 * Math.max(0, this.signer.joint('pelvis'))
     this.lights.follow(this.root.set(model.positions[root], model.positions[root + 1], model.positions[root + 2]))
+  }
+
+  /** Moves one of the cameras for a picture of this shape, `elapsed` seconds after the one before. */
+  aim(camera: SignerCamera, aspect: number, elapsed: number): void {
+    if (camera !== this.camera) camera.like(this.camera)
+    camera.update(this.model, aspect, elapsed)
   }
 
   dispose(): void {

@@ -1,5 +1,4 @@
-import { ACESFilmicToneMapping, PCFShadowMap, PMREMGenerator, WebGLRenderer, type Texture, type WebGLRenderTarget } from 'three'
-import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js'
+import { ACESFilmicToneMapping, PCFShadowMap, WebGLRenderer } from 'three'
 import { StudioFault } from '../api/fault'
 import type { View } from './camera'
 import type { Pane } from './pane'
@@ -24,15 +23,6 @@ export function signerRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
   return renderer
 }
 
-/** What a room looks like from its middle, for surfaces that shine; whoever asks gives it back. */
-export function roomFor(renderer: WebGLRenderer): WebGLRenderTarget {
-  const maker = new PMREMGenerator(renderer), room = new RoomEnvironment()
-  const target = maker.fromScene(room, 0.04)
-  room.dispose()
-  maker.dispose()
-  return target
-}
-
 /** Draws one or two motions in step on one canvas, only while something changes. */
 export class Stage {
   readonly panes: Pane[] = []
@@ -45,7 +35,6 @@ export class Stage {
   pictures = 0
   private readonly renderer: WebGLRenderer
   private readonly observer: ResizeObserver
-  private room?: WebGLRenderTarget
   private request = 0
   /** Of the picture before, ms of the page's clock. */
   private last = 0
@@ -84,7 +73,7 @@ export class Stage {
 
   /** Side by side where the canvas is wide, else one above the other. */
   get stacked(): boolean {
-    return this.width < this.height
+    return this.width <= this.height
   }
 
   /** Mean and most of the last pictures. */
@@ -93,12 +82,6 @@ export class Stage {
     let sum = 0, most = 0
     for (let i = 0; i < count; ++i) (sum += this.costs[i]), (most = Math.max(most, this.costs[i]))
     return { mean: count ? sum / count : 0, most, pictures: this.pictures }
-  }
-
-  /** What a room looks like from its middle, for surfaces that shine; made when first asked for. */
-  surroundings = (): Texture => {
-    this.room ??= roomFor(this.renderer)
-    return this.room.texture
   }
 
   /** How many geometries and textures the graphics card holds. */
@@ -113,7 +96,6 @@ export class Stage {
     this.canvas.removeEventListener('webglcontextrestored', this.restored)
     for (const pane of this.panes) pane.dispose()
     this.panes.length = 0
-    this.room?.dispose()
     this.renderer.dispose()
     // A browser gives a page some sixteen of these, and takes the oldest away where there are more.
     this.renderer.forceContextLoss()
@@ -121,9 +103,6 @@ export class Stage {
 
   private readonly lost = (): void => this.onLost?.(true)
   private readonly restored = (): void => {
-    this.room?.dispose()
-    this.room = undefined
-    for (const pane of this.panes) pane.light(this.surroundings)
     this.onLost?.(false)
     this.touch()
   }
@@ -143,20 +122,30 @@ export class Stage {
   private draw(seconds: number, elapsed: number): void {
     const { renderer, panes, width, height } = this
     const count = panes.length
-    if (count === 0) return renderer.clear()
+    if (count === 0) {
+      renderer.setScissorTest(false)
+      return renderer.clear()
+    }
     let waiting = false
     const stacked = this.stacked
     const w = stacked ? width : width / count, h = stacked ? height / count : height
-    renderer.setScissorTest(count > 1)
+    renderer.setScissorTest(true)
     for (let i = 0; i < count; ++i) {
       const pane = panes[i]
-      pane.update(seconds, w / h, elapsed)
+      pane.update(seconds)
       waiting ||= pane.waiting
-      if (!pane.camera.settled) this.dirty = true
       const x = stacked ? 0 : i * w, y = stacked ? (count - 1 - i) * h : 0
-      renderer.setViewport(x, y, w, h)
-      renderer.setScissor(x, y, w, h)
-      renderer.render(pane.scene, pane.camera.camera)
+      const shots = pane.cameras.length, part = w / shots
+      for (let k = 0; k < shots; ++k) {
+        const camera = pane.cameras[k]
+        pane.aim(camera, part / h, elapsed)
+        if (!camera.settled) this.dirty = true
+        renderer.setViewport(x + k * part, y, part, h)
+        renderer.setScissor(x + k * part, y, part, h)
+        // The second picture of a signer has the shadows of the first.
+        renderer.shadowMap.autoUpdate = k === 0
+        renderer.render(pane.scene, camera.camera)
+      }
       pane.seen ||= pane.body.object.visible
     }
     this.transport.held = waiting

@@ -18,7 +18,9 @@ const kViews = [
   { name: 'whole', hash: '#/demo/recording/meteo?at=9', keys: ['6'] },
   { name: 'video', hash: '#/demo/recording/villes?at=3' },
   { name: 'trails_skeleton', hash: '#/demo/recording/meteo?at=12.6', keys: ['t', 's', 'l', 'l', 'l', 'i', '+', '+', '+', '+', '+', 'g'] },
-  { name: 'server_figure', hash: '#/demo/recording/meteo?at=2.2', then: (page) => page.getByRole('button', { name: /figure/i }).click() },
+  { name: 'man', hash: '#/demo/recording/meteo?at=7.6', body: 'man' },
+  { name: 'drawn', hash: '#/demo/recording/meteo?at=2.2', body: 'drawn' },
+  { name: 'drawn_face', hash: '#/demo/recording/meteo?at=2.2', body: 'drawn', keys: ['5'] },
   { name: 'two_recordings', hash: '#/demo/recording/meteo?at=2.2&beside=villes' },
   { name: 'scenario_1', hash: kEdit, seek: 29.4, keys: ['+', '+', '+'] },
   { name: 'new_signing', hash: '#/demo/make' },
@@ -36,6 +38,7 @@ await withServer(site, async (address) => {
         const name = `${view.name}_${label}`
         if (only && !new RegExp(only).test(name)) continue
         const page = await context.newPage()
+        await page.addInitScript((body) => localStorage.setItem('signweave.body', body), view.body ?? 'woman')
         await page.goto(`${address}/${view.hash}`, { timeout: 120_000 })
         await opened(page, view.hash, true)
         if (view.seek !== undefined) await page.evaluate((to) => { const { transport } = window.signweaveStage; transport.pause(); transport.seek(to); window.signweaveStage.touch() }, view.seek)

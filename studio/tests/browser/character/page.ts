@@ -60,7 +60,7 @@ async function wear(url: string): Promise<{ ms: number; tracks: number }> {
   const pane = new Pane({ store, rig, originMs: 0, declarations: {} })
   pane.camera.look('front')
   const start = performance.now()
-  pane.wear((await CharacterModel.load(glb)).body(skeleton), stage.surroundings)
+  pane.wear((await CharacterModel.load(glb)).body(skeleton))
   stage.panes.push(pane)
   transport.duration = store.seconds
   stage.touch()

@@ -31,9 +31,11 @@ before(async () => {
 })
 after(() => over?.())
 
-async function visit(hash, size = { width: 1280, height: 720 }, whole = false) {
+/** Opens a page. What is not about characters is asked of the drawn body, which software draws quickly; null is what was chosen before. */
+async function visit(hash, { size = { width: 1280, height: 720 }, whole = false, body = 'drawn' } = {}) {
   await page?.close()
   page = await context.newPage()
+  if (body) await page.addInitScript((who) => localStorage.setItem('signweave.body', who), body)
   page.on('pageerror', (error) => faults.push(error.message))
   await page.setViewportSize(size)
   await page.goto(`${address}/${hash}`)
@@ -76,10 +78,7 @@ test('opens a recording by keyboard alone, and shows it before the whole motion 
 })
 
 test('draws the signer itself where the motion has it, when told to', async () => {
-  await visit('')
-  await page.evaluate(() => localStorage.setItem('signweave.body', 'drawn'))
   await visit('#/demo/recording/meteo?at=2.2')
-  await page.evaluate(() => localStorage.removeItem('signweave.body'))
   await drawn(page)
   for (const joint of ['RightHandMiddle1', 'LeftHandMiddle1']) {
     assert.ok(isSkin(await colorAtJoint(page, joint)), `${joint}: ${await colorAtJoint(page, joint)}`)
@@ -167,15 +166,19 @@ const apart = (pane = 0) => page.evaluate((index) => {
   }))
 }, pane)
 
-test('shows a character, by the names of its joints, with the face that was captured', async () => {
-  await visit('#/demo/recording/meteo?at=2.2')
+test('shows the first character, by the names of its joints, with the face that was captured', async () => {
+  await visit('')
+  await page.evaluate(() => localStorage.removeItem('signweave.body'))
+  await visit('#/demo/recording/meteo?at=2.2', { body: null })
   await drawn(page)
   const { joints, weights, character } = await page.evaluate(() => {
     const { body, motion } = window.signweaveStage.panes[0]
     return { joints: body.joints.filter(Boolean).length, weights: body.morphs.filter(({ influences, target }) => influences[target] !== 0).length, character: motion.character }
   })
-  assert.ok(joints > 80 && weights > 3, `${joints} joints, ${weights} weights`)
+  const { characters } = await (await fetch(`${address}/api/characters`)).json()
+  assert.equal(character, characters[0].name)
   assert.equal(await page.locator('.tools select').inputValue(), character)
+  assert.ok(joints > 80 && weights > 3, `${joints} joints, ${weights} weights`)
   assert.ok((await apart()) < 1e-3, `a joint is ${await apart()} m from where the motion has it`)
   for (const joint of ['finger3_1_L', 'finger3_1_R']) assert.ok(isSkin(await colorAtJoint(page, joint)), `${joint}: ${await colorAtJoint(page, joint)}`)
   assert.ok(!isSkin(await colorAtJoint(page, 'spine03')))
@@ -183,23 +186,66 @@ test('shows a character, by the names of its joints, with the face that was capt
 })
 
 test('lets the signer be chosen, keeps time and view, and remembers it', async () => {
-  await visit('#/demo/recording/meteo?at=2.2')
+  await visit('')
+  await page.evaluate(() => localStorage.setItem('signweave.body', 'drawn'))
+  await visit('#/demo/recording/meteo?at=2.2', { body: null })
   await page.keyboard.press('2')
   const who = page.locator('.tools select')
-  const all = await who.locator('option').allTextContents()
-  assert.deepEqual(all.toSorted(), ['Drawn', 'Man', 'Woman'])
-  await who.selectOption({ label: 'Drawn' })
-  await page.waitForFunction(() => window.signweaveStage.panes[0]?.body.bones && window.signweaveStage.panes[0].seen)
+  assert.deepEqual((await who.locator('option').allTextContents()).toSorted(), ['Drawn', 'Man', 'Woman'])
+  await who.selectOption('woman')
+  await page.waitForFunction(() => window.signweaveStage.panes[0]?.body.morphs && window.signweaveStage.panes[0].seen)
   near((await transport(page)).time, 2.2, 1e-6)
   near(await azimuth(page), Math.PI / 2)
-  await visit('#/demo/recording/meteo?at=2.2')
-  assert.equal(await page.evaluate(() => window.signweaveStage.panes[0].motion.character), undefined)
+  await visit('#/demo/recording/meteo?at=2.2', { body: null })
+  assert.equal(await page.evaluate(() => window.signweaveStage.panes[0].motion.character), 'woman')
+  const all = await who.locator('option').evaluateAll((options) => options.map(({ value }) => value))
   await page.keyboard.press('c')
-  await page.waitForFunction((first) => window.signweaveStage.panes[0]?.body.morphs && window.signweaveStage.panes[0].motion.character === first, all[0].toLowerCase())
+  const next = all[(all.indexOf('woman') + 1) % all.length]
+  await page.waitForFunction((name) => window.signweaveStage.panes[0] && (window.signweaveStage.panes[0].motion.character ?? 'drawn') === name, next)
+  assert.equal(await who.inputValue(), next)
+})
+
+test('shows both hands close up', async () => {
+  await visit('#/demo/recording/meteo?at=7.6')
+  await page.keyboard.press('4')
+  await drawn(page)
+  const seen = await page.evaluate(() => {
+    const { cameras, model, store } = window.signweaveStage.panes[0]
+    return ['RightHandMiddle1', 'LeftHandMiddle1'].map((name, k) => {
+      const j = store.skeleton.joints.findIndex((joint) => joint.name === name), p = model.positions, { camera } = cameras[k]
+      const at = camera.position.clone().set(p[3 * j], p[3 * j + 1], p[3 * j + 2])
+      return { x: at.clone().project(camera).x, y: at.clone().project(camera).y, far: camera.position.distanceTo(at) }
+    })
+  })
+  for (const { x, y, far } of seen) assert.ok(Math.abs(x) < 0.2 && Math.abs(y) < 0.2 && far < 1, JSON.stringify(seen))
+})
+
+test('keeps the hands in the frame, at rest and in signing', async () => {
+  await visit('#/demo/recording/meteo', { whole: true })
+  const outside = await page.evaluate(async () => {
+    const stage = window.signweaveStage, [pane] = stage.panes, found = []
+    const joints = pane.store.skeleton.joints.flatMap(({ name }, j) => (/Hand/.test(name) ? [j] : []))
+    for (let time = 0; time < stage.transport.duration; time += 2.3) {
+      stage.transport.seek(time)
+      for (let i = 0; i < 200; ++i) {
+        stage.touch()
+        const from = stage.pictures
+        while (stage.pictures === from) await new Promise(requestAnimationFrame)
+        if (pane.camera.settled) break
+      }
+      const { camera } = pane.camera, p = pane.model.positions
+      for (const j of joints) {
+        const { x, y } = camera.position.clone().set(p[3 * j], p[3 * j + 1], p[3 * j + 2]).project(camera)
+        if (Math.abs(x) > 1 || Math.abs(y) > 1) found.push([time, j, x, y])
+      }
+    }
+    return found
+  })
+  assert.deepEqual(outside, [])
 })
 
 test('shows an edited recording beside the original, sign by sign', async () => {
-  await visit('#/demo/edit/meteo?replace=BRETAGNE%3DVANNES&replace=MATIN%232%3DLE%20MANS')
+  await visit('#/demo/edit/meteo?replace=BRETAGNE%3DVANNES&replace=MATIN%232%3DLE%20MANS', { body: 'woman' })
   assert.deepEqual((await page.locator('.title').allTextContents()).map((text) => text.trim()), ['Recorded meteo', 'Made meteo'])
   const steps = await page.evaluate(() => [5, 29.3, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
   near(steps[0], 5, 1e-6)
@@ -357,7 +403,7 @@ for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
       const found = []
       for (const hash of ['#/demo', '#/demo/make', '#/demo/recording/meteo', '#/demo/recording/villes', '#/demo/edit/meteo?replace=BRETAGNE%3DVANNES', '#/demo/sign/VANNES', '#/demo/recording/nobody']) {
-        await visit(hash, size)
+        await visit(hash, { size })
         if (hash === '#/demo/recording/meteo') await page.keyboard.press('g')
         found.push(...(await axeFaults(page, kAxe)).map((fault) => `${hash}: ${fault}`))
         assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth), `${hash} is wider than the screen`)

@@ -1,11 +1,11 @@
 // Makes Scenario 1 as a film and as pictures, and tells how fast: render_film.mjs ADDRESS OUT_FOLDER
-// [CHARACTER] [VIEW] [film|pictures]. ADDRESS is a running `signweave serve DEMO.db --files SITE`. Look at the pictures at full size.
+// [CHARACTER] [VIEW] [film|pictures] [RATE]. ADDRESS is a running `signweave serve DEMO.db --files SITE`. Look at the pictures at full size.
 import { mkdirSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { withBrowser } from './chromium.mjs'
 import { kScenario1, withRenderer } from './render_page.mjs'
 
-const [address, out, character = '', view = 'front', only = ''] = process.argv.slice(2)
+const [address, out, character = '', view = 'front', only = '', rate = '30'] = process.argv.slice(2)
 mkdirSync(out, { recursive: true })
 const label = `${character || 'drawn'}_${view}`
 await withRenderer(address, async ({ run }) => withBrowser(async (context) => {
@@ -18,7 +18,7 @@ await withRenderer(address, async ({ run }) => withBrowser(async (context) => {
     for (const [name, body] of pictures.files) writeFileSync(join(out, `${label}_${name}`), body)
   }
   if (only === 'pictures') return
-  const film = await run(page, { ...kScenario1, character, view }, { timeout: 3_600_000 })
+  const film = await run(page, { ...kScenario1, character, view, rate: Number(rate) }, { timeout: 3_600_000 })
   tell(film)
   for (const [name, body] of film.files) writeFileSync(join(out, `${label}_${name}`), body), console.log(`${name}: ${body.length} bytes`)
 }))

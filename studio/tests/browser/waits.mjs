@@ -11,7 +11,14 @@ export async function opened(page, hash, whole = false) {
   }, whole && !/pace=live/.test(hash), { timeout: 90000 })
 }
 
-/** Until what was asked for is on the screen. */
+/** Until what was asked for is on the screen: the view has come, and what does not play is drawn no more. */
 export async function drawn(page) {
-  await page.waitForTimeout(900)
+  await page.waitForTimeout(300)
+  await page.waitForFunction(async () => {
+    const stage = window.signweaveStage
+    if (!stage || stage.transport.playing) return true
+    const from = stage.pictures
+    await new Promise((resolve) => setTimeout(resolve, 400))
+    return stage.pictures === from
+  }, null, { timeout: 90_000 })
 }

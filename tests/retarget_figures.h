@@ -23,16 +23,22 @@ struct RetargetFigures {
   std::vector<float> thumb;    ///< of a fingertip's distance to the thumb's, the difference, hand lengths
   std::vector<float> pinch;    ///< the same of those that are near the thumb there: within 0.12 hand lengths
   std::vector<float> height;   ///< of the palm in signer-centred space, the difference, shoulder widths
-  std::vector<float> held;     ///< the same, in the unit that the character's arms let it have
-  std::vector<float> place;    ///< of the whole place, in that unit
-  std::vector<float> inside;   ///< how deep a point of the hand lies in the body, metres
-  std::vector<float> wrist;    ///< between forearm and hand, degrees
-  std::vector<float> elbow;    ///< how far the elbow bends to the wrong side, as a share of the forearm; 0 or above
-  std::vector<float> step;     ///< of a joint's turn from one frame to the next, degrees
+  std::vector<float> held;     ///< the same, in the unit that the character's arms let it have, where the arm is bent
+  std::vector<float> place;    ///< of the whole place, in that unit, where the arm is bent
+  std::vector<float>
+      hanging;  ///< of the whole place where the arm is nearly straight: it stays so on arms of other lengths
+  std::vector<float> inside;  ///< how deep a point of the hand lies in the body, metres
+  std::vector<float> wrist;   ///< between forearm and hand, degrees
+  std::vector<float> elbow;   ///< how far the elbow bends to the wrong side, as a share of the forearm; 0 or above
+  std::vector<float> step;    ///< of a joint's turn from one frame to the next, degrees
 
   /// "NAME: palm 0.01 0.02 0.05°, …": median, 95th percentile and worst of each.
   std::string line(const std::string& name) const;
 };
+
+/// An arm whose wrist is nearer to the shoulder than this share of its length is bent: then the character's reaches the
+/// place, whatever its own lengths (see kStretchFrom and kMostRatio in retarget.cpp).
+inline constexpr float kBent = 0.9f / 1.14f;
 
 /// The value below which so much of them lies; `values` is not empty.
 inline float quantile(std::vector<float> values, double share) {
@@ -49,12 +55,10 @@ inline std::string RetargetFigures::line(const std::string& name) const {
   };
   return fmt::format(
       "{}: palm {} deg, hand {} deg, thumb {} hand lengths, near it {}, height {} widths, {} as its arms reach, place "
-      "{}, inside "
-      "{} mm, wrist {} "
-      "deg, elbow {}, step {} deg",
+      "{}, straight arms {}, inside {} mm, wrist {} deg, elbow {}, step {} deg",
       name, three(palm, 1, 2), three(fingers, 1, 2), three(thumb, 1, 3), three(pinch, 1, 3), three(height, 1, 3),
-      three(held, 1, 3), three(place, 1, 3), three(inside, 1000, 1), three(wrist, 1, 0), three(elbow, 1, 2),
-      three(step, 1, 1));
+      three(held, 1, 3), three(place, 1, 3), three(hanging, 1, 3), three(inside, 1000, 1), three(wrist, 1, 0),
+      three(elbow, 1, 2), three(step, 1, 1));
 }
 
 inline float degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
@@ -104,8 +108,16 @@ inline RetargetFigures measure_retargeting(const Motion& motion, const SignerMod
       }
       figures.height.push_back(std::abs(there.to_signer(palm_of(a)).y() - here.to_signer(palm_of(b)).y()));
       const Vector3f off = there.to_signer(palm_of(a)) - reached.to_signer(palm_of(b));
-      figures.held.push_back(std::abs(off.y()));
-      figures.place.push_back(off.norm());
+      const Part shoulder = of(side, Part::left_upper_arm);
+      const Part middle = of(side, Part::left_forearm);
+      const auto there_at = [&](Part part) { return position_of(signer.rig[part], from); };
+      const float arm = (there_at(middle) - there_at(shoulder)).norm() + (a.wrist - there_at(middle)).norm();
+      if ((a.wrist - there_at(shoulder)).norm() < kBent * arm) {
+        figures.held.push_back(std::abs(off.y()));
+        figures.place.push_back(off.norm());
+      } else {
+        figures.hanging.push_back(off.norm());
+      }
       float deepest = 0;
       for (const Finger finger : kFingers) {
         for (const FingerPoint point : {FingerPoint::proximal, FingerPoint::intermediate, FingerPoint::tip}) {
@@ -131,11 +143,11 @@ inline RetargetFigures measure_retargeting(const Motion& motion, const SignerMod
 }
 
 /// The character that studio/avatar has built, NAME.glb, or the plain variant: in the folder that SIGNWEAVE_CHARACTERS
-/// names, else in build/character. None where it was not built.
+/// names, else in build/characters. None where it was not built.
 inline std::optional<std::filesystem::path> built_character(const std::string& name, bool plain = false) {
   const char* told = std::getenv("SIGNWEAVE_CHARACTERS");
   const auto folder =
-      told != nullptr ? std::filesystem::path(told) : std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "build/character";
+      told != nullptr ? std::filesystem::path(told) : std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "build/characters";
   const auto path = folder / (name + (plain ? ".plain.glb" : ".glb"));
   return std::filesystem::exists(path) ? std::optional(path) : std::nullopt;
 }

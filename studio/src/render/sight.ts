@@ -1,5 +1,6 @@
 import { PerspectiveCamera, type Vector3 } from 'three'
 import type { OpenedMotion } from '../motion/source'
+import { facingOf, type Facing } from '../viewer/facing'
 import type { Proportions } from '../viewer/proportions'
 import { Framing, windowOf, type Axes, type Stand } from './framing'
 import { bustPoints, follow, handPoints, jointAlone } from './landmarks'
@@ -22,15 +23,15 @@ interface Picture { readonly lens: number; readonly width: number; readonly heig
  */
 export function sightsOf(motion: OpenedMotion, signer: Proportions, view: RenderView, picture: (shots: number) => Picture): Sight[] {
   const hands = (['right', 'left'] as const).map((side) => handPoints(motion, side)).filter(({ length }) => length > 0)
-  const { scale } = signer
+  const { scale } = signer, facing = facingOf(motion, signer)
   if (view === 'hands') {
     if (hands.length === 0) throw new Error('no hands are known of this motion’s joints: a view of them cannot be made')
-    return hands.map((hand) => new Sight(motion, signer, view, picture(hands.length),
+    return hands.map((hand) => new Sight(motion, facing, view, picture(hands.length),
       (framing) => framing.moving(follow(motion, hand), kAboutHands * scale, Math.round(kFollow * motion.store.rate))))
   }
   const body = [...bustPoints(motion, signer), ...hands.flat()]
   const seen = follow(motion, body.length > 0 ? body : motion.store.skeleton.joints.map((_, joint) => jointAlone(joint)))
-  return [new Sight(motion, signer, view, picture(1), (framing, { right }) => {
+  return [new Sight(motion, facing, view, picture(1), (framing, { right }) => {
     // From the front the body is in the middle, wherever the hands go; from the side all that is seen.
     const root = view === 'front' ? motion.rig.pelvis : undefined
     return [framing.still(seen, kFlesh * scale, root && meanAlong(follow(motion, [jointAlone(root.joint)]).places, right))]
@@ -44,7 +45,7 @@ export class Sight {
   private readonly stands: readonly Stand[]
   private readonly rate: number
 
-  constructor({ store }: OpenedMotion, private readonly signer: Proportions, view: RenderView, { lens, width, height, foot }: Picture,
+  constructor({ store }: OpenedMotion, private readonly signer: Facing, view: RenderView, { lens, width, height, foot }: Picture,
               stands: (framing: Framing, axes: Axes) => readonly Stand[]) {
     this.camera = new PerspectiveCamera(lens, width / height, 0.05, 50)
     this.rate = store.rate
@@ -67,7 +68,7 @@ export class Sight {
 }
 
 /** From the front, from the signer's right, or a little from above. */
-function axesOf(signer: Proportions, view: RenderView): Axes {
+function axesOf(signer: Facing, view: RenderView): Axes {
   const level = view === 'side' ? signer.left.clone().negate() : signer.front.clone()
   const above = view === 'hands' ? kAbove : 0
   const back = level.multiplyScalar(Math.cos(above)).addScaledVector(signer.up, Math.sin(above)).normalize()

@@ -1,5 +1,6 @@
 import { PerspectiveCamera, Vector3 } from 'three'
 import type { Kinematics } from '../motion/kinematics'
+import type { Facing } from './facing'
 import type { Proportions } from './proportions'
 
 export const kViews = ['front', 'left', 'right', 'hands', 'face', 'whole'] as const
@@ -45,7 +46,7 @@ export class SignerCamera {
   private readonly knuckles: number
 
   /** With a hand (0 left, 1 right) the view of the hands is of that one alone. */
-  constructor(private readonly signer: Proportions, hand?: 0 | 1) {
+  constructor(private readonly signer: Proportions, private readonly facing: Facing, hand?: 0 | 1) {
     const at = (part: string) => signer.at(part)?.dot(signer.up)
     const feet = Math.min(at('left_foot') ?? 0, at('right_foot') ?? 0)
     const pelvis = at('pelvis') ?? 0.9 * signer.scale
@@ -98,7 +99,7 @@ export class SignerCamera {
 
   /** Moves the camera for a picture of this shape, `elapsed` seconds after the one before; `model` must be up to date. */
   update(model: Kinematics, aspect: number, elapsed: number): void {
-    const { signer, wanted } = this
+    const { signer, facing, wanted } = this
     const place = model.positions
     let halfHeight = this.half.height, halfWidth = this.half.width
     if (this.view === 'hands' && this.knuckles >= 0) {
@@ -108,26 +109,26 @@ export class SignerCamera {
     } else if (this.view === 'hands' && this.wrists[0] >= 0 && this.wrists[1] >= 0) {
       const [l, r] = this.wrists
       wanted.set(place[3 * l] + place[3 * r], place[3 * l + 1] + place[3 * r + 1], place[3 * l + 2] + place[3 * r + 2]).multiplyScalar(0.5)
-      wanted.addScaledVector(signer.up, 0.04 * signer.scale)
+      wanted.addScaledVector(facing.up, 0.04 * signer.scale)
       this.along.set(place[3 * l] - place[3 * r], place[3 * l + 1] - place[3 * r + 1], place[3 * l + 2] - place[3 * r + 2])
       halfHeight = 0.18 * signer.scale + 0.5 * Math.abs(this.along.y)
       halfWidth = 0.17 * signer.scale + 0.5 * Math.hypot(this.along.x, this.along.z)
     } else if (this.view === 'face' && this.head >= 0) {
       const head = 3 * this.head
-      wanted.set(place[head], place[head + 1], place[head + 2]).addScaledVector(signer.up, this.toFace)
+      wanted.set(place[head], place[head + 1], place[head + 2]).addScaledVector(facing.up, this.toFace)
       halfHeight = 0.17 * signer.scale
       halfWidth = 0.14 * signer.scale
     } else {
       const root = 3 * this.root
       wanted.set(place[root], place[root + 1], place[root + 2])
-      wanted.addScaledVector(signer.up, this.view === 'whole' ? this.wholeHeight : this.height)
+      wanted.addScaledVector(facing.up, this.view === 'whole' ? this.wholeHeight : this.height)
       if (this.view === 'whole') halfHeight = this.wholeHalf
       // Hands that reach beyond take the frame with them.
       for (const wrist of this.wrists) {
         if (wrist < 0) continue
         this.along.set(place[3 * wrist], place[3 * wrist + 1], place[3 * wrist + 2]).sub(wanted)
-        halfHeight = Math.max(halfHeight, Math.abs(this.along.dot(signer.up)) + kHand * signer.scale)
-        const aside = this.along.dot(signer.left) * Math.cos(this.azimuth) - this.along.dot(signer.front) * Math.sin(this.azimuth)
+        halfHeight = Math.max(halfHeight, Math.abs(this.along.dot(facing.up)) + kHand * signer.scale)
+        const aside = this.along.dot(facing.left) * Math.cos(this.azimuth) - this.along.dot(facing.front) * Math.sin(this.azimuth)
         halfWidth = Math.max(halfWidth, Math.abs(aside) + kHand * signer.scale)
       }
     }
@@ -141,11 +142,11 @@ export class SignerCamera {
     this.fresh = false
     const flat = Math.cos(this.elevation)
     this.offset.set(0, 0, 0)
-      .addScaledVector(signer.left, Math.sin(this.azimuth) * flat)
-      .addScaledVector(signer.front, Math.cos(this.azimuth) * flat)
-      .addScaledVector(signer.up, Math.sin(this.elevation))
+      .addScaledVector(facing.left, Math.sin(this.azimuth) * flat)
+      .addScaledVector(facing.front, Math.cos(this.azimuth) * flat)
+      .addScaledVector(facing.up, Math.sin(this.elevation))
     this.camera.position.copy(this.target).addScaledVector(this.offset, this.distance)
-    this.camera.up.copy(signer.up)
+    this.camera.up.copy(facing.up)
     this.camera.lookAt(this.target)
     if (this.camera.aspect !== aspect) {
       this.camera.aspect = aspect

@@ -1,5 +1,5 @@
 import { DirectionalLight, HemisphereLight, type Scene, Vector3 } from 'three'
-import type { Proportions } from './proportions'
+import type { Facing } from './facing'
 
 /** Light as for signed video: the key from above and a little to the side, a weak fill, a rim that parts the arms from the body. */
 export class Lights {
@@ -9,7 +9,7 @@ export class Lights {
   private readonly sky = new HemisphereLight(0xe8f0ff, 0x6b6058, 1.25)
   private readonly from: Vector3
 
-  constructor(scene: Scene, private readonly signer: Proportions) {
+  constructor(scene: Scene, private readonly signer: Facing) {
     const { up, left, front, scale } = signer
     const { key, fill, rim, sky } = this
     this.from = new Vector3().addScaledVector(left, 0.9).addScaledVector(up, 1.5).addScaledVector(front, 1.9)

@@ -8,6 +8,7 @@ import { BonesOverlay } from './bones_overlay'
 import { SignerCamera } from './camera'
 import { DrawnBody } from './drawn_body'
 import { Lights } from './lights'
+import { facingOf, type Facing } from './facing'
 import { Proportions } from './proportions'
 import { Trails } from './trails'
 
@@ -16,6 +17,7 @@ export class Pane {
   readonly scene = new Scene()
   readonly store: FrameStore
   readonly signer: Proportions
+  readonly facing: Facing
   readonly camera: SignerCamera
   /** What the picture is taken with: the camera, or close up one for each hand, the right one first, as they are seen from the front. */
   cameras: readonly SignerCamera[]
@@ -39,15 +41,16 @@ export class Pane {
     this.store = motion.store
     const { skeleton } = motion.store
     this.signer = new Proportions(skeleton, motion.rig)
-    this.camera = new SignerCamera(this.signer)
+    this.facing = facingOf(motion, this.signer)
+    this.camera = new SignerCamera(this.signer, this.facing)
     this.cameras = this.alone = [this.camera]
-    this.hands = motion.store.hasHand[0] && motion.store.hasHand[1] ? [new SignerCamera(this.signer, 1), new SignerCamera(this.signer, 0)] : []
+    this.hands = motion.store.hasHand[0] && motion.store.hasHand[1] ? [new SignerCamera(this.signer, this.facing, 1), new SignerCamera(this.signer, this.facing, 0)] : []
     this.pose = restPose(skeleton)
     this.model = new Kinematics(skeleton)
     this.trails = new Trails(motion.store)
     this.bones = new BonesOverlay(skeleton, this.model)
     this.body = new DrawnBody(skeleton, motion.rig)
-    this.lights = new Lights(this.scene, this.signer)
+    this.lights = new Lights(this.scene, this.facing)
     this.lights.suit(false)
     this.scene.add(this.body.object, this.trails.object, this.bones.object)
     this.trails.object.visible = this.bones.object.visible = false

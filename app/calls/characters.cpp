@@ -19,11 +19,11 @@ constexpr std::string_view kPlainEnding = ".plain.glb";
 }  // namespace
 
 SharedCharacter read_character_file(const fs::path& path) {
-  CharacterFile file{.name = path.filename().string(), .path = path, .plain = path, .character = read_character(path)};
-  const bool plain = file.name.ends_with(kPlainEnding);
-  file.name.resize(file.name.size() - (plain                          ? kPlainEnding.size()
-                                       : file.name.ends_with(kEnding) ? kEnding.size()
-                                                                      : 0));
+  std::string name = path.filename().string();
+  const bool plain = name.ends_with(kPlainEnding);
+  const std::string_view ending = plain ? kPlainEnding : name.ends_with(kEnding) ? kEnding : std::string_view();
+  name.erase(name.size() - ending.size());
+  CharacterFile file{.name = std::move(name), .path = path, .plain = path, .character = read_character(path)};
   if (!plain) {
     fs::path beside = path;
     beside.replace_extension(kPlainEnding);

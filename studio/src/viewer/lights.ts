@@ -38,8 +38,10 @@ export class Lights {
    * sky alone: a picture of a room, blurred for every roughness, took a computer that draws by software twenty seconds.
    */
   suit(real: boolean): void {
-    this.sky.intensity = real ? 1.5 : 1.25
-    this.rim.intensity = real ? 0.6 : 1.5
+    // Dark cloth takes little: more sky and rim, so that arms stand out before the body.
+    this.sky.intensity = real ? 2.1 : 1.25
+    this.fill.intensity = real ? 1.1 : 0.7
+    this.rim.intensity = real ? 1.6 : 1.5
     const { shadow } = this.key
     shadow.normalBias = real ? 0.004 : 0.012
     shadow.bias = real ? -0.0004 : -0.0006

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -151,6 +152,24 @@ json task_of(const RenderArguments& given, const std::string& database, const st
           {"put", put}};
 }
 
+volatile std::sig_atomic_t interrupted = 0;
+
+/// While it lives, SIGINT and SIGTERM are told by `interrupted`, so that the browser is ended, too.
+class Interrupts {
+ public:
+  Interrupts() : int_(std::signal(SIGINT, note)), term_(std::signal(SIGTERM, note)) {}
+  Interrupts(const Interrupts&) = delete;
+  ~Interrupts() {
+    std::signal(SIGINT, int_);
+    std::signal(SIGTERM, term_);
+  }
+
+ private:
+  static void note(int) { interrupted = 1; }
+  void (*int_)(int);
+  void (*term_)(int);
+};
+
 /// Waits until the page has said that it is done; its last words.
 json wait_for(Browser& browser, const fs::path& folder, Io& io) {
   Progress progress(io, "drawing");
@@ -177,6 +196,7 @@ json wait_for(Browser& browser, const fs::path& folder, Io& io) {
       throw Error(ErrorCode::io,
                   fmt::format("the browser has drawn nothing for two minutes: {}", browser.last_words()));
     }
+    if (interrupted != 0) throw Error(ErrorCode::cancelled, "stopped before it was drawn; nothing was written");
     std::this_thread::sleep_for(20ms);
   }
 }
@@ -220,11 +240,28 @@ calls::Characters characters_of(const RenderArguments& given) {
   return fs::is_directory(beside) ? calls::Characters(beside) : calls::Characters();
 }
 
-void run_render(const RenderArguments& given, Io& io) {
+/// What would have no effect is told, not passed over.
+void check(const RenderArguments& given) {
   const Drawn& drawn = given.drawn;
   if (drawn.utterance.empty() == drawn.recording.empty()) {
     throw CLI::RequiredError("either UTTERANCE or --recording");
   }
+  const bool edits = !drawn.replace.empty() || !drawn.swap.empty();
+  const bool part = drawn.from || drawn.to;
+  if (drawn.recording.empty() && (edits || part)) {
+    throw Error(ErrorCode::bad_input, "--replace, --swap, --from and --to belong to a --recording");
+  }
+  if (edits && part) {
+    throw Error(ErrorCode::bad_input,
+                "--from and --to draw a part of a recording as it is; --at takes moments of an edit");
+  }
+  if (!given.at.empty() && !fold_case(given.output).ends_with(".png")) {
+    throw Error(ErrorCode::bad_input, "--at is for pictures: name them -o FILE.png");
+  }
+}
+
+void run_render(const RenderArguments& given, Io& io) {
+  check(given);
   if (!fs::is_regular_file(fs::path(given.studio) / "render.html")) {
     throw Error(ErrorCode::not_found,
                 fmt::format("{}: no built studio in this folder (render.html); build it with studio/build FOLDER",
@@ -251,6 +288,7 @@ void run_render(const RenderArguments& given, Io& io) {
                             "/api/renders/" + databases.render->id);
   json said;
   {
+    const Interrupts interrupts;
     Browser browser(browser_program, server.url() + "/render.html#" + percent_encoded(task.dump()), scratch.path());
     said = wait_for(browser, drawn_here, io);
   }

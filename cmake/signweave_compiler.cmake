@@ -13,6 +13,7 @@ add_library(signweave_flags INTERFACE)
 target_compile_options(signweave_flags INTERFACE -pthread -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wold-style-cast
                        -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
 if(SIGNWEAVE_SANITIZE)
+  add_compile_definitions(SIGNWEAVE_SANITIZED)  # for tests of limits that a sanitizer has no room in
   add_compile_options(-fsanitize=${SIGNWEAVE_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${SIGNWEAVE_SANITIZE})
   # Instrumented code confuses GCC's flow analysis; the release build has the warning.
@@ -26,6 +27,11 @@ if(SIGNWEAVE_SANITIZE)
   endif()
 endif()
 
+if(SIGNWEAVE_FUZZ)
+  # What libFuzzer goes by. Tracing every comparison too would make the tests of this build take twice as long.
+  add_compile_options(-fsanitize-coverage=inline-8bit-counters,pc-table)
+endif()
+
 # Tests are compiled for speed of compiling: what they test is not.
 add_library(signweave_test_flags INTERFACE)
 target_link_libraries(signweave_test_flags INTERFACE signweave_flags GTest::gmock GTest::gtest_main rapidcheck
@@ -33,10 +39,9 @@ target_link_libraries(signweave_test_flags INTERFACE signweave_flags GTest::gmoc
 # GCC 12 takes some short std::string copies at low optimisation for writes out of bounds (its bug 105329 and others).
 target_compile_options(signweave_test_flags INTERFACE
                        -O1 $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-restrict>)
-# Undefined behaviour and coverage are looked for in what is tested: in the tests it doubles the time of compiling.
+# Undefined behaviour is looked for in what is tested: in the tests it doubles the time of compiling.
 if(SIGNWEAVE_SANITIZE MATCHES "undefined")
-  target_compile_options(signweave_test_flags INTERFACE
-                         -fno-sanitize=undefined $<$<CXX_COMPILER_ID:Clang>:-fno-sanitize=fuzzer-no-link>)
+  target_compile_options(signweave_test_flags INTERFACE -fno-sanitize=undefined)
 endif()
 target_compile_definitions(signweave_test_flags INTERFACE SIGNWEAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                            SIGNWEAVE_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")

@@ -78,21 +78,16 @@ SignerStance stance_of(const Database& database, const RecordingInfo& recording)
     source->read({frame, frame + 1}, some.poses({i, i + 1}));
   }
   SignerModel signer = model_of(some, recording.rig);
-  const float ground = ground_of(some, signer.rig);
-  return {std::move(signer), ground};
+  return {std::move(signer), std::move(some)};
 }
 
 Motion on_character(const Motion& motion, const SignerStance& stance, const Character& character,
                     std::vector<Notice>& notices) {
-  Retargeter retargeter(motion.skeleton(), stance.signer, character,
-                        {.ground = stance.ground, .face_joints = motion.tracks().empty()});
-  Motion shown(character.skeleton, motion.rate(), motion.frame_count());
-  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
-    retargeter.pose(motion.pose(frame), shown.pose(frame));
-  }
-  for (const ScalarTrack& track : motion.tracks()) shown.add_track(track);
-  notices.insert(notices.end(), retargeter.notices().begin(), retargeter.notices().end());
-  return shown;
+  RetargetOptions options = options_for(stance.frames, stance.signer, character);
+  options.face_joints = motion.tracks().empty();
+  Retargeted shown = retarget(motion, stance.signer, character, options);
+  notices.insert(notices.end(), shown.notices.begin(), shown.notices.end());
+  return std::move(shown.motion);
 }
 
 }  // namespace signweave::calls

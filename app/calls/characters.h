@@ -50,7 +50,7 @@ class Characters {
 /// every part of it is put onto a character alike.
 struct SignerStance {
   SignerModel signer;
-  float ground = 0;  ///< y, metres
+  Motion frames;  ///< those, without tracks
 };
 /// Throws Error{corrupt}, Error{not_found} where the recording has no motion.
 SignerStance stance_of(const Database& database, const RecordingInfo& recording);

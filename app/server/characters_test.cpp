@@ -62,9 +62,23 @@ Frames frames_in(const ApiResponse& response) {
   return frames;
 }
 
-calls::SharedCharacter made_character(const std::filesystem::path& file = "woman.glb") {
+calls::SharedCharacter made_character(const std::filesystem::path& file = "woman.glb",
+                                      const std::shared_ptr<const Skeleton>& skeleton = whole_person()) {
   return std::make_shared<const calls::CharacterFile>(
-      calls::CharacterFile{.name = "woman", .path = file, .plain = file, .character = character_of(whole_person())});
+      calls::CharacterFile{.name = "woman", .path = file, .plain = file, .character = character_of(skeleton)});
+}
+
+constexpr float kAnkle = 0.08F;  ///< metres above the floor
+
+std::shared_ptr<const Skeleton> person_on_feet() {
+  const std::shared_ptr<const Skeleton> person = whole_person();
+  std::vector<Joint> joints(person->joints().begin(), person->joints().end());
+  for (const std::string side : {"Left", "Right"}) {
+    joints.push_back({side + "Leg", *person->find(side + "UpLeg"), {0, -0.42F, 0}, false});
+    joints.push_back(
+        {side + "Foot", static_cast<JointIndex>(joints.size()) - 1, {0, -0.95F + 0.46F + kAnkle, 0}, false});
+  }
+  return std::make_shared<const Skeleton>(std::move(joints), std::vector(person->tips().begin(), person->tips().end()));
 }
 
 TestApi& reading() {
@@ -149,6 +163,18 @@ TEST(Characters, MotionsComeInTheirJoints) {
   const std::string bvh =
       reading().send("POST", at({"sign"}), {{"utterance", "VANNES"}, {"character", "woman"}, {"format", "bvh"}}).body;
   EXPECT_THAT(bvh, HasSubstr("JOINT " + last_joint));
+}
+
+TEST(Characters, StandOnTheirFeetWhereTheSignerDoes) {
+  TestApi api(false);
+  api.served().characters = calls::Characters(made_character("woman.glb", person_on_feet()));
+  const Character& character = api.served().characters.at("woman")->character;
+  const Frames shown =
+      frames_in(api.get(at({"recordings", "villes", "motion"}), {{"format", "frames"}, {"character", "woman"}}));
+  for (std::size_t frame = 0; frame < shown.poses.size(); frame += 500) {
+    const ModelPose pose = to_model_space(*character.skeleton, shown.poses[frame].view());
+    EXPECT_NEAR(position_of(character.rig[Part::left_foot], pose).y(), kAnkle, 0.01F) << frame;
+  }
 }
 
 TEST(Characters, StreamsShowThem) {

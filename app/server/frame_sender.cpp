@@ -272,8 +272,9 @@ void FrameSender::announce() {
       out_.send_text(error_text(error.code(), error.what(), {}));
       return stop();
     }
-    retargeter_.emplace(*header->skeleton, stance->signer, character_->character,
-                        RetargetOptions{.ground = stance->ground, .face_joints = header->tracks.empty()});
+    RetargetOptions options = options_for(stance->frames, stance->signer, character_->character);
+    options.face_joints = header->tracks.empty();
+    retargeter_.emplace(*header->skeleton, stance->signer, character_->character, options);
     told.skeleton = character_->character.skeleton;
     shown_ = Pose(*told.skeleton);
   }

@@ -91,6 +91,14 @@ struct Retargeted {
   std::vector<Notice> notices;
 };
 Retargeted retarget(const Motion& motion, const SignerModel& signer, const Character& character);
+/// The same with options, such as those of a whole of which the motion is a part: a part then comes out as in the
+/// whole, to the bit.
+Retargeted retarget(const Motion& motion, const SignerModel& signer, const Character& character,
+                    const RetargetOptions& options);
+
+/// What a motion, or frames spread over it, tells of how it is to be put onto a character: where the floor is, and
+/// whether collar bones go along by themselves.
+RetargetOptions options_for(const Motion& motion, const SignerModel& signer, const Character& character);
 
 /// Whether the collar bones turn against the chest at all (more than 2°): else a character's take a share of the arm's
 /// turn, since shoulders that stay behind look broad.

@@ -51,7 +51,7 @@ float ground_of(const Motion& motion, const RigMap& rig) {
   return *middle;
 }
 
-Retargeted retarget(const Motion& motion, const SignerModel& signer, const Character& character) {
+RetargetOptions options_for(const Motion& motion, const SignerModel& signer, const Character& character) {
   RetargetOptions options{.face_joints = motion.tracks().empty(), .collar_share = !collars_move(motion, signer.rig)};
   // An ankle stands above the floor by some of the leg, as the character's does.
   const RigAxes axes(motion.skeleton(), signer.rig);
@@ -62,13 +62,23 @@ Retargeted retarget(const Motion& motion, const SignerModel& signer, const Chara
   if (legs > 0.05f && source_legs > 0.05f && signer.rig.has(Part::left_foot)) {
     options.ground = ground_of(motion, signer.rig) - ankle * source_legs / legs;
   }
+  return options;
+}
+
+Retargeted retarget(const Motion& motion, const SignerModel& signer, const Character& character,
+                    const RetargetOptions& options) {
   Retargeter retargeter(motion.skeleton(), signer, character, options);
   Retargeted result{Motion(character.skeleton, motion.rate(), motion.frame_count()), retargeter.notices()};
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
     retargeter.pose(motion.pose(frame), result.motion.pose(frame));
   }
-  keep_hemisphere(result.motion);
   for (const ScalarTrack& track : motion.tracks()) result.motion.add_track(track);
+  return result;
+}
+
+Retargeted retarget(const Motion& motion, const SignerModel& signer, const Character& character) {
+  Retargeted result = retarget(motion, signer, character, options_for(motion, signer, character));
+  keep_hemisphere(result.motion);
   return result;
 }
 

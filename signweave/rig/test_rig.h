@@ -46,7 +46,9 @@ inline RigMap rig_of_signer(const Skeleton& skeleton) {
                                {of(side, Part::left_upper_arm), name + "Arm"},
                                {of(side, Part::left_forearm), name + "ForeArm"},
                                {of(side, Part::left_hand), name + "Hand"},
-                               {of(side, Part::left_thigh), name + "UpLeg"}});
+                               {of(side, Part::left_thigh), name + "UpLeg"},
+                               {of(side, Part::left_shin), name + "Leg"},
+                               {of(side, Part::left_foot), name + "Foot"}});
     for (const Finger finger : kFingers) {
       for (int i = 1; i <= 3; ++i) {
         names.emplace_back(finger_part(side, finger, static_cast<FingerPoint>(i)),

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "signweave/core/time.h"
+#include "signweave/features/hand_trace.h"
+#include "signweave/features/phase_features.h"
+#include "signweave/features/point_track.h"
+#include "signweave/semantic_db/segment_table.h"
+
+namespace signweave {
+
+// How a query gets at movement without knowing where it is stored: `Movement`, which `database` implements. What is
+// measured of the hands is a column of floats for each measure, computed by `measure_rows` when a recording is put.
+
+/// What is measured of one hand over one segment. Stored on disk: never renumber.
+enum class Measure : std::uint8_t {
+  speed = 0,              ///< the peak, metres a second
+  mean_speed = 1,         ///< metres a second
+  acceleration = 2,       ///< the peak of its length, metres a second squared
+  mean_acceleration = 3,  ///< of its length, metres a second squared
+  path = 4,               ///< its length, metres
+  displacement = 5,       ///< straight from begin to end, metres
+  contact = 6,            ///< a set of Contact as a number: all that is touched at some moment
+  begin_x = 7,            ///< at the first frame: to the signer's left, shoulder widths
+  begin_height = 8,       ///< up
+  begin_forward = 9,
+  begin_state = 10,  ///< see `state_number`
+  end_x = 11,        ///< at the last frame
+  end_height = 12,
+  end_forward = 13,
+  end_state = 14,
+  distance = 15,        ///< of the palms from each other, the least, metres; one column for both hands, as are these:
+  begin_distance = 16,  ///< at the first frame
+  end_distance = 17,    ///< at the last
+};
+inline constexpr std::size_t kHandMeasures = 15;
+
+/// One column: a measure of a hand, or one of both (then `side` does not matter).
+struct Column {
+  Measure measure = Measure::speed;
+  Side side = Side::right;
+};
+inline constexpr std::size_t kMovementColumns = 2 * kHandMeasures + 3;
+/// Its place among all columns, below kMovementColumns: left hand's, right hand's, both hands'. Stored on disk.
+constexpr std::size_t place_of(Column column) noexcept {
+  const auto measure = static_cast<std::size_t>(column.measure);
+  if (measure >= kHandMeasures) return kHandMeasures + measure;
+  return static_cast<std::size_t>(column.side) * kHandMeasures + measure;
+}
+
+inline constexpr float kNotKnown = std::numeric_limits<float>::quiet_NaN();
+
+/// A hand's state and zone as one whole number below 2^20, which a float holds exactly. Bits from the lowest: 7
+/// openness, 3 Contact, 3 Facing of the palm, 3 of the fingers, 3 Height, 1 Reach.
+std::uint32_t state_number(const HandState& state, Zone zone) noexcept;
+struct StateAndZone {
+  HandState state;
+  Height height = Height::chest;
+  Reach reach = Reach::near;
+};
+StateAndZone state_of(std::uint32_t number) noexcept;
+
+/// What `measure_rows` has to know of a row.
+struct MovementRow {
+  RowKind kind = RowKind::annotation;
+  PhaseKind phase = PhaseKind::other;  ///< of a phase
+  RowId parent = kNoRow;               ///< of a phase: the place of its sign in the same list
+  TimeSpan span{};
+};
+
+/// The columns of some rows, [place_of(column)][row], kNotKnown where nothing is known.
+using MovementColumns = std::array<std::vector<float>, kMovementColumns>;
+
+/// The columns of one recording. Phases have what `features` says of them (one entry for each phase row, in order),
+/// and from the trace what features lack (peak acceleration, contact at any moment, the hands' least distance); signs
+/// have it over their strokes; every other row has it from the trace. Numbers of a sign are known where those of each
+/// of its strokes are. A row that the motion holds in part has those of that part, as phases have.
+MovementColumns measure_rows(std::span<const MovementRow> rows, const RecordingFeatures& features,
+                             const HandTrace& trace, const FrameClock& clock);
+
+/// The movement of what a segment table lists, by the table's own numbers of rows and recordings. Immutable, so that
+/// threads may share it.
+class Movement {
+ public:
+  virtual ~Movement() = default;
+
+  /// One number for each row of the table, kNotKnown where nothing is known of it; or empty: nothing is stored, ask for
+  /// the trace. Valid as long as this object.
+  virtual std::span<const float> column(Column column) const = 0;
+  /// Metres; 0 where it is not known.
+  virtual float shoulder_width(std::uint32_t recording) const = 0;
+  virtual FrameClock clock(std::uint32_t recording) const = 0;
+  /// The hands of a recording; never null, but perhaps empty (`why_not`).
+  virtual std::shared_ptr<const HandTrace> hands(std::uint32_t recording) const = 0;
+  /// Points of the body over some frames of a recording, as `track_points` gives them, computed from the motion.
+  virtual std::vector<PointTrack> points(std::uint32_t recording, std::span<const Part> parts,
+                                         FrameRange range) const = 0;
+};
+
+/// The frames of a segment within a motion of so many, as features are measured over: one frame where it is shorter
+/// than that; empty where it lies outside.
+FrameRange measured_frames(TimeSpan span, const FrameClock& clock, std::int64_t frames) noexcept;
+
+}  // namespace signweave

@@ -1,0 +1,217 @@
+#include "signweave/features/hand_trace.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+// A trace, before it is sealed:
+//
+//     u16  kTraceVersion
+//     text why there is nothing (empty: there is)
+//     i64  numerator, denominator of the motion's rate
+//     i64  frames, step
+//     f32  shoulder width, metres; f32 × 7 lower borders of the heights from waist up; f32 near reach
+//     u8   bits of the points that there are, left palm lowest
+//     for each of them: 16 bytes a sample (TraceSample)
+
+namespace signweave {
+namespace {
+
+using Eigen::Vector3f;
+
+/// Of a frame whose numbers are none.
+constexpr std::int16_t kNoNumber = std::numeric_limits<std::int16_t>::min();
+constexpr float kLargest = std::numeric_limits<std::int16_t>::max();
+constexpr float kOpenness = 127;
+
+std::int16_t rounded(float value, float unit) noexcept {
+  return static_cast<std::int16_t>(std::lround(std::clamp(value / unit, -kLargest, kLargest)));
+}
+
+std::uint16_t packed(const HandState& state) noexcept {
+  const auto openness = static_cast<unsigned>(std::lround(std::clamp(state.openness, 0.0f, 1.0f) * kOpenness));
+  return static_cast<std::uint16_t>(openness | static_cast<unsigned>(state.contact) << 7U |
+                                    static_cast<unsigned>(state.palm) << 10U |
+                                    static_cast<unsigned>(state.fingers) << 13U);
+}
+
+HandState unpacked(std::uint16_t bits) noexcept {
+  return {.openness = static_cast<float>(bits & 127U) / kOpenness,
+          .contact = static_cast<Contact>(bits >> 7U & 7U),
+          .palm = static_cast<Facing>(bits >> 10U & 7U),
+          .fingers = static_cast<Facing>(bits >> 13U & 7U)};
+}
+
+TraceSample sample_of(const PointFrame& frame) noexcept {
+  TraceSample sample;
+  if (!frame.position.allFinite() || !frame.velocity.allFinite() || !std::isfinite(frame.acceleration)) {
+    sample.position.fill(kNoNumber);
+    return sample;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    sample.position[i] = rounded(frame.position[axis], TraceSample::kPosition);
+    sample.velocity[i] = rounded(frame.velocity[axis], TraceSample::kVelocity);
+  }
+  constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
+  sample.acceleration =
+      static_cast<std::uint16_t>(std::lround(std::clamp(frame.acceleration / TraceSample::kAcceleration, 0.0f, kMost)));
+  sample.state = packed(frame.state);
+  return sample;
+}
+
+PointFrame frame_of(const TraceSample& sample) noexcept {
+  PointFrame frame;
+  if (sample.position[0] == kNoNumber) {
+    frame.position.setConstant(std::numeric_limits<float>::quiet_NaN());
+    frame.velocity = frame.position;
+    frame.acceleration = frame.position[0];
+    return frame;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    frame.position[axis] = static_cast<float>(sample.position[i]) * TraceSample::kPosition;
+    frame.velocity[axis] = static_cast<float>(sample.velocity[i]) * TraceSample::kVelocity;
+  }
+  frame.acceleration = static_cast<float>(sample.acceleration) * TraceSample::kAcceleration;
+  frame.state = unpacked(sample.state);
+  return frame;
+}
+
+std::size_t samples_for(std::int64_t frames, std::int64_t step) noexcept {
+  return frames <= 0 ? 0 : static_cast<std::size_t>((frames - 1 + step - 1) / step + 1);
+}
+
+std::int64_t step_for(FrameRate rate) noexcept {
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(rate.hertz() / kTraceHertz - 1e-3)));
+}
+
+constexpr std::array kTips = {finger_part(Side::left, Finger::index, FingerPoint::tip),
+                              finger_part(Side::right, Finger::index, FingerPoint::tip)};
+
+/// What is not drawn is not kept either.
+SignerBody shape_of(const SignerBody& body) {
+  return {.shoulder_width = body.shoulder_width, .heights = body.heights, .near_reach = body.near_reach};
+}
+
+}  // namespace
+
+std::size_t HandTrace::samples() const noexcept {
+  return why_not.empty() ? samples_for(frames, step) : 0;
+}
+
+PointTrack HandTrace::track(TracePoint point, FrameRange range) const {
+  PointTrack result;
+  const std::vector<TraceSample>& all = (*this)[point];
+  if (all.empty()) return result;
+  assert(0 <= range.begin && range.end <= frames);
+  result.reserve(static_cast<std::size_t>(std::max<std::int64_t>(range.size(), 0)));
+  for (std::int64_t frame = range.begin; frame < range.end; ++frame) {
+    const auto low = static_cast<std::size_t>(frame / step);
+    const std::int64_t at = frame - static_cast<std::int64_t>(low) * step;
+    PointFrame here = frame_of(all[std::min(low, all.size() - 1)]);
+    if (at > 0) {
+      const std::int64_t gap = std::min(step, frames - 1 - static_cast<std::int64_t>(low) * step);
+      const PointFrame next = frame_of(all[std::min(low + 1, all.size() - 1)]);
+      const float part = static_cast<float>(at) / static_cast<float>(gap);
+      here.position += part * (next.position - here.position);
+      here.velocity += part * (next.velocity - here.velocity);
+      here.acceleration += part * (next.acceleration - here.acceleration);
+      if (2 * at > gap) here.state = next.state;
+    }
+    result.push_back(here);
+  }
+  return result;
+}
+
+HandTrace trace_hands(const Motion& motion, const SignerModel& model) {
+  HandTrace trace{.rate = motion.rate(), .frames = motion.frame_count(), .step = step_for(motion.rate())};
+  const HandMotion first = measure_hands(motion, model, {0, 1});
+  if (motion.frame_count() == 0) {
+    trace.why_not = "the motion has no frame";
+  } else if (!first.hands[0].why_not.empty() && !first.hands[1].why_not.empty()) {
+    trace.why_not = first.hands[1].why_not;
+  }
+  if (!trace.why_not.empty()) return trace;
+  trace.shoulder_width = model.body->shoulder_width;
+  trace.body = shape_of(*model.body);
+  const std::size_t samples = samples_for(trace.frames, trace.step);
+  for (std::vector<TraceSample>& points : trace.points) points.reserve(samples);
+  // Some at a time: what is measured of a frame is large.
+  constexpr std::int64_t kBlock = 2048;
+  for (std::int64_t begin = 0; begin < trace.frames; begin += kBlock) {
+    const FrameRange block{begin, std::min(begin + kBlock, trace.frames)};
+    const HandMotion hands = measure_hands(motion, model, block);
+    const std::vector<PointTrack> tips = track_points(motion, model, kTips, block);
+    for (std::int64_t frame = block.begin; frame < block.end; ++frame) {
+      if (frame % trace.step != 0 && frame != trace.frames - 1) continue;
+      const auto at = static_cast<std::size_t>(frame - block.begin);
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (hands.hands[side].why_not.empty()) {
+          trace.points[side].push_back(sample_of(point_of(hands.hands[side].frames[at])));
+        }
+        if (!tips[side].empty()) trace.points[2 + side].push_back(sample_of(tips[side][at]));
+      }
+    }
+  }
+  return trace;
+}
+
+void encode(const HandTrace& trace, ByteWriter& out) {
+  out.number(kTraceVersion);
+  out.text(trace.why_not);
+  out.number(trace.rate.numerator);
+  out.number(trace.rate.denominator);
+  out.number(trace.frames);
+  out.number(trace.step);
+  out.number(trace.shoulder_width);
+  for (std::size_t i = 1; i < trace.body.heights.size(); ++i) out.number(trace.body.heights[i]);
+  out.number(trace.body.near_reach);
+  unsigned bits = 0;
+  for (std::size_t i = 0; i < kTracePoints; ++i) bits |= trace.points[i].empty() ? 0U : 1U << i;
+  out.number(static_cast<std::uint8_t>(bits));
+  for (const std::vector<TraceSample>& points : trace.points) out.raw(std::as_bytes(std::span(points)));
+}
+
+std::optional<HandTrace> decode_trace(ByteReader& in) {
+  if (in.number<std::uint16_t>() != kTraceVersion) return std::nullopt;
+  HandTrace trace;
+  trace.why_not = in.text();
+  trace.rate.numerator = in.number<std::int64_t>();
+  trace.rate.denominator = in.number<std::int64_t>();
+  trace.frames = in.number<std::int64_t>();
+  trace.step = in.number<std::int64_t>();
+  if (trace.rate.numerator <= 0 || trace.rate.denominator <= 0) in.fail("a rate that is none");
+  if (trace.frames < 0 || trace.frames > std::numeric_limits<std::int64_t>::max() / 2 || trace.step < 1 ||
+      trace.step > std::numeric_limits<std::int32_t>::max()) {
+    in.fail("frames that cannot be");
+  }
+  const auto number = [&](float& value) {
+    value = in.number<float>();
+    if (!std::isfinite(value)) in.fail("a size that is no number");
+  };
+  number(trace.shoulder_width);
+  trace.body.shoulder_width = trace.shoulder_width;
+  trace.body.heights[0] = -std::numeric_limits<float>::infinity();
+  for (std::size_t i = 1; i < trace.body.heights.size(); ++i) number(trace.body.heights[i]);
+  number(trace.body.near_reach);
+  const auto bits = in.number<std::uint8_t>();
+  if (bits >> kTracePoints != 0) in.fail("points that do not exist");
+  const std::size_t samples = trace.samples();
+  if (samples > in.left() / sizeof(TraceSample) && bits != 0) in.fail("fewer samples than frames");
+  for (std::size_t i = 0; i < kTracePoints; ++i) {
+    if ((bits >> i & 1U) == 0) continue;
+    const ByteSpan bytes = in.take(samples * sizeof(TraceSample));
+    trace.points[i].resize(samples);
+    if (samples > 0) std::memcpy(trace.points[i].data(), bytes.data(), bytes.size());
+    for (const TraceSample& sample : trace.points[i]) {
+      if ((sample.state >> 10U & 7U) == 7 || sample.state >> 13U == 7) in.fail("a facing that does not exist");
+    }
+  }
+  in.finish();
+  return trace;
+}
+
+}  // namespace signweave

@@ -60,6 +60,9 @@ struct LinkedFile {
   friend bool operator==(const LinkedFile&, const LinkedFile&) = default;
 };
 
+/// The format of the bytes that a document was read from.
+enum class SourceFormat { eaf, anvil };
+
 /// Everything in one annotation file that we model. What we do not model stays in `source` and is carried through when
 /// the document is written again (formats/eaf.h).
 struct AnnotationDocument {
@@ -71,6 +74,8 @@ struct AnnotationDocument {
   std::vector<TierType> types;
   std::vector<Tier> tiers;
   std::string source;  ///< the file's bytes as read; empty for a document made by us
+  SourceFormat source_format = SourceFormat::eaf;
+  std::string specification;  ///< of ANVIL: the bytes of the specification that it was read with; else empty
 
   const Tier* find_tier(std::string_view id) const noexcept {
     for (const Tier& tier : tiers) {

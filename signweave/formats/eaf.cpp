@@ -1,9 +1,6 @@
 #include "signweave/formats/eaf.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/formats/eaf_edit.h"
@@ -16,46 +13,6 @@ namespace signweave::eaf {
 File read(const std::filesystem::path& path) {
   return read_text(path.string(), read_file(path));
 }
-
-namespace {
-
-/// Written out, at least; nearly no file does, and that is soon known.
-bool holds_control_characters(std::string_view text) noexcept {
-  unsigned char found = 0;  // without branches, so that the compiler looks at many letters at once
-  for (const char letter : text) {
-    const auto code = static_cast<unsigned char>(letter);
-    found |= static_cast<unsigned char>((code < 0x20) & (code != '\t') & (code != '\n') & (code != '\r'));
-  }
-  return found != 0;
-}
-
-/// XML cannot hold control characters, written out or as references; the parser lets them pass, and would cut a label
-/// at &#0;.
-void refuse_control_characters(const Xml& xml) {
-  const std::string_view text = xml.text();
-  if (!xml.has_references() && !holds_control_characters(text)) return;
-  std::size_t line = 1;
-  std::size_t plain_until = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned code = static_cast<unsigned char>(text[i]);
-    if (code == '\n') ++line;
-    if (i >= plain_until) {  // in comments and CDATA a reference means nothing
-      if (text.substr(i, 4) == "<!--") plain_until = text.find("-->", i);
-      if (text.substr(i, 9) == "<![CDATA[") plain_until = text.find("]]>", i);
-    }
-    if (i >= plain_until && text.substr(i, 2) == "&#") {
-      const bool hexadecimal = text.substr(i + 2, 1) == "x";
-      const char* begin = text.data() + i + (hexadecimal ? 3 : 2);
-      if (std::from_chars(begin, text.data() + text.size(), code, hexadecimal ? 16 : 10).ec != std::errc()) code = '?';
-    }
-    if (code >= 0x20 || code == '\t' || code == '\n' || code == '\r') continue;
-    throw Error(ErrorCode::bad_input,
-                fmt::format("{}:{}: a control character (\\x{:02x}), which XML cannot hold; take it out", xml.name(),
-                            line, code));
-  }
-}
-
-}  // namespace
 
 File read_text(std::string name, std::string_view text) {
   const Xml xml(std::move(name), text);
@@ -98,7 +55,7 @@ bool is_unchanged(const FileParts& old, const AnnotationDocument& now) {
 }  // namespace
 
 std::string write_text(const AnnotationDocument& document) {
-  if (document.source.empty()) return generate(check(document));
+  if (document.source.empty() || document.source_format != SourceFormat::eaf) return generate(check(document));
   const Xml xml("the document's source", document.source);
   const FileParts old = parse(xml);
   if (is_unchanged(old, document)) return document.source;

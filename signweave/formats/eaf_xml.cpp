@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 
 #include "signweave/core/text.h"
@@ -99,15 +100,25 @@ std::string declared_encoding(std::string_view bytes) {
   return name == "UTF-8" ? "utf-8" : fold_case(name);
 }
 
+/// Written out, at least; nearly no file does, and that is soon known.
+bool holds_control_characters(std::string_view text) noexcept {
+  unsigned char found = 0;  // without branches, so that the compiler looks at many letters at once
+  for (const char letter : text) {
+    const auto code = static_cast<unsigned char>(letter);
+    found |= static_cast<unsigned char>((code < 0x20) & (code != '\t') & (code != '\n') & (code != '\r'));
+  }
+  return found != 0;
+}
+
 }  // namespace
 
-Xml::Xml(std::string name, std::string_view bytes) : name_(std::move(name)) {
-  decode(bytes);
+Xml::Xml(std::string name, std::string_view bytes, std::string_view wanted) : name_(std::move(name)) {
+  decode(bytes, wanted);
   // Blank labels are labels: without ws_pcdata they would be dropped.
   const pugi::xml_parse_result result =
       document_.load_buffer(text_.data(), text_.size(), pugi::parse_full | pugi::parse_ws_pcdata, pugi::encoding_utf8);
   if (result.status == pugi::status_no_document_element) {
-    fail_at(0, "there is no XML element in it; give an EAF file as ELAN saves it");
+    fail_at(0, fmt::format("there is no XML element in it; give {}", wanted));
   }
   if (result.status != pugi::status_ok) {
     const auto offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0));
@@ -117,12 +128,12 @@ Xml::Xml(std::string name, std::string_view bytes) : name_(std::move(name)) {
   }
 }
 
-void Xml::decode(std::string_view bytes) {
+void Xml::decode(std::string_view bytes, std::string_view wanted) {
   using namespace std::string_view_literals;
   text_ = bytes;
   const std::string_view unmarked = bytes.starts_with(kUtf8Mark) ? bytes.substr(kUtf8Mark.size()) : bytes;
   if (trimmed(unmarked).empty()) {
-    throw Error(ErrorCode::bad_input, fmt::format("{}: is empty; give an EAF file as ELAN saves it", name_));
+    throw Error(ErrorCode::bad_input, fmt::format("{}: is empty; give {}", name_, wanted));
   }
   Encoding encoding = encoding_by_bytes(bytes);
   const std::string declared = encoding.width == 0 ? declared_encoding(bytes) : std::string();
@@ -133,7 +144,7 @@ void Xml::decode(std::string_view bytes) {
   }
   const std::string_view start = trimmed(text_.substr(text_.starts_with(kUtf8Mark) ? kUtf8Mark.size() : 0));
   if (text_.find('\0') != std::string_view::npos || !start.starts_with('<')) {
-    fail_at(0, "this is no XML; give an EAF file as ELAN saves it");
+    fail_at(0, fmt::format("this is no XML; give {}", wanted));
   }
   has_references_ = text_.find("&#") != std::string_view::npos;
   if (is_utf8(text_)) return;
@@ -211,6 +222,30 @@ void Xml::fail_at(std::size_t offset, std::string_view what) const {
 
 Notice Xml::notice(pugi::xml_node node, std::string_view what) const {
   return {where(node), std::string(what)};
+}
+
+void refuse_control_characters(const Xml& xml) {
+  const std::string_view text = xml.text();
+  if (!xml.has_references() && !holds_control_characters(text)) return;
+  std::size_t line = 1;
+  std::size_t plain_until = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = static_cast<unsigned char>(text[i]);
+    if (code == '\n') ++line;
+    if (i >= plain_until) {  // in comments and CDATA a reference means nothing
+      if (text.substr(i, 4) == "<!--") plain_until = text.find("-->", i);
+      if (text.substr(i, 9) == "<![CDATA[") plain_until = text.find("]]>", i);
+    }
+    if (i >= plain_until && text.substr(i, 2) == "&#") {
+      const bool hexadecimal = text.substr(i + 2, 1) == "x";
+      const char* begin = text.data() + i + (hexadecimal ? 3 : 2);
+      if (std::from_chars(begin, text.data() + text.size(), code, hexadecimal ? 16 : 10).ec != std::errc()) code = '?';
+    }
+    if (code >= 0x20 || code == '\t' || code == '\n' || code == '\r') continue;
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}:{}: a control character (\\x{:02x}), which XML cannot hold; take it out", xml.name(),
+                            line, code));
+  }
 }
 
 std::string escaped(std::string_view text, std::string_view what) {

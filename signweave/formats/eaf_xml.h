@@ -10,16 +10,16 @@
 
 namespace signweave::eaf {
 
-/// The XML of one EAF file as a tree that knows its lines. For the eaf_*.cpp files only.
+/// The XML of one annotation file as a tree that knows its lines. For the eaf_*.cpp and anvil*.cpp files only.
 ///
 /// Encodings: UTF-8 (with or without a byte order mark), UTF-16 and UTF-32 (by mark, or by the zero bytes of "<"), and
 /// ISO-8859-1 where the XML declaration says so. Entities that a DOCTYPE defines are not expanded: "&lol;" stays the
 /// five letters it is, so a bomb of entities is harmless.
 class Xml {
  public:
-  /// Parses `bytes`, which must outlive this. `name` stands for the file in errors.
+  /// Parses `bytes`, which must outlive this. `name` stands for the file in errors, `wanted` for what to give instead.
   /// Throws Error{bad_input, "NAME:LINE: …"} for what is empty, binary, cut off or no XML.
-  Xml(std::string name, std::string_view bytes);
+  Xml(std::string name, std::string_view bytes, std::string_view wanted = "an EAF file as ELAN saves it");
   Xml(const Xml&) = delete;
   Xml& operator=(const Xml&) = delete;
 
@@ -47,7 +47,7 @@ class Xml {
 
  private:
   [[noreturn]] void fail_at(std::size_t offset, std::string_view what) const;
-  void decode(std::string_view bytes);
+  void decode(std::string_view bytes, std::string_view wanted);
   const std::vector<std::size_t>& line_starts() const;
   std::size_t line_at(std::size_t offset) const;
   std::string where(pugi::xml_node node) const;
@@ -61,6 +61,10 @@ class Xml {
   mutable pugi::xml_node last_node_;  ///< whose attribute was asked for last
   mutable pugi::xml_attribute last_attribute_;
 };
+
+/// XML cannot hold control characters, written out or as references; the parser lets them pass, and would cut a label
+/// at &#0;. Throws Error{bad_input, "NAME:LINE: …"} where there is one.
+void refuse_control_characters(const Xml& xml);
 
 /// `text` as it stands in XML between tags or in a quoted attribute. Throws Error{bad_input} for what XML cannot hold:
 /// bytes that are not UTF-8, and control characters; `what` names the text.

@@ -1,0 +1,72 @@
+#include "signweave/formats/annotation_file.h"
+
+#include "signweave/core/atomic_file.h"
+#include "signweave/core/bytes.h"
+#include "signweave/core/text.h"
+#include "signweave/formats/anvil.h"
+
+namespace signweave::annotation_file {
+namespace {
+
+/// The name of the first element, for ASCII names in any of the encodings that are read: in the wide ones the letters
+/// stand among zeros.
+std::string root_name(std::string_view text) {
+  constexpr std::size_t kMost = std::size_t{1} << 20;  // a prolog is short
+  std::string plain(text.substr(0, kMost));
+  std::erase(plain, '\0');
+  for (std::size_t at = plain.find('<'); at != std::string::npos; at = plain.find('<', at)) {
+    const std::string_view rest = std::string_view(plain).substr(at);
+    std::size_t skip = 0;
+    if (rest.starts_with("<?")) {
+      skip = rest.find("?>");
+    } else if (rest.starts_with("<!--")) {
+      skip = rest.find("-->");
+    } else if (rest.starts_with("<!")) {  // a DOCTYPE, whose own declarations stand in brackets
+      const std::size_t bracket = rest.find_first_of("[>");
+      skip = bracket == rest.npos || rest[bracket] == '>' ? bracket : rest.find("]", bracket);
+    } else {
+      return std::string(rest.substr(1, rest.find_first_of(" \t\r\n/>", 1) - 1));
+    }
+    if (skip == rest.npos) break;
+    at += skip;
+  }
+  return {};
+}
+
+}  // namespace
+
+bool is_name(const std::filesystem::path& path) {
+  const std::string ending = fold_case(path.extension().string());
+  return ending == ".eaf" || ending == ".anvil";
+}
+
+SourceFormat format_of(std::string_view text) {
+  return root_name(text) == "annotation" ? SourceFormat::anvil : SourceFormat::eaf;
+}
+
+File read(const std::filesystem::path& path) {
+  return fold_case(path.extension().string()) == ".anvil" ? anvil::read(path) : eaf::read(path);
+}
+
+File read_text(std::string name, std::string_view text, std::string_view specification) {
+  if (format_of(text) == SourceFormat::eaf) return eaf::read_text(std::move(name), text);
+  return anvil::read_text(std::move(name), text, specification);
+}
+
+std::uint64_t fingerprint(const std::filesystem::path& path) {
+  const std::uint64_t print = file_checksum(path);
+  if (fold_case(path.extension().string()) != ".anvil") return print;
+  std::filesystem::path beside;
+  try {
+    beside = anvil::specification_of(path);
+  } catch (const Error& error) {  // reading it tells what is wrong
+    if (error.code() != ErrorCode::bad_input) throw;
+  }
+  if (beside.empty()) return print;
+  ByteWriter both;
+  both.number(print);
+  both.number(file_checksum(beside));
+  return checksum(both.bytes());
+}
+
+}  // namespace signweave::annotation_file

@@ -8,6 +8,7 @@ void tell_damage(const Database& database, const Listener& listener) {
 
 void learn(Database& database, const Listener& listener) {
   try {
+    database.merge();
     database.learn();
   } catch (const Error& error) {
     listener.blame(std::string("weights of the selection: ").append(error.what()));

@@ -57,7 +57,7 @@ void info_of_database(const std::string& folder, Io& io) {
     std::size_t signs = 0;
     const SegmentTable::RowRange range = contents.segments.recording_rows(static_cast<std::uint32_t>(i));
     for (RowId row = range.begin; row < range.end; ++row)
-      signs += contents.segments.row(row).kind == RowKind::sign ? 1 : 0;
+      signs += contents.segments.kind(row) == RowKind::sign ? 1 : 0;
     std::vector<std::string> row = {info.name, info.signer};
     if (info.motion) {
       const motion_db::StoredMotion& motion = *info.motion;

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "signweave/database/catalogue.h"
 #include "signweave/database/check_listener.h"
 #include "signweave/database/measure.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/database/tables.h"
+#include "signweave/formats/annotation_file.h"
 #include "signweave/semantic_db/semantic_db.h"
+#include "signweave/semantic_db/table_store.h"
 
 namespace signweave {
 namespace {
@@ -17,7 +21,12 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
                     CheckListener& listener) {
   const std::string source = semantic_db::read_document(snapshot, info.document, info.name);
   const SegmentChunk stored = semantic_db::read_segments(snapshot, info.document, info.name);
-  const AnnotationDocument document = eaf::read_text(info.annotation_file, source).document;
+  if (const std::string fault = semantic_db::fault_of_document(snapshot, info.document, info.name); !fault.empty()) {
+    listener.fault(fault);
+  }
+  const std::string specification = semantic_db::read_specification(snapshot, info.document, info.name);
+  const AnnotationDocument document =
+      annotation_file::read_text(info.annotation_file, source, specification).document;
   const SegmentChunk made = segments_of(document, signs_in(document, info.tiers).signs);
   ByteWriter stored_bytes;
   ByteWriter made_bytes;
@@ -48,6 +57,30 @@ void check_weights(const Database& database, const kv::ReadTransaction& snapshot
   }
 }
 
+/// The segment tables say what the recordings' own segments do.
+void check_tables(const std::shared_ptr<const kv::ReadTransaction>& snapshot, CheckListener& listener) {
+  const auto fault = [&](std::string_view what) {
+    listener.fault(fmt::format("segment tables: {}; the next import or removal makes them anew", what));
+  };
+  try {
+    const std::optional<Segments> stored = semantic_db::read_tables(snapshot);
+    std::vector<std::string> faults;
+    const Segments made(tables::table_of_all(*snapshot, faults));
+    if (!stored || !faults.empty()) return;  // none yet; or what is damaged is told of already
+    const auto whole = [](const Segments& segments) {
+      std::vector<SegmentTable::Part> parts;
+      for (std::uint32_t i = 0; i < segments.recording_count(); ++i) parts.push_back(segments.part(i));
+      return SegmentTable::merged(parts);
+    };
+    const SegmentTable one = whole(*stored);
+    const SegmentTable other = whole(made);
+    if (!std::ranges::equal(one.bytes(), other.bytes())) fault("they are not what the recordings' segments are");
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::corrupt) throw;
+    fault("a stored record is damaged");
+  }
+}
+
 class Collect : public CheckListener {
  public:
   explicit Collect(const Database::Progress& progress) : progress_(progress) {}
@@ -68,7 +101,7 @@ class Collect : public CheckListener {
 }  // namespace
 
 void check_slots(const Database& database, std::uint32_t first, CheckListener& listener) {
-  const std::unique_ptr<kv::ReadTransaction> snapshot = database.store_->read();
+  const std::shared_ptr<const kv::ReadTransaction> snapshot = database.store_->read();
   const std::uint32_t recordings = catalogue::read_head(*snapshot).recordings;
   listener.begin(recordings);
   for (std::uint32_t slot = first; slot < recordings; ++slot) {
@@ -88,6 +121,7 @@ void check_slots(const Database& database, std::uint32_t first, CheckListener& l
       listener.fault(error.what());
     }
   }
+  check_tables(snapshot, listener);
   check_weights(database, *snapshot, listener);
   try {
     catalogue::read_sweep_list(*snapshot);

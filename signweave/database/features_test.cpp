@@ -58,11 +58,11 @@ TEST(Features, AreStoredForEveryPhaseInTheOrderOfItsRows) {
     EXPECT_GT(phase.hands[1].peak_speed, 0.1f);
     EXPECT_LT(phase.hands[0].peak_speed, 0.01f);
   }
-  const SegmentTable& table = scene.database->contents()->segments;
+  const Segments table = scene.database->contents()->segments;
   std::size_t at = 0;
-  for (RowId row = 0; row < table.rows().size(); ++row) {
-    if (table.row(row).kind != RowKind::phase) continue;
-    const auto ms = static_cast<float>(table.row(row).span.duration().count());
+  for (RowId row = 0; row < table.row_count(); ++row) {
+    if (table.kind(row) != RowKind::phase) continue;
+    const auto ms = static_cast<float>(table.span(row).duration().count());
     EXPECT_NEAR(features.phases[at++].seconds, ms / 1000, 0.011f);
   }
   expect_current(*scene.database, "a");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "signweave/database/catalogue.h"
 #include "signweave/database/database.h"
@@ -12,13 +13,13 @@
 namespace signweave {
 namespace {
 
-RecordingJoins joins_of(const SegmentTable& table, std::uint32_t recording, const RecordingFeatures& features) {
+RecordingJoins joins_of(const Segments& table, std::uint32_t recording, const RecordingFeatures& features) {
   RecordingJoins joins;
   joins.why_not = features.why_not;
   const std::vector<std::vector<std::size_t>> places = phase_places_of(table, recording);
   const SegmentTable::RowRange rows = table.recording_rows(recording);
   for (RowId row = rows.begin; row < rows.end; ++row) {
-    if (table.row(row).kind != RowKind::sign) continue;
+    if (table.kind(row) != RowKind::sign) continue;
     SignJoin join{.row = row};
     const std::vector<std::size_t>& phases = places[joins.signs.size()];
     const PhaseFeatures* first = nullptr;
@@ -27,21 +28,20 @@ RecordingJoins joins_of(const SegmentTable& table, std::uint32_t recording, cons
     std::size_t at = 0;
     float path = 0;  // since the first stroke, of what lies between strokes too
     for (const RowId child : table.children(row)) {
-      const SegmentRow& phase = table.row(child);
-      if (phase.kind != RowKind::phase) continue;
+      if (table.kind(child) != RowKind::phase) continue;
       const std::size_t place = at < phases.size() ? phases[at++] : features.phases.size();
       if (place >= features.phases.size()) continue;
       const PhaseFeatures& measured = features.phases[place];
-      const bool stroke = phase.phase == PhaseKind::stroke;
+      const bool stroke = table.phase(child) == PhaseKind::stroke;
       if (first == nullptr && !stroke) continue;
       for (const HandOver& hand : measured.hands) path += hand.path_length;
       if (!stroke) continue;
       if (first == nullptr) {
         first = &measured;
-        strokes = phase.span;
+        strokes = table.span(child);
       }
       last = &measured;
-      strokes.end = phase.span.end;
+      strokes.end = table.span(child).end;
       join.path = path;
     }
     if (first != nullptr) {
@@ -139,18 +139,19 @@ class Learner {
 
   /// Other tokens of its gloss, evenly from all; of a gloss that has none, other signs.
   std::vector<const SignJoin*> others(const SignJoin& sign, std::size_t seed) const {
-    const SegmentRow& own = table_.row(sign.row);
+    const std::uint32_t own = table_.recording(sign.row);
+    const TimeSpan own_span = table_.span(sign.row);
     std::vector<const SignJoin*> all;
-    const std::span<const RowId> tokens = table_.with_label(RowKind::sign, own.label);
+    const std::vector<RowId>& tokens = tokens_of(table_.label(sign.row));
     for (std::size_t i = 0; i < tokens.size(); i += step_of(tokens.size(), kMostLookedAt)) {
       const RowId row = tokens[i];
-      const SegmentRow& other = table_.row(row);
-      if (!joins_[other.recording]) continue;
+      const std::uint32_t other = table_.recording(row);
+      if (!joins_[other]) continue;
       // The same sign on the other hand's tier is no other token.
-      const bool same =
-          other.recording == own.recording && other.span.begin < own.span.end && own.span.begin < other.span.end;
+      const TimeSpan span = table_.span(row);
+      const bool same = other == own && span.begin < own_span.end && own_span.begin < span.end;
       if (row == sign.row || same) continue;
-      const SignJoin* join = joins_[other.recording]->find(row);
+      const SignJoin* join = joins_[other]->find(row);
       if (join != nullptr && join->begin.known != 0) all.push_back(join);
     }
     std::vector<const SignJoin*> some;
@@ -163,7 +164,14 @@ class Learner {
     return some;
   }
 
-  const SegmentTable& table_;
+  const std::vector<RowId>& tokens_of(std::string_view gloss) const {
+    const auto [at, added] = tokens_.try_emplace(gloss);
+    if (added) at->second = table_.signs_with(gloss);
+    return at->second;
+  }
+
+  const Segments& table_;
+  mutable std::map<std::string_view, std::vector<RowId>> tokens_;
   std::vector<std::shared_ptr<const RecordingJoins>> joins_;  ///< [recording], null: not looked at
   std::vector<Pair> pairs_;
   std::vector<const SignJoin*> signs_;  ///< that are known
@@ -181,26 +189,26 @@ const SignJoin* RecordingJoins::find(RowId row) const noexcept {
   return at != signs.end() && at->row == row ? &*at : nullptr;
 }
 
-RowId neighbour_before(const SegmentTable& table, RowId sign) noexcept {
-  const SegmentRow& own = table.row(sign);
-  const SegmentTable::RowRange rows = table.tier_rows(own.recording, own.tier);
+RowId neighbour_before(const Segments& segments, RowId sign) noexcept {
+  const TimeSpan own = segments.span(sign);
+  const SegmentTable::RowRange rows = segments.tier_rows_of(sign);
   for (RowId row = sign; row-- > rows.begin;) {
-    const SegmentRow& before = table.row(row);
-    if (before.kind != RowKind::sign) continue;
-    if (before.span.end > own.span.begin || before.span.duration() <= Milliseconds(0)) continue;
-    return own.span.begin - before.span.end < kRest ? row : kNoRow;
+    if (segments.kind(row) != RowKind::sign) continue;
+    const TimeSpan before = segments.span(row);
+    if (before.end > own.begin || before.duration() <= Milliseconds(0)) continue;
+    return own.begin - before.end < kRest ? row : kNoRow;
   }
   return kNoRow;
 }
 
-RowId neighbour_after(const SegmentTable& table, RowId sign) noexcept {
-  const SegmentRow& own = table.row(sign);
-  const SegmentTable::RowRange rows = table.tier_rows(own.recording, own.tier);
+RowId neighbour_after(const Segments& segments, RowId sign) noexcept {
+  const TimeSpan own = segments.span(sign);
+  const SegmentTable::RowRange rows = segments.tier_rows_of(sign);
   for (RowId row = sign + 1; row < rows.end; ++row) {
-    const SegmentRow& after = table.row(row);
-    if (after.kind != RowKind::sign) continue;
-    if (after.span.begin < own.span.end || after.span.duration() <= Milliseconds(0)) continue;
-    return after.span.begin - own.span.end < kRest ? row : kNoRow;
+    if (segments.kind(row) != RowKind::sign) continue;
+    const TimeSpan after = segments.span(row);
+    if (after.begin < own.end || after.duration() <= Milliseconds(0)) continue;
+    return after.begin - own.end < kRest ? row : kNoRow;
   }
   return kNoRow;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "signweave/features/join.h"
-#include "signweave/semantic_db/segment_table.h"
+#include "signweave/semantic_db/segments.h"
 
 namespace signweave {
 
@@ -30,10 +30,10 @@ struct RecordingJoins {
 
 /// The sign row of the same tier that goes on to this one: the nearest before it, less than kRest away. kNoRow where
 /// there is none.
-RowId neighbour_before(const SegmentTable& table, RowId sign) noexcept;
+RowId neighbour_before(const Segments& segments, RowId sign) noexcept;
 
 /// The one that goes on from this one, likewise.
-RowId neighbour_after(const SegmentTable& table, RowId sign) noexcept;
+RowId neighbour_after(const Segments& segments, RowId sign) noexcept;
 
 /// What the corpus teaches of joins, from 256 recordings and 1,024 pairs of neighbours at most, evenly from all: those
 /// that were recorded one after the other are to be told from others. A recorded pair is judged as if it were not known

@@ -65,7 +65,7 @@ TEST(Joins, NeighboursFollowEachOtherOnOneTier) {
   const Corpus corpus(2);
   const Database database = corpus.open(kv::Access::read_only);
   const Snapshot snapshot = database.snapshot();
-  const SegmentTable& table = snapshot.contents().segments;
+  const Segments& table = snapshot.contents().segments;
   const std::shared_ptr<const RecordingJoins> joins = snapshot.joins(1);
   EXPECT_EQ(neighbour_before(table, joins->signs[0].row), kNoRow);
   EXPECT_EQ(neighbour_before(table, joins->signs[1].row), joins->signs[0].row);

@@ -26,17 +26,17 @@ auto order_of(const Match& match) noexcept {
 }
 
 std::string name_of(const SegmentTable& table, RowId id) {
-  const SegmentRow& row = table.row(id);
-  const std::string& label = table.labels()[row.label];
-  if (row.kind != RowKind::phase) return label;
-  const std::string& gloss = table.labels()[table.row(row.parent).label];
+  const SegmentRow row = table.row(id);
+  const std::string_view label = table.text_at(row.label);
+  if (row.kind != RowKind::phase) return std::string(label);
+  const std::string_view gloss = table.text_at(table.label(row.parent));
   return fmt::format("{} {}", gloss, row.phase == PhaseKind::other ? label : word_of(row.phase));
 }
 
 class Search {
  public:
-  Search(const PhaseQuery& query, const SegmentTable& table, const FindLimits& limits)
-      : table_(table), limits_(limits), watch_(limits), query_(bind(query, table, watch_)) {
+  Search(const PhaseQuery& query, const Segments::Member& member, const FindLimits& limits)
+      : member_(member), table_(member.table), limits_(limits), watch_(limits), query_(bind(query, table_, watch_)) {
     rows_.resize(query_.elements.size());
     for (const BoundQuery::BoundElement& element : query_.elements) {
       partners_.emplace_back(element.relations.size());
@@ -46,28 +46,28 @@ class Search {
     single_ = query_.elements.size() == 1 && query_.elements.front().relations.empty();
   }
 
-  std::vector<Segment> run() {
+  /// Appends what is in this table.
+  void run(std::vector<Segment>& result) {
     watch_.check();
     const Plan chosen = plan(query_);
     start_ = chosen.element;
     std::uint32_t recording = 0;
     for (const RowId row : first_rows(chosen)) {
-      if (const std::uint32_t next = table_.row(row).recording; next != recording) {
+      if (const std::uint32_t next = table_.recording(row); next != recording) {
         if (full()) break;
         recording = next;
       }
+      if (!member_.whole && member_.numbers[recording] == Segments::kNone) continue;
       if (!query_.elements[start_].matcher.accepts(row)) continue;
       rows_[start_] = row;
       place_after(start_ + 1);
     }
     tidy();
-    std::vector<Segment> result;
-    result.reserve(matches_.size());
+    result.reserve(result.size() + matches_.size());
     for (const Match& match : matches_) {
       watch_.tick();
       result.push_back(segment_of(match));
     }
-    return result;
   }
 
  private:
@@ -81,7 +81,7 @@ class Search {
       const SegmentRow& row = table_.row(partner);
       for_rows_around(table_, row.recording, row.span, [&](RowId other) {
         watch_.tick();
-        if (other != partner && related(table_.row(other).span, relation.link, row.span)) result.push_back(other);
+        if (other != partner && related(table_.span(other), relation.link, row.span)) result.push_back(other);
         return true;
       });
     }
@@ -133,7 +133,7 @@ class Search {
     std::vector<RowId> result;
     for_rows_around(table_, from.recording, from.span, [&](RowId other) {
       watch_.tick();
-      if (other == row || !related(from.span, relation.link, table_.row(other).span)) return true;
+      if (other == row || !related(from.span, relation.link, table_.span(other))) return true;
       if (!relation.marked && !result.empty() && !earlier(other, result.front())) return true;
       if (!relation.matcher.accepts(other)) return true;
       if (!relation.marked) result.clear();
@@ -144,16 +144,16 @@ class Search {
   }
 
   bool earlier(RowId a, RowId b) const noexcept {
-    const TimeSpan one = table_.row(a).span;
-    const TimeSpan other = table_.row(b).span;
+    const TimeSpan one = table_.span(a);
+    const TimeSpan other = table_.span(b);
     return std::tie(one.begin, one.end, a) < std::tie(other.begin, other.end, b);
   }
 
   void keep() {
     Match match;
-    match.recording = table_.row(rows_.front()).recording;
+    match.recording = table_.recording(rows_.front());
     match.row = rows_.front();
-    match.span = {table_.row(rows_.front()).span.begin, table_.row(rows_.back()).span.end};
+    match.span = {table_.begin(rows_.front()), table_.end(rows_.back())};
     for (std::size_t e = 0; e < rows_.size() && !single_; ++e) {
       match.parts.push_back(rows_[e]);
       if (query_.elements[e].marked) answer_with(rows_[e], match);
@@ -174,7 +174,7 @@ class Search {
 
   void answer_with(RowId row, Match& match) const noexcept {
     match.row = row;
-    match.span = table_.row(row).span;
+    match.span = table_.span(row);
   }
 
   /// The answer is one row, not a sequence.
@@ -199,11 +199,11 @@ class Search {
 
   Segment segment_of(const Match& match) const {
     Segment result;
-    result.recording = table_.recordings()[match.recording];
+    result.recording = table_.recording_at(match.recording);
     result.span = match.span;
-    result.row = match.row;
+    result.row = match.row + member_.first;
     for (const RowId row : match.parts) {
-      result.parts.push_back({row, name_of(table_, row), table_.row(row).span});
+      result.parts.push_back({row + member_.first, name_of(table_, row), table_.span(row)});
     }
     if (one_row()) {
       result.name = name_of(table_, match.row);
@@ -218,6 +218,7 @@ class Search {
     return result;
   }
 
+  const Segments::Member& member_;
   const SegmentTable& table_;
   const FindLimits& limits_;
   Watch watch_;
@@ -232,8 +233,14 @@ class Search {
 
 }  // namespace
 
-std::vector<Segment> find(const PhaseQuery& query, const SegmentTable& table, const FindLimits& limits) {
-  return Search(query, table, limits).run();
+std::vector<Segment> find(const PhaseQuery& query, const Segments& segments, const FindLimits& limits) {
+  std::vector<Segment> result;
+  for (const Segments::Member& member : segments.members()) Search(query, member, limits).run(result);
+  if (segments.members().size() > 1) {  // each in order, each of other recordings
+    std::ranges::stable_sort(result, {}, &Segment::recording);
+    if (limits.limit && result.size() > *limits.limit) result.resize(*limits.limit);
+  }
+  return result;
 }
 
 }  // namespace signweave

@@ -7,14 +7,14 @@
 #include "signweave/core/time.h"
 #include "signweave/query/phase_query.h"
 #include "signweave/query/watch.h"
-#include "signweave/semantic_db/segment_table.h"
+#include "signweave/semantic_db/segments.h"
 
 namespace signweave {
 
 /// A row that takes part in an answer.
 struct SegmentPart {
-  RowId row = kNoRow;
-  std::string name;  ///< as Segment::name of that row alone
+  RowId row = kNoRow;  ///< of Segments
+  std::string name;    ///< as Segment::name of that row alone
   TimeSpan span{};
   friend bool operator==(const SegmentPart&, const SegmentPart&) = default;
 };
@@ -34,15 +34,15 @@ struct Segment {
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
-/// The segments that answer a query, each once, ordered by recording (as the table lists them), begin, end, row.
+/// The segments that answer a query, each once, ordered by recording (by name), begin, end, row.
 /// The answer is the whole sequence, or the part that `@` marks; where several combinations of parts give one answer,
 /// `parts` is the first of them in time.
 ///
 /// Throws Error{cancelled} where `limits` say so, and Error{bad_input} past five million answers without a limit.
-std::vector<Segment> find(const PhaseQuery& query, const SegmentTable& table, const FindLimits& limits = {});
+std::vector<Segment> find(const PhaseQuery& query, const Segments& segments, const FindLimits& limits = {});
 
 /// What in a query the database does not know (a gloss, a tier, a recording), with near matches: for an empty answer,
 /// which is no error.
-std::vector<Notice> hints(const PhaseQuery& query, const SegmentTable& table);
+std::vector<Notice> hints(const PhaseQuery& query, const Segments& segments);
 
 }  // namespace signweave

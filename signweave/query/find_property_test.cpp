@@ -93,7 +93,7 @@ class Oracle {
 
   void search(const PhaseQuery& query, std::vector<RowId>& places, std::set<std::vector<RowId>>& result) {
     if (places.size() == query.elements.size()) return keep(query, places, result);
-    for (RowId row = 0; row < table_.rows().size(); ++row) {
+    for (RowId row = 0; row < table_.size(); ++row) {
       if (!places.empty() && !may_follow(places.back(), row, query.gaps[places.size() - 1])) continue;
       if (!answers(query.elements[places.size()].term.expression, row, false)) continue;
       places.push_back(row);
@@ -108,7 +108,7 @@ class Oracle {
       if (query.elements[i].term.marked) marked.insert(places[i]);
       for (const Relation& relation : query.elements[i].relations) {
         bool found = false;
-        for (RowId other = 0; other < table_.rows().size(); ++other) {
+        for (RowId other = 0; other < table_.size(); ++other) {
           if (!stand_in(places[i], relation.link, other) || !answers(relation.term.expression, other, false)) continue;
           found = true;
           if (relation.term.marked) marked.insert(other);
@@ -120,7 +120,7 @@ class Oracle {
     for (const RowId row : marked) result.insert({row});
   }
 
-  const SegmentRow& row(RowId id) const { return table_.row(id); }
+  SegmentRow row(RowId id) const { return table_.row(id); }
 
   bool same_group(RowId a, RowId b) const {
     if (row(a).recording != row(b).recording || row(a).tier != row(b).tier || row(a).extra != row(b).extra)
@@ -230,11 +230,12 @@ class Oracle {
       const auto first =
           std::find_if(order.begin(), order.end(), [&](auto& tier) { return about.tiers.contains(tier); });
       const SegmentRow& it = row(id);
-      const bool fits = about.phase            ? it.kind == RowKind::phase
-                        : about.gloss          ? it.kind == RowKind::sign
-                        : first != order.end() ? !it.extra && table_.tiers()[it.tier] == *first
-                        : about.link || linked ? true
-                                               : it.kind == RowKind::sign;
+      const bool fits = it.kind == RowKind::unit ? false
+                        : about.phase            ? it.kind == RowKind::phase
+                        : about.gloss            ? it.kind == RowKind::sign
+                        : first != order.end()   ? !it.extra && table_.tier_at(it.tier) == *first
+                        : about.link || linked   ? true
+                                                 : it.kind == RowKind::sign;
       if (fits && std::all_of(alternative.begin(), alternative.end(), [&](const Literal& literal) {
             return is_true(*literal.expression, id) == literal.positive;
           })) {
@@ -259,7 +260,7 @@ class Oracle {
         break;
     }
     const Expression& inner = expression.operands[0];
-    for (RowId other = 0; other < table_.rows().size(); ++other) {
+    for (RowId other = 0; other < table_.size(); ++other) {
       bool fits = false;
       if (expression.link == Link::parent) fits = row(id).parent == other;
       if (expression.link == Link::child) fits = row(other).parent == id;
@@ -282,8 +283,8 @@ class Oracle {
     const SegmentRow& it = row(id);
     switch (condition.field) {
       case Field::gloss:
-        return it.kind != RowKind::annotation &&
-               fits(condition, table_.labels()[it.kind == RowKind::sign ? it.label : row(it.parent).label]);
+        return (it.kind == RowKind::sign || it.kind == RowKind::phase) &&
+               fits(condition, table_.text_at(it.kind == RowKind::sign ? it.label : row(it.parent).label));
       case Field::phase:
         return it.kind == RowKind::phase &&
                (std::get<PhaseKind>(condition.value) == it.phase) == (condition.compare == Compare::equal);
@@ -291,7 +292,7 @@ class Oracle {
         return it.kind != RowKind::annotation &&
                (std::get<Hand>(condition.value) == it.hand) == (condition.compare == Compare::equal);
       case Field::recording:
-        return fits(condition, table_.recordings()[it.recording]);
+        return fits(condition, table_.recording_at(it.recording));
       case Field::tier:
         return on_tier(condition, id);
       case Field::duration:
@@ -306,15 +307,15 @@ class Oracle {
 
   bool on_tier(const Condition& condition, RowId id) const {
     const SegmentRow& it = row(id);
-    if (!it.extra && table_.tiers()[it.tier] == condition.tier) return fits(condition, table_.labels()[it.label]);
-    for (RowId other = 0; other < table_.rows().size(); ++other) {
-      if (row(other).extra || table_.tiers()[row(other).tier] != condition.tier) continue;
-      if (stand_in(id, Link::overlaps, other) && fits(condition, table_.labels()[row(other).label])) return true;
+    if (!it.extra && table_.tier_at(it.tier) == condition.tier) return fits(condition, table_.text_at(it.label));
+    for (RowId other = 0; other < table_.size(); ++other) {
+      if (row(other).extra || table_.tier_at(row(other).tier) != condition.tier) continue;
+      if (stand_in(id, Link::overlaps, other) && fits(condition, table_.text_at(row(other).label))) return true;
     }
     return false;
   }
 
-  static bool fits(const Condition& condition, const std::string& label) {
+  static bool fits(const Condition& condition, std::string_view label) {
     if (const Regex* regex = std::get_if<Regex>(&condition.value)) {
       RE2::Options options;
       options.set_case_sensitive(!regex->ignore_case);

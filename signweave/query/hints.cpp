@@ -11,7 +11,7 @@ namespace {
 
 class Hinter {
  public:
-  explicit Hinter(const SegmentTable& table) : table_(table) {}
+  explicit Hinter(const Segments& segments) : segments_(segments) {}
 
   void look_at(const Expression& expression) {
     if (expression.kind == Expression::Kind::condition) look_at(expression.condition);
@@ -23,13 +23,15 @@ class Hinter {
  private:
   void look_at(const Condition& condition) {
     if (condition.field == Field::gloss) {
-      if (glosses_.empty()) glosses_ = table_.glosses();
+      if (glosses_.empty()) glosses_ = segments_.glosses();
       look_for(condition, glosses_, "no sign has the gloss");
     } else if (condition.field == Field::recording) {
-      look_for(condition, table_.recordings(), "no recording is called");
-    } else if (condition.field == Field::tier && !contains(condition.tier, table_.tiers())) {
+      look_for(condition, segments_.recordings(), "no recording is called");
+    } else if (condition.field == Field::tier) {
+      const std::vector<std::string> tiers = segments_.tiers();
+      if (contains(condition.tier, tiers)) return;
       add(fmt::format("no recording has a tier \"{}\"{}", printable(condition.tier),
-                      did_you_mean(condition.tier, table_.tiers())));
+                      did_you_mean(condition.tier, tiers)));
     }
   }
 
@@ -54,15 +56,15 @@ class Hinter {
     if (std::find(notices_.begin(), notices_.end(), notice) == notices_.end()) notices_.push_back(notice);
   }
 
-  const SegmentTable& table_;
+  const Segments& segments_;
   std::vector<std::string> glosses_;
   std::vector<Notice> notices_;
 };
 
 }  // namespace
 
-std::vector<Notice> hints(const PhaseQuery& query, const SegmentTable& table) {
-  Hinter hinter(table);
+std::vector<Notice> hints(const PhaseQuery& query, const Segments& segments) {
+  Hinter hinter(segments);
   for (const Element& element : query.elements) {
     hinter.look_at(element.term.expression);
     for (const Relation& relation : element.relations) hinter.look_at(relation.term.expression);

@@ -18,18 +18,18 @@ constexpr int kMostGenerations = 64;
 std::vector<std::uint32_t> tiers_called(const std::string& name, const SegmentTable& table) {
   const std::string wanted = match_form(name);
   std::vector<std::uint32_t> result;
-  for (std::uint32_t tier = 0; tier < table.tiers().size(); ++tier) {
-    if (table.tiers()[tier] == name || match_form(table.tiers()[tier]) == wanted) result.push_back(tier);
+  for (std::uint32_t tier = 0; tier < table.tier_count(); ++tier) {
+    if (table.tier_at(tier) == name || match_form(table.tier_at(tier)) == wanted) result.push_back(tier);
   }
   return result;
 }
 
 std::vector<bool> recordings_called(const Condition& condition, const SegmentTable& table) {
-  const std::span<const std::string> names = table.recordings();
-  std::vector<bool> result(names.size(), condition.compare == Compare::not_equal);
+  const std::uint32_t count = table.recording_count();
+  std::vector<bool> result(count, condition.compare == Compare::not_equal);
   if (const Regex* regex = std::get_if<Regex>(&condition.value)) {
     const std::unique_ptr<RE2> compiled = compile(*regex);
-    for (std::size_t i = 0; i < names.size(); ++i) result[i] = RE2::FullMatch(match_form(names[i]), *compiled);
+    for (std::uint32_t i = 0; i < count; ++i) result[i] = RE2::FullMatch(match_form(table.recording_at(i)), *compiled);
     return result;
   }
   const std::string& name = std::get<std::string>(condition.value);
@@ -39,8 +39,8 @@ std::vector<bool> recordings_called(const Condition& condition, const SegmentTab
     return result;
   }
   const std::string wanted = match_form(name);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (match_form(names[i]) == wanted) result[i] = found;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (match_form(table.recording_at(i)) == wanted) result[i] = found;
   }
   return result;
 }
@@ -123,9 +123,9 @@ BoundCondition Matcher::bind(const Condition& condition) {
     case Field::gloss:
       if (const Regex* regex = std::get_if<Regex>(&condition.value)) {
         result.regex = compile(*regex);
-        result.known.resize(table_->labels().size());
+        result.known.resize(table_->text_count());
       } else {
-        result.label = table_->find_label(match_form(std::get<std::string>(condition.value)));
+        result.label = table_->find_text(match_form(std::get<std::string>(condition.value)));
       }
       break;
     case Field::phase:
@@ -152,7 +152,7 @@ bool Matcher::fits(BoundCondition& condition, std::uint32_t label) {
   std::uint8_t& known = condition.known[label];
   if (known == 0) {
     watch_->tick();
-    known = RE2::FullMatch(table_->labels()[label], *condition.regex) ? 2 : 1;
+    known = RE2::FullMatch(table_->text_at(label), *condition.regex) ? 2 : 1;
   }
   return known == 2;
 }
@@ -164,7 +164,8 @@ bool Matcher::accepts(RowId row) {
 }
 
 Scopes Matcher::scopes_of_row(RowId id) const noexcept {
-  const SegmentRow& row = table_->row(id);
+  const SegmentRow row = table_->row(id);
+  if (row.kind == RowKind::unit) return Scopes::none();
   Scopes result = Scopes::linked();
   if (plain_ == Plain::any || row.kind == RowKind::sign) result = result | Scopes::plain();
   if (row.kind == RowKind::sign) result = result | Scopes::signs();
@@ -205,12 +206,11 @@ Scopes Matcher::holds(BoundExpression& expression, RowId row) {
 }
 
 bool Matcher::holds(BoundCondition& condition, RowId id) {
-  const SegmentRow& row = table_->row(id);
+  const SegmentRow row = table_->row(id);
   switch (condition.field) {
     case Field::gloss: {
-      if (row.kind == RowKind::annotation) return false;
-      const SegmentRow& sign = row.kind == RowKind::sign ? row : table_->row(row.parent);
-      return fits(condition, sign.label);
+      if (row.kind == RowKind::annotation || row.kind == RowKind::unit) return false;
+      return fits(condition, row.kind == RowKind::sign ? row.label : table_->label(row.parent));
     }
     case Field::phase:
       return row.kind == RowKind::phase && (condition.set >> static_cast<unsigned>(row.phase) & 1U) != 0;
@@ -231,20 +231,18 @@ bool Matcher::holds(BoundCondition& condition, RowId id) {
 }
 
 bool Matcher::holds_on_tier(BoundCondition& condition, RowId id) {
-  const SegmentRow& row = table_->row(id);
+  const SegmentRow row = table_->row(id);
   for (const std::uint32_t tier : condition.tiers) {
     if (row.tier == tier && !row.extra) {
       if (fits(condition, row.label)) return true;
       continue;
     }
-    const std::span<const SegmentTable::TierRows> tiers = table_->tiers_of(row.recording);
-    const auto at = std::lower_bound(tiers.begin(), tiers.end(), tier,
-                                     [](const auto& rows, std::uint32_t wanted) { return rows.tier < wanted; });
-    if (at == tiers.end() || at->tier != tier) continue;
+    const SegmentTable::TierRows* rows = table_->tier_rows(row.recording, tier);
+    if (rows == nullptr) continue;
     bool found = false;
-    for_rows_around(*table_, *at, at->own, row.span, [&](RowId other) {
+    for_rows_around(*table_, *rows, rows->own(), row.span, [&](RowId other) {
       watch_->tick();
-      found = row.span.overlaps(table_->row(other).span) && fits(condition, table_->row(other).label);
+      found = row.span.overlaps(table_->span(other)) && fits(condition, table_->label(other));
       return !found;
     });
     if (found) return true;
@@ -257,7 +255,7 @@ bool Matcher::holds_for_linked(Link link, Matcher& linked, RowId row) {
     case Link::parent:
     case Link::ancestor:
       for (int generation = 0; generation < kMostGenerations; ++generation) {
-        row = table_->row(row).parent;
+        row = table_->parent(row);
         if (row == kNoRow) return false;
         if (linked.accepts(row)) return true;
         if (link == Link::parent) return false;
@@ -286,10 +284,10 @@ bool Matcher::holds_for_linked(Link link, Matcher& linked, RowId row) {
     case Link::equals:
       break;
   }
-  const SegmentRow& from = table_->row(row);
+  const SegmentRow from = table_->row(row);
   bool found = false;
   for_rows_around(*table_, from.recording, from.span, [&](RowId other) {
-    found = other != row && related(from.span, link, table_->row(other).span) && linked.accepts(other);
+    found = other != row && related(from.span, link, table_->span(other)) && linked.accepts(other);
     return !found;
   });
   return found;

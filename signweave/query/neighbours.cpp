@@ -3,65 +3,54 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
+#include <ranges>
 
 namespace signweave {
 namespace {
 
 using RowRange = SegmentTable::RowRange;
 
-const SegmentTable::TierRows& tier_of(const SegmentTable& table, RowId row) noexcept {
-  const std::span<const SegmentTable::TierRows> tiers = table.tiers_of(table.row(row).recording);
-  const auto at = std::lower_bound(tiers.begin(), tiers.end(), table.row(row).tier,
-                                   [](const auto& rows, std::uint32_t tier) { return rows.tier < tier; });
-  assert(at != tiers.end());
-  return *at;
-}
-
 /// The rows that may stand in a sequence with `row`: the group it lies in.
 RowRange group_of(const SegmentTable& table, RowId row) noexcept {
-  const SegmentTable::TierRows& tier = tier_of(table, row);
-  return table.row(row).extra ? tier.extra : tier.own;
+  const SegmentTable::TierRows& tier = table.tier_rows_of(row);
+  if (table.kind(row) == RowKind::unit) return tier.units();
+  return table.extra(row) ? tier.extra() : tier.own();
 }
 
 /// Extra rows of different sorts or of the signs of different tiers share a group: whether two are of one sort.
 bool same_sort(const SegmentTable& table, RowId a, RowId b) noexcept {
-  const SegmentRow& one = table.row(a);
-  const SegmentRow& other = table.row(b);
-  if (!one.extra) return true;
-  return one.inferred == other.inferred && table.row(one.parent).tier == table.row(other.parent).tier;
+  if (!table.extra(a) || table.kind(a) == RowKind::unit) return true;
+  return table.inferred(a) == table.inferred(b) && table.tier(table.parent(a)) == table.tier(table.parent(b));
 }
 
 /// One step within a group; `by` is 1 or −1.
 RowId step_in_group(const SegmentTable& table, RowId row, int by) noexcept {
   const RowRange group = group_of(table, row);
-  const bool sign = table.row(row).kind == RowKind::sign;
+  const bool sign = table.kind(row) == RowKind::sign;
   for (std::int64_t at = std::int64_t{row} + by; at >= group.begin && at < group.end; at += by) {
     const auto other = static_cast<RowId>(at);
-    if (sign && table.row(other).kind != RowKind::sign) continue;
+    if (sign && table.kind(other) != RowKind::sign) continue;
     if (same_sort(table, row, other)) return other;
   }
   return kNoRow;
 }
 
 RowId step(const SegmentTable& table, RowId row, int by) noexcept {
-  const SegmentRow& from = table.row(row);
-  if (!from.extra || !from.inferred) return step_in_group(table, row, by);
+  if (!table.extra(row) || !table.inferred(row)) return step_in_group(table, row, by);
   // Neighbours are the signs: an inferred stroke is not next to the one beyond a sign that has phases of its own.
-  const RowId sign = step_in_group(table, from.parent, by);
+  const RowId sign = step_in_group(table, table.parent(row), by);
   if (sign == kNoRow) return kNoRow;
   for (const RowId child : table.children(sign)) {
-    if (table.row(child).extra && table.row(child).inferred) return child;
+    if (table.extra(child) && table.inferred(child)) return child;
   }
   return kNoRow;
 }
 
 }  // namespace
 
-RowId first_ending_at_or_after(std::span<const SegmentRow> rows, RowRange range, Milliseconds time) noexcept {
-  const std::span<const SegmentRow> part = rows.subspan(range.begin, range.size());
-  const auto at =
-      std::partition_point(part.begin(), part.end(), [&](const SegmentRow& row) { return row.span.end < time; });
-  return range.begin + static_cast<RowId>(at - part.begin());
+RowId first_ending_at_or_after(const SegmentTable& table, RowRange range, Milliseconds time) noexcept {
+  const auto rows = std::views::iota(range.begin, range.end);
+  return *std::ranges::partition_point(rows, [&](RowId row) { return table.end(row) < time; });
 }
 
 RowId next_row(const SegmentTable& table, RowId row) {
@@ -77,36 +66,35 @@ std::vector<RowId> previous_rows(const SegmentTable& table, RowId row) {
   offer(stepped);
   // A sign follows the sign before it, and the annotation between them that is no sign.
   const RowRange group = group_of(table, row);
-  if (!table.row(row).extra && row > group.begin && row - 1 != stepped) offer(row - 1);
+  if (!table.extra(row) && row > group.begin && row - 1 != stepped) offer(row - 1);
   return result;
 }
 
 std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Interval& gap) {
   const RowRange group = group_of(table, row);
-  const Milliseconds end = table.row(row).span.end;
+  const Milliseconds end = table.end(row);
   const Milliseconds first = end + gap.least.value_or(0ms);
-  const std::span<const SegmentRow> later = table.rows().subspan(row + 1, group.end - (row + 1));
-  const auto begin = std::partition_point(later.begin(), later.end(),
-                                          [&](const SegmentRow& other) { return other.span.begin < first; });
+  const auto later = std::views::iota(row + 1, group.end);
   std::vector<RowId> result;
-  for (auto at = static_cast<RowId>(row + 1 + (begin - later.begin())); at < group.end; ++at) {
-    if (gap.most && table.row(at).span.begin > end + *gap.most) break;
+  for (RowId at = *std::ranges::partition_point(later, [&](RowId other) { return table.begin(other) < first; });
+       at < group.end; ++at) {
+    if (gap.most && table.begin(at) > end + *gap.most) break;
     if (same_sort(table, row, at)) result.push_back(at);
   }
   return result;
 }
 
 std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Interval& gap) {
-  const SegmentTable::TierRows& tier = tier_of(table, row);
+  const SegmentTable::TierRows& tier = table.tier_rows_of(row);
   const RowRange group = group_of(table, row);
-  const Milliseconds begin = table.row(row).span.begin;
+  const Milliseconds begin = table.begin(row);
   const Milliseconds last = begin - gap.least.value_or(0ms);
   RowId at = group.begin;
-  if (tier.apart && gap.most) at = first_ending_at_or_after(table.rows(), {at, row}, begin - *gap.most);
+  if (tier.apart() && gap.most) at = first_ending_at_or_after(table, {at, row}, begin - *gap.most);
   std::vector<RowId> result;
   for (; at < row; ++at) {
-    const Milliseconds end = table.row(at).span.end;
-    if (tier.apart && end > last) break;
+    const Milliseconds end = table.end(at);
+    if (tier.apart() && end > last) break;
     if (end <= last && (!gap.most || end >= begin - *gap.most) && same_sort(table, row, at)) result.push_back(at);
   }
   return result;

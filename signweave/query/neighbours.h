@@ -25,8 +25,7 @@ std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Interv
 std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Interval& gap);
 
 /// The first row of a range, in which no two overlap, that ends at `time` or later.
-RowId first_ending_at_or_after(std::span<const SegmentRow> rows, SegmentTable::RowRange range,
-                               Milliseconds time) noexcept;
+RowId first_ending_at_or_after(const SegmentTable& table, SegmentTable::RowRange range, Milliseconds time) noexcept;
 
 /// Whether two spans stand in a relation (`Link::overlaps` and the ones after it).
 bool related(TimeSpan one, Link link, TimeSpan other) noexcept;
@@ -36,10 +35,9 @@ bool related(TimeSpan one, Link link, TimeSpan other) noexcept;
 template <typename Use>
 bool for_rows_around(const SegmentTable& table, const SegmentTable::TierRows& tier, SegmentTable::RowRange range,
                      TimeSpan span, Use&& use) {
-  const std::span<const SegmentRow> rows = table.rows();
-  RowId row = tier.apart ? first_ending_at_or_after(rows, range, span.begin) : range.begin;
-  for (; row < range.end && rows[row].span.begin <= span.end; ++row) {
-    if (rows[row].span.end >= span.begin && !use(row)) return false;
+  RowId row = tier.apart() ? first_ending_at_or_after(table, range, span.begin) : range.begin;
+  for (; row < range.end && table.begin(row) <= span.end; ++row) {
+    if (table.end(row) >= span.begin && !use(row)) return false;
   }
   return true;
 }
@@ -48,8 +46,9 @@ bool for_rows_around(const SegmentTable& table, const SegmentTable::TierRows& ti
 template <typename Use>
 void for_rows_around(const SegmentTable& table, std::uint32_t recording, TimeSpan span, Use&& use) {
   for (const SegmentTable::TierRows& tier : table.tiers_of(recording)) {
-    if (!for_rows_around(table, tier, tier.own, span, use)) return;
-    if (!for_rows_around(table, tier, tier.extra, span, use)) return;
+    if (!for_rows_around(table, tier, tier.own(), span, use)) return;
+    if (!for_rows_around(table, tier, tier.extra(), span, use)) return;
+    if (!for_rows_around(table, tier, tier.units(), span, use)) return;
   }
 }
 

@@ -153,13 +153,16 @@ class AccessFinder {
     }
     for (unsigned place = 0; place < matcher_.tiers().size(); ++place) {
       if (scope_ != Scopes::tier(place)) continue;
-      for (std::uint32_t recording = 0; recording < table_.recordings().size(); ++recording) {
-        for (const std::uint32_t tier : matcher_.tiers()[place]) add(table_.tier_rows(recording, tier), access);
+      for (std::uint32_t recording = 0; recording < table_.recording_count(); ++recording) {
+        for (const std::uint32_t tier : matcher_.tiers()[place]) {
+          const SegmentTable::TierRows* rows = table_.tier_rows(recording, tier);
+          if (rows != nullptr) add(rows->own(), access);
+        }
       }
       access.through.emplace_back("all annotations of the tier");
       return access;
     }
-    add({0, static_cast<RowId>(table_.rows().size())}, access);
+    add({0, table_.size()}, access);
     access.through.emplace_back("all rows");
     return access;
   }
@@ -252,7 +255,11 @@ std::vector<RowId> candidates(std::span<const Access> accesses, const SegmentTab
   return result;
 }
 
-std::string explain(const PhaseQuery& query, const SegmentTable& table) {
+std::string explain(const PhaseQuery& query, const Segments& segments) {
+  const SegmentTable none;
+  const auto largest =
+      std::ranges::max_element(segments.members(), {}, [](const auto& one) { return one.table.size(); });
+  const SegmentTable& table = segments.members().empty() ? none : largest->table;
   Watch watch{FindLimits()};
   BoundQuery bound = bind(query, table, watch);
   const Plan chosen = plan(bound);

@@ -8,7 +8,7 @@
 
 #include "signweave/query/matcher.h"
 #include "signweave/query/phase_query.h"
-#include "signweave/semantic_db/segment_table.h"
+#include "signweave/semantic_db/segments.h"
 
 namespace signweave {
 
@@ -55,6 +55,6 @@ Plan plan(BoundQuery& query);
 std::vector<RowId> candidates(std::span<const Access> accesses, const SegmentTable& table);
 
 /// The plan for a query in words, one step a line: for `query --explain`.
-std::string explain(const PhaseQuery& query, const SegmentTable& table);
+std::string explain(const PhaseQuery& query, const Segments& segments);
 
 }  // namespace signweave

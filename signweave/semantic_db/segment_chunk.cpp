@@ -1,4 +1,4 @@
-#include "signweave/semantic_db/segment_table.h"
+#include "signweave/semantic_db/segment_chunk.h"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,14 @@
 #include <map>
 #include <optional>
 #include <tuple>
+#include <unordered_map>
 
 #include "signweave/core/text.h"
 
 namespace signweave {
 namespace {
+
+constexpr std::uint32_t kNoTier = std::numeric_limits<std::uint32_t>::max();
 
 /// Some 31,000 years: far enough from the ends of int64 that sums of times cannot overflow.
 constexpr std::int64_t kLatest = 1'000'000'000'000'000;
@@ -104,7 +107,7 @@ class ChunkBuilder {
   void link_parents(const AnnotationDocument& document) {
     RowId row = 0;
     for (const Tier& tier : document.tiers) {
-      const std::uint32_t parent_tier = tier.parent.empty() ? SegmentTable::kNone : tiers_.number(tier.parent);
+      const std::uint32_t parent_tier = tier.parent.empty() ? kNoTier : tiers_.number(tier.parent);
       for (const Annotation& annotation : tier.annotations) {
         const auto parent = by_id_.find(std::pair(parent_tier, annotation.parent));
         if (parent != by_id_.end() && parent->second != row) rows_[row].parent = parent->second;

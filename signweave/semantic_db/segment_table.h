@@ -2,99 +2,98 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
-#include "signweave/annotation/document.h"
 #include "signweave/annotation/sign.h"
 #include "signweave/core/bytes.h"
 #include "signweave/core/time.h"
+#include "signweave/semantic_db/segment_chunk.h"
 
 namespace signweave {
 
-using RowId = std::uint32_t;
-inline constexpr RowId kNoRow = std::numeric_limits<RowId>::max();
-
-/// What a row of the segment table is. Stored on disk: never renumber.
-enum class RowKind : std::uint8_t {
-  annotation = 0,  ///< an annotation of any tier that is neither sign tier nor phase tier
-  sign = 1,        ///< an annotation of a sign tier
-  phase = 2,       ///< a phase of a sign; an inferred stroke too
-};
-
-/// One annotation, sign or phase of one recording.
-struct SegmentRow {
-  RowKind kind = RowKind::annotation;
-  PhaseKind phase = PhaseKind::other;  ///< of a phase row
-  Hand hand = Hand::both;              ///< of a sign or phase row
-  bool inferred = false;               ///< of a sign without annotated phases, and of its one stroke
-  bool extra = false;                  ///< stands for no annotation of its own: see `segments_of`
-  std::uint32_t recording = 0;         ///< index into SegmentTable::recordings()
-  std::uint32_t tier = 0;              ///< index into SegmentTable::tiers()
-  std::uint32_t label = 0;             ///< index into SegmentTable::labels(): the match form of the label
-  std::uint32_t text = 0;              ///< index into SegmentTable::labels(): the label verbatim
-  TimeSpan span{};
-  RowId parent = kNoRow;  ///< the row of the parent annotation; a phase's parent is its sign
-  friend bool operator==(const SegmentRow&, const SegmentRow&) = default;
-};
-
-/// The segments of one recording as they are stored beside its document: rows in a fixed order, parents as indexes into
-/// the same list, and the strings they use.
-struct SegmentChunk {
-  std::vector<std::string> tiers;
-  std::vector<std::string> labels;
-  std::vector<SegmentRow> rows;  ///< `recording` unused; `parent` relative to this list
-};
-
-/// Every annotation of a document once (a sign's and a phase's annotation as kind sign and phase), and after each
-/// tier's own rows its *extra* rows, which stand for no annotation of their own: the inferred strokes of the signs of
-/// that tier, and a phase that a second sign shares with the first. Ordered by tier, then own before extra, then time;
-/// so rows of one tier are neighbours in time.
+/// The segments of some recordings as columns, with indexes. It is one run of bytes that is used as it is stored, so
+/// that opening it costs no more than looking whether it is whole. Immutable; threads may share it.
 ///
-/// A sign is found by its tier and annotation id, a phase by its annotation id; where they have none (a document not
-/// yet written) by span and label. A phase's parent is its sign, whatever the document says; every other row's parent
-/// is that of its annotation. Throws Error{bad_input} where a sign or phase is not in the document, or a time is no
-/// time.
-SegmentChunk segments_of(const AnnotationDocument& document, std::span<const Sign> signs);
-
-/// The layout is drawn in segment_chunk.cpp. `decode_segments` throws Error{corrupt} on bytes that `encode` cannot have
-/// written (indexes out of range, rows out of order), and Error{unsupported} on a later version.
-void encode(const SegmentChunk& chunk, ByteWriter& out);
-SegmentChunk decode_segments(ByteReader& in);
-
-/// The segments of all recordings, with indexes. Immutable once built, so threads may share it.
+/// Rows are numbered recording by recording, the recordings by name, and within one as in its chunk; after the rows of
+/// a sign tier come its units. Texts, tiers and recordings are numbered within the table.
 class SegmentTable {
  public:
   struct Source {
     std::string recording;
-    const SegmentChunk* chunk;  ///< borrowed during construction only
+    const SegmentChunk* chunk = nullptr;  ///< borrowed during construction only
+    std::string signer = {};              ///< of all tiers that `tiers` names no signer for; may be empty
+    const TierNames* tiers = nullptr;     ///< borrowed likewise; none: as if empty
   };
   SegmentTable() = default;
-  /// Numbers the rows recording by recording, in the order of `sources`. Throws Error{unsupported} past 2^32 − 1 rows,
-  /// Error{already_exists} where a name comes twice.
+  /// Throws Error{unsupported} past 2^32 − 1 rows, Error{already_exists} where a name comes twice.
   explicit SegmentTable(std::span<const Source> sources);
 
-  std::span<const SegmentRow> rows() const noexcept { return rows_; }
-  const SegmentRow& row(RowId id) const noexcept { return rows_[id]; }
-  std::span<const std::string> recordings() const noexcept { return recordings_; }
-  std::span<const std::string> tiers() const noexcept { return tiers_; }
-  std::span<const std::string> labels() const noexcept { return labels_; }
+  /// A recording of a table.
+  struct Part {
+    const SegmentTable* table = nullptr;
+    std::uint32_t recording = 0;
+  };
+  /// The table of recordings of other tables. Throws likewise.
+  static SegmentTable merged(std::span<const Part> parts);
 
-  /// Index of a label in match form, or none (max of uint32_t). Likewise for tiers (verbatim) and recordings.
+  /// A table of such bytes; the layout is drawn in segment_bytes.h. `owner` keeps them alive. Throws Error{corrupt}
+  /// naming `where` on bytes that are no table, and Error{unsupported} on a later version.
+  static SegmentTable open(ByteSpan bytes, std::shared_ptr<const void> owner, const std::string& where);
+  /// Valid as long as the table, or a copy of it, lives.
+  ByteSpan bytes() const noexcept { return bytes_; }
+
+  std::uint32_t size() const noexcept { return size_; }
+  std::uint32_t recording_count() const noexcept { return static_cast<std::uint32_t>(recording_tiers_.size()) - 1; }
+
+  // Columns. A row, text, tier or recording must be one of the table.
+
+  RowKind kind(RowId row) const noexcept { return static_cast<RowKind>(flags_[row] & 3U); }
+  PhaseKind phase(RowId row) const noexcept { return static_cast<PhaseKind>(flags_[row] >> 2 & 7U); }
+  Hand hand(RowId row) const noexcept { return static_cast<Hand>(flags_[row] >> 5 & 3U); }
+  bool inferred(RowId row) const noexcept { return (flags_[row] & kInferred) != 0; }
+  bool extra(RowId row) const noexcept { return (flags_[row] & kExtra) != 0; }
+  Milliseconds begin(RowId row) const noexcept {
+    return Milliseconds(begins_.empty() ? wide_[2 * std::size_t{row}] : begins_[row]);
+  }
+  Milliseconds end(RowId row) const noexcept {
+    return Milliseconds(begins_.empty() ? wide_[2 * std::size_t{row} + 1] : ends_[row]);
+  }
+  TimeSpan span(RowId row) const noexcept { return {begin(row), end(row)}; }
+  /// The label verbatim, and in match form: texts.
+  std::uint32_t text(RowId row) const noexcept { return texts_of_rows_[row]; }
+  std::uint32_t label(RowId row) const noexcept { return labels_of_texts_[texts_of_rows_[row]]; }
+  RowId parent(RowId row) const noexcept { return parents_[row]; }
+  std::uint32_t tier(RowId row) const noexcept { return places_[places_of_rows_[row]].tier; }
+  std::uint32_t recording(RowId row) const noexcept { return places_[places_of_rows_[row]].recording; }
+  /// All of them.
+  SegmentRow row(RowId row) const noexcept;
+
+  std::string_view text_at(std::uint32_t text) const noexcept { return texts_.at(text); }
+  std::string_view tier_at(std::uint32_t tier) const noexcept { return tiers_.at(tier); }
+  std::string_view recording_at(std::uint32_t recording) const noexcept { return recordings_.at(recording); }
+  std::uint32_t text_count() const noexcept { return texts_.size(); }
+  std::uint32_t tier_count() const noexcept { return tiers_.size(); }
+
+  // Indexes.
+
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t find_label(std::string_view match_form) const noexcept;
+  /// The text of a label in match form, or none. Likewise for tiers (verbatim) and recordings.
+  std::uint32_t find_text(std::string_view match_form) const noexcept;
   std::uint32_t find_tier(std::string_view id) const noexcept;
   std::uint32_t find_recording(std::string_view name) const noexcept;
 
   /// All rows of one kind with a label, ascending by row (so by recording, tier, time).
   std::span<const RowId> with_label(RowKind kind, std::uint32_t label) const noexcept;
-  /// All phase rows of a phase kind, ascending.
+  /// All phase rows of a phase kind, and all units, ascending.
   std::span<const RowId> phases(PhaseKind kind) const noexcept;
-  /// The labels that rows of a kind have, ascending, each once.
+  std::span<const RowId> units() const noexcept;
+  /// The labels that rows of a kind have, ascending, each once. Units have none of their own.
   std::span<const std::uint32_t> labels_of(RowKind kind) const noexcept;
+
   /// [begin, end) of row ids.
   struct RowRange {
     RowId begin = 0;
@@ -103,43 +102,77 @@ class SegmentTable {
     bool contains(RowId row) const noexcept { return begin <= row && row < end; }
     friend bool operator==(RowRange, RowRange) = default;
   };
-  /// The rows of one tier of one recording.
+  /// The rows of one tier of one recording, as they are stored.
   struct TierRows {
+    std::uint32_t recording = 0;
     std::uint32_t tier = kNone;
-    RowRange own;       ///< the annotations of the tier, in time order
-    RowRange extra;     ///< what stands for no annotation of its own (see `segments_of`), in time order
-    bool apart = true;  ///< no two of `own` overlap, nor two of `extra`, so their ends ascend too
+    RowId begin = 0;
+    RowId own_end = 0;
+    RowId extra_end = 0;
+    RowId unit_end = 0;
+    std::uint32_t signer = 0;  ///< text; the empty one where nobody is named
+    std::uint32_t order = 0;   ///< 1: `apart`
+
+    RowRange own() const noexcept { return {begin, own_end}; }         ///< the annotations of the tier, in time order
+    RowRange extra() const noexcept { return {own_end, extra_end}; }   ///< see `segments_of`, in time order
+    RowRange units() const noexcept { return {extra_end, unit_end}; }  ///< of a sign tier, in time order
+    /// No two of `own` overlap, nor two of `extra`, so their ends ascend too. Units never overlap.
+    bool apart() const noexcept { return order != 0; }
   };
   /// The tiers of a recording that have rows, ascending by tier.
-  std::span<const TierRows> tiers_of(std::uint32_t recording) const noexcept;
-  /// The annotations of one tier of one recording, in time order; empty where it has none.
-  RowRange tier_rows(std::uint32_t recording, std::uint32_t tier) const noexcept;
-  RowRange recording_rows(std::uint32_t recording) const noexcept;
+  std::span<const TierRows> tiers_of(std::uint32_t recording) const noexcept {
+    return places_.subspan(recording_tiers_[recording], recording_tiers_[recording + 1] - recording_tiers_[recording]);
+  }
+  /// That which a row is among.
+  const TierRows& tier_rows_of(RowId row) const noexcept { return places_[places_of_rows_[row]]; }
+  /// The one of a recording and tier, or null.
+  const TierRows* tier_rows(std::uint32_t recording, std::uint32_t tier) const noexcept;
+  RowRange recording_rows(std::uint32_t recording) const noexcept {
+    return {recording_begins_[recording], recording_begins_[recording + 1]};
+  }
   /// The rows whose parent is `row`, in time order.
-  std::span<const RowId> children(RowId row) const noexcept;
+  std::span<const RowId> children(RowId row) const noexcept {
+    return child_list_.subspan(child_begins_[row], child_begins_[row + 1] - child_begins_[row]);
+  }
   /// Every gloss (match form of sign rows), sorted, once.
   std::vector<std::string> glosses() const;
 
  private:
-  void add(const Source& source);
-  void index_tiers();
-  void index_labels();
-  void index_children();
+  friend class TableBytes;
 
-  std::vector<SegmentRow> rows_;
-  std::vector<std::string> recordings_;
-  std::vector<std::string> tiers_;
-  std::vector<std::string> labels_;
-  std::unordered_map<std::string, std::uint32_t> label_index_;
-  std::unordered_map<std::string, std::uint32_t> tier_index_;
-  std::unordered_map<std::string, std::uint32_t> recording_index_;
-  std::vector<RowRange> recording_rows_;                            ///< [recording]
-  std::vector<std::vector<TierRows>> tier_rows_;                    ///< [recording]
-  std::unordered_map<std::uint64_t, std::vector<RowId>> by_label_;  ///< kind << 32 | label
-  std::vector<std::vector<std::uint32_t>> labels_of_;               ///< [RowKind]
-  std::vector<std::vector<RowId>> by_phase_;                        ///< [PhaseKind]
-  std::vector<std::uint32_t> children_begin_;                       ///< [row], into child_list_
-  std::vector<RowId> child_list_;
+  /// Texts end to end.
+  struct Texts {
+    std::span<const std::uint32_t> begins = {};  ///< one more than there are texts
+    const char* characters = nullptr;
+    std::uint32_t size() const noexcept { return begins.empty() ? 0 : static_cast<std::uint32_t>(begins.size()) - 1; }
+    std::string_view at(std::uint32_t i) const noexcept { return {characters + begins[i], begins[i + 1] - begins[i]}; }
+  };
+  static constexpr unsigned kInferred = 128;
+  static constexpr unsigned kExtra = 256;
+  static constexpr std::uint32_t kNoTiers[1] = {0};
+
+  std::shared_ptr<const void> owner_;
+  ByteSpan bytes_;
+  std::uint32_t size_ = 0;
+  Texts texts_, tiers_, recordings_;
+  std::span<const std::uint32_t> recording_tiers_ = kNoTiers;   ///< [recording] into places_, and one more
+  std::span<const std::uint32_t> recording_begins_ = kNoTiers;  ///< [recording] the first row, and one more
+  std::span<const TierRows> places_;                            ///< by recording, then tier
+  std::span<const std::uint32_t> labels_of_texts_;              ///< [text]
+  std::span<const std::uint32_t> text_slots_;                   ///< hash table of texts; kNone: empty
+  std::span<const std::uint32_t> rows_of_labels_;               ///< [text] into by_label_, and one more
+  std::span<const RowId> by_label_;                             ///< by label, then kind, then row
+  std::span<const std::uint32_t> labels_of_kinds_[3];
+  std::span<const RowId> by_phase_[5];
+  std::span<const RowId> units_;
+  std::span<const std::int32_t> begins_, ends_;  ///< milliseconds; empty where they do not fit
+  std::span<const std::int64_t> wide_;           ///< begin and end of each row instead
+  std::span<const std::uint32_t> texts_of_rows_;
+  std::span<const RowId> parents_;
+  std::span<const std::uint32_t> places_of_rows_;
+  std::span<const std::uint16_t> flags_;
+  std::span<const std::uint32_t> child_begins_;  ///< [row] into child_list_, and one more
+  std::span<const RowId> child_list_;
 };
 
 }  // namespace signweave

@@ -62,7 +62,7 @@ std::vector<Sign> weather_signs() {
 
 std::vector<std::string> texts(const SegmentTable& table, std::span<const RowId> rows) {
   std::vector<std::string> result;
-  for (const RowId row : rows) result.push_back(table.labels()[table.row(row).text]);
+  for (const RowId row : rows) result.emplace_back(std::string(table.text_at(table.text(row))));
   return result;
 }
 
@@ -112,13 +112,13 @@ TEST(SegmentsOf, APhaseOfTwoSignsIsAnExtraRowForTheSecond) {
   signs[2].hand = Hand::left;
   const SegmentChunk chunk = segments_of(document, signs);
   const SegmentTable table = table_of(chunk);
-  const RowId left = table.tier_rows(0, table.find_tier("Left")).begin;
+  const RowId left = table.tier_rows(0, table.find_tier("Left"))->begin;
   ASSERT_EQ(table.children(left).size(), 2U);
-  const SegmentRow& stroke = table.row(table.children(left)[1]);
+  const SegmentRow stroke = table.row(table.children(left)[1]);
   EXPECT_TRUE(stroke.extra);
   EXPECT_FALSE(stroke.inferred);
   EXPECT_EQ(stroke.hand, Hand::left);
-  EXPECT_EQ(table.tier_rows(0, table.find_tier("Phase")).size(), 3U);
+  EXPECT_EQ(table.tier_rows(0, table.find_tier("Phase"))->own().size(), 3U);
 }
 
 TEST(SegmentsOf, ADocumentWithoutIdsIsMatchedBySpanAndLabel) {
@@ -176,7 +176,7 @@ RC_GTEST_PROP(SegmentBytes, DamageIsRefusedOrGivesATableThatHoldsTogether, ()) {
     ByteReader in(bytes, "meteo");
     const SegmentChunk chunk = decode_segments(in);
     const SegmentTable table = table_of(chunk);
-    for (RowId row = 0; row < table.rows().size(); ++row) {
+    for (RowId row = 0; row < table.size(); ++row) {
       for (const RowId child : table.children(row)) RC_ASSERT(table.row(child).parent == row);
     }
   } catch (const Error& error) {
@@ -235,20 +235,22 @@ TEST(SegmentTable, IndexesLeadToTheRows) {
   const SegmentChunk second = first;
   const SegmentTable::Source sources[] = {{"cities", &first}, {"meteo", &second}};
   const SegmentTable table(sources);
-  EXPECT_EQ(table.rows().size(), 14U);
-  const std::uint32_t vannes = table.find_label("VANNES");
-  EXPECT_THAT(table.with_label(RowKind::sign, vannes), ElementsAre(2U, 9U));
+  EXPECT_EQ(table.size(), 16U);
+  const std::uint32_t vannes = table.find_text("VANNES");
+  EXPECT_THAT(table.with_label(RowKind::sign, vannes), ElementsAre(2U, 10U));
   EXPECT_THAT(table.with_label(RowKind::phase, vannes), IsEmpty());
-  EXPECT_THAT(table.phases(PhaseKind::stroke), ElementsAre(3U, 5U, 10U, 12U));
+  EXPECT_THAT(table.phases(PhaseKind::stroke), ElementsAre(3U, 6U, 11U, 14U));
   EXPECT_THAT(table.phases(PhaseKind::hold), IsEmpty());
   EXPECT_EQ(table.find_recording("meteo"), 1U);
-  EXPECT_EQ(table.find_label("BREST"), SegmentTable::kNone);
+  EXPECT_EQ(table.find_text("BREST"), SegmentTable::kNone);
   EXPECT_EQ(table.find_tier("Mouthing"), SegmentTable::kNone);
-  EXPECT_EQ(table.recording_rows(1), (SegmentTable::RowRange{7, 14}));
-  EXPECT_EQ(table.tier_rows(1, table.find_tier("Gloss")), (SegmentTable::RowRange{8, 10}));
-  EXPECT_EQ(table.tiers_of(1)[1].extra, (SegmentTable::RowRange{10, 11}));
-  EXPECT_THAT(texts(table, table.children(8)), ElementsAre("prep", "early", "S"));
+  EXPECT_EQ(table.recording_rows(1), (SegmentTable::RowRange{8, 16}));
+  EXPECT_EQ(table.tier_rows(1, table.find_tier("Gloss"))->own(), (SegmentTable::RowRange{9, 11}));
+  EXPECT_EQ(table.tiers_of(1)[1].extra(), (SegmentTable::RowRange{11, 12}));
+  EXPECT_THAT(texts(table, table.children(9)), ElementsAre("prep", "early", "S"));
   EXPECT_EQ(table.row(12).recording, 1U);
+  EXPECT_THAT(table.units(), ElementsAre(4U, 12U));
+  EXPECT_EQ(table.span(12), (TimeSpan{0ms, 900ms})) << "from the first sign to the last";
   EXPECT_THAT(table.glosses(), ElementsAre("MATIN", "VANNES"));
 }
 
@@ -257,21 +259,80 @@ TEST(SegmentTable, ATableOfNothingAnswersEverythingWithNothing) {
   EXPECT_THAT(table.glosses(), IsEmpty());
   EXPECT_THAT(table.phases(PhaseKind::stroke), IsEmpty());
   EXPECT_THAT(table.with_label(RowKind::sign, 0), IsEmpty());
-  EXPECT_EQ(table.tier_rows(0, 0).size(), 0U);
-  EXPECT_THAT(table.tiers_of(0), IsEmpty());
+  EXPECT_EQ(table.tier_rows(0, 0), nullptr);
+  EXPECT_EQ(table.recording_count(), 0U);
 }
 
 TEST(SegmentTable, OverlappingAnnotationsOfOneTierAreMarked) {
   AnnotationDocument document = weather();
-  EXPECT_TRUE(table_of(segments_of(document, {})).tiers_of(0)[1].apart);
+  EXPECT_TRUE(table_of(segments_of(document, {})).tiers_of(0)[1].apart());
   document.tiers[1].annotations[0].span.end = 650ms;
-  EXPECT_FALSE(table_of(segments_of(document, {})).tiers_of(0)[1].apart);
+  EXPECT_FALSE(table_of(segments_of(document, {})).tiers_of(0)[1].apart());
 }
 
 TEST(SegmentTable, ARecordingThatComesTwiceIsRefused) {
   const SegmentChunk chunk;
   const SegmentTable::Source sources[] = {{"meteo", &chunk}, {"meteo", &chunk}};
   EXPECT_THROW(SegmentTable{sources}, Error);
+}
+
+TEST(SegmentTable, ARestOfASecondEndsAUnit) {
+  SegmentChunk chunk{.tiers = {"Gloss"}, .labels = {"A"}, .rows = {}};
+  for (const TimeSpan span : {TimeSpan{0ms, 400ms}, TimeSpan{1'399ms, 1'500ms}, TimeSpan{2'500ms, 2'600ms}}) {
+    chunk.rows.push_back({.kind = RowKind::sign, .span = span});
+  }
+  const SegmentTable table = table_of(chunk);
+  ASSERT_EQ(table.units().size(), 2U);
+  EXPECT_EQ(table.span(table.units()[0]), (TimeSpan{0ms, 1'500ms}));
+  EXPECT_EQ(table.span(table.units()[1]), (TimeSpan{2'500ms, 2'600ms}));
+}
+
+TEST(SegmentTable, TimesBeyondAMonthAreKept) {
+  SegmentChunk chunk{.tiers = {"T"}, .labels = {"A"}, .rows = {}};
+  chunk.rows.push_back({.span = {-5ms, 3'000'000'000ms}});
+  const SegmentTable table = table_of(chunk);
+  EXPECT_EQ(table.span(0), (TimeSpan{-5ms, 3'000'000'000ms}));
+}
+
+TEST(SegmentTable, ItsBytesAreATableWhereverTheyLie) {
+  const SegmentTable table = table_of(segments_of(weather(), weather_signs()));
+  auto bytes = std::make_shared<Bytes>(table.bytes().begin(), table.bytes().end());
+  bytes->insert(bytes->begin(), std::byte{0});
+  const SegmentTable moved = SegmentTable::open(ByteSpan(*bytes).subspan(1), bytes, "here");
+  EXPECT_EQ(moved.size(), table.size());
+  for (RowId row = 0; row < table.size(); ++row) EXPECT_EQ(moved.row(row), table.row(row));
+}
+
+TEST(SegmentTable, EveryCutOfItsBytesIsCorrupt) {
+  const SegmentTable table = table_of(segments_of(weather(), weather_signs()));
+  for (std::size_t size = 0; size < table.bytes().size(); ++size) {
+    const auto cut =
+        std::make_shared<const Bytes>(table.bytes().begin(), table.bytes().begin() + static_cast<int>(size));
+    EXPECT_THROW(SegmentTable::open(*cut, cut, "cut"), Error) << size;
+  }
+}
+
+RC_GTEST_PROP(SegmentTable, DamageIsRefusedOrGivesATableThatCanBeRead, ()) {
+  const SegmentTable table = table_of(segments_of(weather(), weather_signs()));
+  const auto bytes = std::make_shared<Bytes>(table.bytes().begin(), table.bytes().end());
+  (*bytes)[*rc::gen::inRange<std::size_t>(0, bytes->size())] = static_cast<std::byte>(*rc::gen::inRange(0, 256));
+  try {
+    const SegmentTable damaged = SegmentTable::open(*bytes, bytes, "damaged");
+    std::size_t letters = 0;
+    for (RowId row = 0; row < damaged.size(); ++row) {
+      letters += damaged.text_at(damaged.label(row)).size() + damaged.tier_at(damaged.tier(row)).size() +
+                 damaged.recording_at(damaged.recording(row)).size();
+      for (const RowId child : damaged.children(row)) RC_ASSERT(child < damaged.size());
+      for (const RowId other : damaged.with_label(damaged.kind(row), damaged.label(row))) {
+        RC_ASSERT(other < damaged.size());
+      }
+      if (damaged.kind(row) == RowKind::phase) RC_ASSERT(damaged.parent(row) < damaged.size());
+    }
+    damaged.find_text("VANNES");
+    RC_ASSERT(letters < 100'000'000U);
+  } catch (const Error& error) {
+    RC_ASSERT(error.code() == ErrorCode::corrupt || error.code() == ErrorCode::unsupported);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 
 #include "signweave/core/text.h"
 #include "signweave/semantic_db/semantic_db.h"
@@ -30,16 +31,14 @@ FrameRange core_frames(TimeSpan span, const RecordingInfo& info) {
 }
 
 /// The row of a sign of a recording; kNoRow where the table lacks it.
-RowId row_of(const SegmentTable& table, std::size_t recording, const Sign& sign) {
-  const std::uint32_t tier = table.find_tier(sign.tier);
-  if (tier == SegmentTable::kNone) return kNoRow;
-  const SegmentTable::RowRange rows = table.tier_rows(static_cast<std::uint32_t>(recording), tier);
-  const std::span<const SegmentRow> tier_rows = table.rows().subspan(rows.begin, rows.size());
-  const auto before = [](const SegmentRow& row, Milliseconds begin) { return row.span.begin < begin; };
-  for (auto at = std::lower_bound(tier_rows.begin(), tier_rows.end(), sign.span.begin, before);
-       at != tier_rows.end() && at->span.begin == sign.span.begin; ++at) {
-    if (at->kind == RowKind::sign && at->span == sign.span && table.labels()[at->text] == sign.gloss) {
-      return rows.begin + static_cast<RowId>(at - tier_rows.begin());
+RowId row_of(const Segments& segments, std::size_t recording, const Sign& sign) {
+  const SegmentTable::RowRange range = segments.tier_rows(static_cast<std::uint32_t>(recording), sign.tier);
+  const auto rows = std::views::iota(range.begin, range.end);
+  const auto before = [&](RowId row) { return segments.span(row).begin < sign.span.begin; };
+  for (auto at = std::ranges::partition_point(rows, before); at != rows.end(); ++at) {
+    if (segments.span(*at).begin != sign.span.begin) break;
+    if (segments.kind(*at) == RowKind::sign && segments.span(*at) == sign.span && segments.text(*at) == sign.gloss) {
+      return *at;
     }
   }
   return kNoRow;
@@ -67,7 +66,7 @@ std::vector<Candidate> gloss_candidates(const Contents& contents, const GlossRef
   std::string first_obstacle;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     if (wanted.token != 0 && wanted.token != i + 1) continue;
-    const std::uint32_t recording = contents.segments.row(tokens[i]).recording;
+    const std::uint32_t recording = contents.segments.recording(tokens[i]);
     const RecordingInfo& info = contents.recordings[recording];
     Sign sign = sign_at(contents.segments, tokens[i]);
     std::string why = obstacle(info, sign);
@@ -114,17 +113,13 @@ Candidate piece_candidate(const Contents& contents, const Place& place) {
 }  // namespace
 
 std::vector<RowId> tokens_of(const Contents& contents, std::string_view gloss) {
-  const SegmentTable& table = contents.segments;
-  const std::uint32_t label = table.find_label(match_form(gloss));
-  if (label == SegmentTable::kNone) return {};
-  const std::span<const RowId> rows = table.with_label(RowKind::sign, label);
-  std::vector<RowId> tokens(rows.begin(), rows.end());
+  const Segments& segments = contents.segments;
+  std::vector<RowId> tokens = segments.signs_with(match_form(gloss));
   // Recordings are numbered by name. Several tiers (two hands) may have the gloss at one time: the row order decides
   // then.
   std::stable_sort(tokens.begin(), tokens.end(), [&](RowId a, RowId b) {
-    const SegmentRow& left = table.row(a);
-    const SegmentRow& right = table.row(b);
-    return left.recording != right.recording ? left.recording < right.recording : left.span.begin < right.span.begin;
+    return std::pair(segments.recording(a), segments.span(a).begin) <
+           std::pair(segments.recording(b), segments.span(b).begin);
   });
   return tokens;
 }

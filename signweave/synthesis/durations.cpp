@@ -69,7 +69,14 @@ DurationFit durations_of(const Database& database, const Contents& contents, con
   if (model.fitted && stats.count > 0 && !stats.inferred) fit = fit_durations(timed_transitions(database, contents));
   fit.count = stats.count;
   std::size_t unphased = 0;
-  for (const SegmentRow& row : contents.segments.rows()) unphased += row.kind == RowKind::sign && row.inferred ? 1 : 0;
+  std::size_t phased = 0;
+  for (const Segments::Member& member : contents.segments.members()) {
+    for (RowId row = 0; row < member.table.size(); ++row) {
+      if (member.table.kind(row) != RowKind::sign || member.numbers[member.table.recording(row)] == Segments::kNone)
+        continue;
+      ++(member.table.inferred(row) ? unphased : phased);
+    }
+  }
   if (model.fitted && stats.inferred && 2 * stats.count < unphased) {
     // Most of them touch: the few gaps are pauses, and tell nothing of transitions.
     fit.count = 0;
@@ -80,9 +87,7 @@ DurationFit durations_of(const Database& database, const Contents& contents, con
   if (stats.count > 0) {
     fit.mean = model.fitted && stats.inferred ? stats.median : stats.mean;
   } else {
-    const bool phased = std::ranges::any_of(
-        contents.segments.rows(), [](const SegmentRow& row) { return row.kind == RowKind::sign && !row.inferred; });
-    fit.mean = phased ? kUnmeasuredTransition : kUnphasedTransition;
+    fit.mean = phased > 0 ? kUnmeasuredTransition : kUnphasedTransition;
   }
   return fit;
 }

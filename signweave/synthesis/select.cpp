@@ -11,7 +11,7 @@
 namespace signweave {
 namespace {
 
-constexpr std::uint32_t kNoLabel = SegmentTable::kNone;
+constexpr std::string_view kNoLabel;  // no sign has an empty one
 
 float& term(TargetTerms& terms, TargetTerm which) {
   return terms[static_cast<std::size_t>(which)];
@@ -62,21 +62,21 @@ constexpr double kBlindRotation = 0.4;
 struct Tokens {
   std::shared_ptr<const JoinEnds> ends;
   std::vector<RowId> neighbour;                           ///< [candidate] the row that it goes on from, or kNoRow
-  std::vector<std::uint32_t> label_before;                ///< [candidate] of the gloss recorded before, or kNoLabel
-  std::vector<std::uint32_t> label_after;                 ///< [candidate]
+  std::vector<std::string_view> label_before;             ///< [candidate] of the gloss recorded before, or kNoLabel
+  std::vector<std::string_view> label_after;              ///< [candidate]
   std::vector<std::pair<RowId, std::uint32_t>> by_last;   ///< last row and candidate, ascending
   std::vector<TargetTerms> terms;                         ///< [candidate] weighted; left and right are 0
   std::vector<float> own;                                 ///< [candidate] phases, outlier, defects
   std::vector<float> made_before;                         ///< [candidate] preparation
   std::vector<float> made_after;                          ///< [candidate] retraction
   std::vector<std::pair<std::size_t, FrameRange>> cores;  ///< [candidate] recording and core
-  std::uint32_t first_label = kNoLabel;                   ///< of the gloss that this place begins with
-  std::uint32_t last_label = kNoLabel;                    ///< and ends with
+  std::string_view first_label = kNoLabel;                ///< of the gloss that this place begins with
+  std::string_view last_label = kNoLabel;                 ///< and ends with
 };
 
 Tokens tokens_of(const Snapshot& snapshot, std::span<const Candidate> candidates) {
   const Contents& contents = snapshot.contents();
-  const SegmentTable& table = contents.segments;
+  const Segments& table = contents.segments;
   Tokens tokens;
   std::vector<JoinPoint> begins;
   std::vector<JoinPoint> ends;
@@ -98,8 +98,8 @@ Tokens tokens_of(const Snapshot& snapshot, std::span<const Candidate> candidates
     const RowId before = candidate.first_row == kNoRow ? kNoRow : neighbour_before(table, candidate.first_row);
     const RowId after = candidate.last_row == kNoRow ? kNoRow : neighbour_after(table, candidate.last_row);
     tokens.neighbour.push_back(before);
-    tokens.label_before.push_back(before == kNoRow ? kNoLabel : table.row(before).label);
-    tokens.label_after.push_back(after == kNoRow ? kNoLabel : table.row(after).label);
+    tokens.label_before.push_back(before == kNoRow ? kNoLabel : table.label(before));
+    tokens.label_after.push_back(after == kNoRow ? kNoLabel : table.label(after));
     if (candidate.last_row != kNoRow) {
       tokens.by_last.emplace_back(candidate.last_row, static_cast<std::uint32_t>(tokens.cores.size() - 1));
     }
@@ -133,8 +133,8 @@ Tokens tokens_of(const Snapshot& snapshot, std::span<const Candidate> candidates
     tokens.made_after.push_back(term(terms, TargetTerm::retraction));
   }
   const Candidate& one = candidates.front();
-  if (one.first_row != kNoRow) tokens.first_label = table.row(one.first_row).label;
-  if (one.last_row != kNoRow) tokens.last_label = table.row(one.last_row).label;
+  if (one.first_row != kNoRow) tokens.first_label = table.label(one.first_row);
+  if (one.last_row != kNoRow) tokens.last_label = table.label(one.last_row);
   return tokens;
 }
 
@@ -218,7 +218,7 @@ PlaceCosts Selector::next(const Choice& choice) {
       }
     }
     if (tokens->first_label != kNoLabel) {
-      for (const std::uint32_t after : before.label_after) {
+      for (const std::string_view after : before.label_after) {
         place.added_before.push_back(after == tokens->first_label ? 0 : weight_of(TargetTerm::right));
       }
     }

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+
+#include "signweave/core/bytes.h"
+
+namespace signweave::semantic_db {
+
+// One letter for what the record is, then the generation: 'D' document, 'S' segments, 'F' features, 'I' segment table.
+// What there is once in a database has a key of the letter alone: 'W' weights, 'L' list of the segment tables.
+
+inline Bytes key_of(char what, std::uint64_t generation) {
+  ByteWriter key;
+  key.number(what);
+  key.number(generation);
+  return key.take();
+}
+
+inline Bytes key_of(char what) {
+  ByteWriter key;
+  key.number(what);
+  return key.take();
+}
+
+}  // namespace signweave::semantic_db

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "signweave/semantic_db/segment_table.h"
+
+namespace signweave {
+
+// The bytes of a SegmentTable. All numbers are little-endian, every list begins at a multiple of 8 bytes from the
+// start, and the lists stand in the order below, each as long as the head says:
+//
+//   u32 version = 1 | u32 wide (0 or 1) | u32 × 19 counts, in the order of TableCounts | u32 0
+//   texts        u32 × (texts + 1) begins | their characters (UTF-8)         tiers, recordings: likewise
+//   recordings   u32 × (recordings + 1) first place | u32 × (recordings + 1) first row
+//   places       TierRows × places
+//   labels       u32 × texts: the match form of each text | u32 × slots | u32 × (texts + 1) | u32 × rows without units
+//   kinds        u32 × labels of annotations, signs, phases | u32 × rows of each phase kind | u32 × units
+//   rows         i32 × rows begins, i32 × rows ends (wide: i64 × 2 × rows) | u32 × rows text | u32 × rows parent
+//                u32 × rows place | u16 × rows flags | u32 × (rows + 1) first child | u32 × children
+//
+// Slots are an open hash table of the texts: the text i is in the first of the slots from checksum(text) & (slots − 1)
+// on that was free when it came, in the order of the numbers; slots is a power of two, and at least one stays free.
+
+/// How long the lists are.
+struct TableCounts {
+  std::uint32_t texts, text_bytes;
+  std::uint32_t tiers, tier_bytes;
+  std::uint32_t recordings, recording_bytes;
+  std::uint32_t places;
+  std::uint32_t slots;
+  std::array<std::uint32_t, 3> labels_of_kinds;
+  std::array<std::uint32_t, 5> phases;
+  std::uint32_t units;
+  std::uint32_t rows;
+  std::uint32_t children;
+};
+static_assert(sizeof(TableCounts) == 19 * sizeof(std::uint32_t));
+
+/// What a table is made of, before its indexes are.
+struct TableLists {
+  std::vector<std::string> texts, tiers, recordings;
+  std::vector<std::uint32_t> labels_of_texts;
+  std::vector<std::uint32_t> recording_tiers = {0}, recording_begins = {0};
+  std::vector<SegmentTable::TierRows> places;
+  std::vector<TimeSpan> spans;  ///< [row], as are the others
+  std::vector<std::uint32_t> texts_of_rows, places_of_rows;
+  std::vector<RowId> parents;
+  std::vector<std::uint16_t> flags;
+
+  RowId rows() const noexcept { return static_cast<RowId>(spans.size()); }
+};
+
+/// Makes and reads those bytes.
+class TableBytes {
+ public:
+  static std::uint16_t flags_of(const SegmentRow& row) noexcept;
+  /// Throws Error{unsupported} where a count does not fit 32 bits.
+  static Bytes write(const TableLists& lists);
+  /// As SegmentTable::open.
+  static SegmentTable open(ByteSpan bytes, std::shared_ptr<const void> owner, const std::string& where);
+
+ private:
+  class Reader;
+};
+
+}  // namespace signweave

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstdint>
+#include <ranges>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "signweave/semantic_db/segment_table.h"
+
+namespace signweave {
+
+/// The segments of a database: some tables, each of other recordings. Immutable; threads may share it.
+///
+/// Recordings are numbered by name over all tables. A row is numbered so too: its number in its table, and how many
+/// rows the tables before that one have. So rows of one recording stand as in its table.
+class Segments {
+ public:
+  /// A recording that is in tables older than `generation` is no longer what they say.
+  struct Tombstone {
+    std::string recording;
+    std::uint64_t generation = 0;
+    friend bool operator==(const Tombstone&, const Tombstone&) = default;
+  };
+  struct Aged {
+    SegmentTable table;
+    std::uint64_t generation = 0;
+  };
+  /// One table, and which of its recordings count.
+  struct Member {
+    SegmentTable table;
+    RowId first = 0;                     ///< what is added to its rows
+    std::vector<std::uint32_t> numbers;  ///< [recording of the table] its number here; kNone: it does not count
+    bool whole = true;                   ///< all count
+  };
+
+  Segments() = default;
+  /// One table of all recordings.
+  Segments(SegmentTable table);  // NOLINT: a table is the segments of its recordings
+  explicit Segments(std::vector<Aged> tables, std::span<const Tombstone> tombstones = {});
+
+  static constexpr std::uint32_t kNone = SegmentTable::kNone;
+
+  std::span<const Member> members() const noexcept { return members_; }
+  /// Rows of recordings that count.
+  std::size_t row_count() const noexcept { return rows_; }
+
+  std::uint32_t recording_count() const noexcept { return static_cast<std::uint32_t>(recordings_.size()); }
+  std::string_view recording_name(std::uint32_t recording) const noexcept;
+  /// None (kNone) where there is none of this name.
+  std::uint32_t find_recording(std::string_view name) const noexcept;
+  /// Where a recording is. The rows there and here differ by `first_row`.
+  SegmentTable::Part part(std::uint32_t recording) const noexcept {
+    return {&members_[recordings_[recording].first].table, recordings_[recording].second};
+  }
+  RowId first_row(std::uint32_t recording) const noexcept { return members_[recordings_[recording].first].first; }
+
+  // Of a row. It must be one of a recording that counts.
+
+  RowKind kind(RowId row) const noexcept { return in_table(row, &SegmentTable::kind); }
+  PhaseKind phase(RowId row) const noexcept { return in_table(row, &SegmentTable::phase); }
+  Hand hand(RowId row) const noexcept { return in_table(row, &SegmentTable::hand); }
+  bool inferred(RowId row) const noexcept { return in_table(row, &SegmentTable::inferred); }
+  TimeSpan span(RowId row) const noexcept { return in_table(row, &SegmentTable::span); }
+  std::uint32_t recording(RowId row) const noexcept;
+  std::string_view label(RowId row) const noexcept;  ///< match form
+  std::string_view text(RowId row) const noexcept;   ///< verbatim
+  std::string_view tier(RowId row) const noexcept;
+  RowId parent(RowId row) const noexcept;
+  /// The rows whose parent it is, in time order.
+  auto children(RowId row) const noexcept {
+    const Member& member = member_of(row);
+    return member.table.children(row - member.first) |
+           std::views::transform([first = member.first](RowId child) { return child + first; });
+  }
+  SegmentTable::RowRange recording_rows(std::uint32_t recording) const noexcept;
+  /// The own rows of that tier which a row is on.
+  SegmentTable::RowRange tier_rows_of(RowId row) const noexcept;
+  /// The own rows of a tier of a recording; empty where there is none.
+  SegmentTable::RowRange tier_rows(std::uint32_t recording, std::string_view tier) const noexcept;
+
+  /// The signs with a gloss (match form), by recording, then row.
+  std::vector<RowId> signs_with(std::string_view gloss) const;
+  /// Every gloss (match form), sorted, once.
+  std::vector<std::string> glosses() const;
+  std::vector<std::string> recordings() const;
+  /// Every tier's id, sorted, once.
+  std::vector<std::string> tiers() const;
+
+ private:
+  const Member& member_of(RowId row) const noexcept {
+    std::size_t at = members_.size() - 1;
+    while (members_[at].first > row) --at;
+    return members_[at];
+  }
+  template <typename Value>
+  Value in_table(RowId row, Value (SegmentTable::*column)(RowId) const noexcept) const noexcept {
+    const Member& member = member_of(row);
+    return (member.table.*column)(row - member.first);
+  }
+
+  std::vector<Member> members_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> recordings_;  ///< [recording] member, and its number there
+  std::size_t rows_ = 0;
+};
+
+/// A sign row and its phases as the Sign that they were made of (without its annotation ids and signer).
+Sign sign_at(const Segments& segments, RowId row);
+
+/// All signs of a recording, by tier as the table lists them, then time.
+std::vector<Sign> signs_of(const Segments& segments, std::uint32_t recording);
+
+/// Which phase rows each of them has, [sign][phase]: their places among all phase rows of the recording, which is the
+/// order of its features.
+std::vector<std::vector<std::size_t>> phase_places_of(const Segments& segments, std::uint32_t recording);
+
+/// Those of its main sign tier, the one with most signs (of several, the first): what a run of signs means where each
+/// hand has a tier of its own.
+std::vector<Sign> main_signs_of(const Segments& segments, std::uint32_t recording);
+
+}  // namespace signweave

@@ -161,6 +161,8 @@ Head read_head(const kv::ReadTransaction& snapshot) {
   head.access_mode.kind = in.number<AccessMode::Kind>();
   head.access_mode.frames_per_packet = in.number<std::uint32_t>();
   if (version >= 3) head.tolerance = in.number<float>();
+  if (in.left() > 0) head.documents = in.number<DocumentStorage>();  // databases made before it have none
+  if (head.documents > DocumentStorage::node) in.fail("a storage of documents that does not exist");
   in.finish();
   return head;
 }
@@ -173,6 +175,7 @@ void write_head(kv::WriteTransaction& transaction, const Head& head) {
   out.number(head.access_mode.kind);
   out.number(head.access_mode.frames_per_packet);
   out.number(head.tolerance);
+  out.number(head.documents);
   transaction.put(key_of('C'), kv::sealed(out.bytes()));
 }
 

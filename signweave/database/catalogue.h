@@ -29,6 +29,7 @@ struct Head {
   std::uint32_t recordings = 0;
   AccessMode access_mode;  ///< for motions to come
   float tolerance = 0;     ///< for motions to come: metres, 0 keeps every bit
+  DocumentStorage documents = DocumentStorage::document;  ///< for annotation to come
 };
 
 /// What a crash may have left behind, or what is to be erased once nothing names it.

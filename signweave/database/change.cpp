@@ -8,9 +8,11 @@
 #include "signweave/database/catalogue.h"
 #include "signweave/database/database.h"
 #include "signweave/database/measure.h"
+#include "signweave/database/tables.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/motion_db/quantise.h"
 #include "signweave/semantic_db/semantic_db.h"
+#include "signweave/semantic_db/table_store.h"
 
 // Everything that changes a database. A motion is written under a new generation first, where nobody looks; one
 // transaction then makes it visible, and what it replaces goes onto the sweep list in the same transaction. So a crash
@@ -32,7 +34,9 @@ void Database::create(const std::filesystem::path& folder, const CreateOptions& 
   kv::create(folder, options.engine);
   const std::unique_ptr<kv::KvStore> store = kv::open(folder, kv::Access::read_write);
   const std::unique_ptr<kv::WriteTransaction> transaction = store->write();
-  catalogue::write_head(*transaction, {.access_mode = options.access_mode, .tolerance = options.tolerance});
+  catalogue::write_head(
+      *transaction,
+      {.access_mode = options.access_mode, .tolerance = options.tolerance, .documents = options.documents});
   transaction->commit();
 }
 
@@ -127,10 +131,12 @@ void Database::put(const Recording& recording, const Progress& progress) {
 
   // What can fail for the input's sake fails before anything is written.
   std::string source;
+  std::string specification;
   SegmentChunk segments;
   if (recording.annotation) {
     const AnnotationPart& part = *recording.annotation;
     source = part.document.source.empty() ? eaf::write_text(part.document) : part.document.source;
+    if (!part.document.source.empty()) specification = part.document.specification;
     segments = segments_of(part.document, signs_in(part.document, part.tiers).signs);
   }
   const std::optional<RecordingInfo> before = this->info(recording.name);
@@ -210,7 +216,8 @@ void Database::put(const Recording& recording, const Progress& progress) {
     for (const auto& property : recording.annotation->document.properties) {
       if (property.first.starts_with("signweave:")) info.declarations.push_back(property);
     }
-    semantic_db::put(*transaction, info.document, source, segments);
+    semantic_db::put_document(*transaction, info.document, source, specification, head.documents);
+    semantic_db::put(*transaction, info.document, segments);
   } else if (info.document != 0 && !features) {
     segments = segments_if_sound(*transaction, info);
   }
@@ -222,6 +229,7 @@ void Database::put(const Recording& recording, const Progress& progress) {
   if (slot == head.recordings) ++head.recordings;
   ++head.changes;
   catalogue::write_head(*transaction, head);
+  tables::put(*transaction, info, segments, known.has_value());
   transaction->commit();
 
   remember_slot(slot, info.name, head.changes);
@@ -331,6 +339,7 @@ void Database::remove(std::string_view name) {
   --head.recordings;
   ++head.changes;
   catalogue::write_head(*transaction, head);
+  tables::remove(*transaction, info.name);
   transaction->commit();
   sweep();
   if (damaged) sweep_unnamed();  // the entry did not tell what it named
@@ -379,6 +388,12 @@ void Database::sweep_unnamed() {
         return;  // what a damaged entry names cannot be told, and may be wanted yet
       }
     }
+  }
+  try {
+    const std::vector<std::uint64_t> listed = semantic_db::table_generations(*store_->read());
+    named.insert(listed.begin(), listed.end());
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::corrupt) throw;  // then nobody can find the tables
   }
   std::vector<Bytes> unnamed;
   store_->visit([&](ByteSpan key, std::size_t) {

@@ -25,8 +25,7 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
     listener.fault(fault);
   }
   const std::string specification = semantic_db::read_specification(snapshot, info.document, info.name);
-  const AnnotationDocument document =
-      annotation_file::read_text(info.annotation_file, source, specification).document;
+  const AnnotationDocument document = annotation_file::read_text(info.annotation_file, source, specification).document;
   const SegmentChunk made = segments_of(document, signs_in(document, info.tiers).signs);
   ByteWriter stored_bytes;
   ByteWriter made_bytes;

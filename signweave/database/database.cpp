@@ -11,7 +11,8 @@
 
 #include "signweave/core/text.h"
 #include "signweave/database/catalogue.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/database/tables.h"
+#include "signweave/formats/annotation_file.h"
 #include "signweave/semantic_db/semantic_db.h"
 
 namespace signweave {
@@ -70,19 +71,22 @@ Database::Database(const std::filesystem::path& folder, kv::Access access) : fol
 Database::~Database() = default;
 
 std::shared_ptr<const Contents> Database::contents() const {
-  return contents_of(*store_->read());
+  return contents_of(store_->read());
 }
 
 Snapshot Database::snapshot() const {
   Snapshot made;
   made.database_ = this;
   made.transaction_ = store_->read();
-  made.contents_ = contents_of(*made.transaction_);
+  made.contents_ = contents_of(made.transaction_);
   return made;
 }
 
-std::shared_ptr<const Contents> Database::contents_of(const kv::ReadTransaction& snapshot) const {
+std::shared_ptr<const Contents> Database::contents_of(
+    const std::shared_ptr<const kv::ReadTransaction>& transaction) const {
+  const kv::ReadTransaction& snapshot = *transaction;
   const catalogue::Head head = catalogue::read_head(snapshot);
+  const std::shared_ptr<const Segments> segments = stored_segments(transaction);
   const std::lock_guard guard(mutex_);
   if (contents_ && contents_at_ == head.changes) return contents_;
 
@@ -98,21 +102,16 @@ std::shared_ptr<const Contents> Database::contents_of(const kv::ReadTransaction&
   }
   std::sort(made->recordings.begin(), made->recordings.end(),
             [](const RecordingInfo& a, const RecordingInfo& b) { return a.name < b.name; });
-  std::vector<SegmentChunk> chunks(made->recordings.size());
-  std::vector<SegmentTable::Source> sources;
-  for (std::size_t i = 0; i < chunks.size(); ++i) {
-    const RecordingInfo& info = made->recordings[i];
-    try {
-      if (info.document != 0) chunks[i] = semantic_db::read_segments(snapshot, info.document, info.name);
-    } catch (const Error& error) {
-      made->faults.emplace_back(error.what());
-    }
-    sources.push_back({info.name, &chunks[i]});
+  const auto same = [](const RecordingInfo& info, const std::string& name) { return info.name == name; };
+  if (std::ranges::equal(made->recordings, segments->recordings(), same)) {
+    made->segments = *segments;
+  } else {  // a damaged entry's recording is in the tables yet, or what is damaged is the tables
+    made->faults.clear();
+    made->segments = Segments(tables::table_of_all(snapshot, made->faults));
   }
-  made->segments = SegmentTable(sources);
 
   std::vector<Transition> transitions;
-  for (std::uint32_t recording = 0; recording < sources.size(); ++recording) {
+  for (std::uint32_t recording = 0; recording < made->recordings.size(); ++recording) {
     const std::vector<Transition> found = transitions_in(signs_of(made->segments, recording));
     transitions.insert(transitions.end(), found.begin(), found.end());
   }
@@ -166,10 +165,6 @@ std::optional<RecordingInfo> Database::info(std::string_view name) const {
   const std::optional<std::uint32_t> slot = slot_of(*snapshot, name);
   if (!slot) return std::nullopt;
   return catalogue::read_recording(*snapshot, *slot);
-}
-
-std::vector<Segment> Database::find(const PhaseQuery& query, const FindLimits& limits) const {
-  return signweave::find(query, contents()->segments, limits);
 }
 
 namespace {
@@ -229,7 +224,9 @@ AnnotationDocument Database::document(std::string_view name) const {
                 fmt::format("recording '{}' has no annotation; import its annotation file too", info.name));
   }
   const std::string source = semantic_db::read_document(*snapshot, info.document, info.name);
-  return eaf::read_text(info.annotation_file.empty() ? info.name : info.annotation_file, source).document;
+  return annotation_file::read_text(info.annotation_file.empty() ? info.name : info.annotation_file, source,
+                                    semantic_db::read_specification(*snapshot, info.document, info.name))
+      .document;
 }
 
 kv::EngineInfo Database::engine() const {

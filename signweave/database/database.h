@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -23,17 +24,31 @@
 #include "signweave/motion_db/motion_db.h"
 #include "signweave/query/find.h"
 #include "signweave/query/phase_query.h"
-#include "signweave/semantic_db/segment_table.h"
+#include "signweave/semantic_db/documents.h"
+#include "signweave/semantic_db/segments.h"
+#include "signweave/xpath/expression.h"
 
 namespace signweave {
 
 class CheckListener;
 class Database;
 
+/// What an XPath expression says of one recording's document: a node that it selects, or its value.
+struct XPathAnswer {
+  std::string recording;
+  xpath::Value value;
+};
+
+struct XPathLimits {
+  std::optional<std::size_t> limit;  ///< at most so many answers
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+  std::vector<std::string> recordings;  ///< names; empty: all that have annotation
+};
+
 /// What a database held at one moment. Immutable, so threads may share it.
 struct Contents {
   std::vector<RecordingInfo> recordings;  ///< by name
-  SegmentTable segments;                  ///< its recordings in the same order
+  Segments segments;                      ///< its recordings in the same order
   TransitionStats transitions;            ///< over the whole corpus
   std::vector<std::string> faults;        ///< recordings that are damaged and left out: one line each, see `check`
 
@@ -78,12 +93,13 @@ struct Usage {
 };
 
 /// The layout of the databases that this version writes; it reads those of layouts 2 and later too.
-inline constexpr int kDatabaseLayout = 3;
+inline constexpr int kDatabaseLayout = 4;
 
 struct CreateOptions {
   std::string engine = "lmdb";
-  AccessMode access_mode;  ///< for motions put later
-  float tolerance = 0;     ///< for motions put later, see Storage
+  AccessMode access_mode;                                 ///< for motions put later
+  float tolerance = 0;                                    ///< for motions put later, see Storage
+  DocumentStorage documents = DocumentStorage::document;  ///< for annotation put later
 };
 
 /// How motions are stored, in part: what is none stays as it is.
@@ -160,6 +176,14 @@ class Database {
   /// How motions are stored that are put from now on.
   void set_storage(const Storage& storage);
 
+  /// Where importing left several segment tables, makes one of them, so that a query has one to look at; false where
+  /// there is nothing to do. Call it once after some changes.
+  bool merge();
+
+  /// What is searched, as it is now. Without `contents`, so a query of a large database does not wait for its
+  /// catalogue.
+  std::shared_ptr<const Segments> segments() const;
+
   /// The segments that answer a query, by recording name and time.
   std::vector<Segment> find(const PhaseQuery& query, const FindLimits& limits = {}) const;
 
@@ -177,6 +201,26 @@ class Database {
 
   /// The annotation document as it was stored, `source` included. Throws Error{not_found} where there is none.
   AnnotationDocument document(std::string_view name) const;
+
+  /// One annotation of a recording's document by its id (StoredAnnotation); none where there is none. In `node` storage
+  /// nothing else of the document is read. Throws Error{not_found} for an unknown recording or one without annotation.
+  std::optional<StoredAnnotation> annotation(std::string_view recording, std::string_view id) const;
+  /// Those of a tier, in the order of the document; none where there is no such tier. Throws likewise.
+  std::vector<StoredAnnotation> tier(std::string_view recording, std::string_view tier) const;
+
+  /// What an XPath expression says of the documents, by recording name, then in the order of the document. In `node`
+  /// storage only the records that it is about are read, where a part of the document tells. Throws Error{not_found}
+  /// for an unknown recording, Error{cancelled} when the time is over.
+  std::vector<XPathAnswer> xpath(const xpath::Expression& expression, const XPathLimits& limits = {}) const;
+
+  /// Stores a recording's annotation document in the other way; false where it is stored so already, or there is none.
+  /// Readers see the old records or the new, and so does whoever opens the database after a crash.
+  bool relayout_document(std::string_view name, DocumentStorage storage);
+  /// How a recording's document is stored; none where it has none.
+  std::optional<DocumentStorage> document_storage(std::string_view name) const;
+  /// How documents are stored that are put from now on.
+  DocumentStorage document_storage() const;
+  void set_document_storage(DocumentStorage storage);
 
   /// What was measured of a recording's phases: one entry for each phase row of it in the segment table, in their
   /// order. Measured now where nothing of this version is stored.
@@ -196,7 +240,8 @@ class Database {
   friend void check_slots(const Database& database, std::uint32_t first, CheckListener& listener);
   class WriterLock;
 
-  std::shared_ptr<const Contents> contents_of(const kv::ReadTransaction& snapshot) const;
+  std::shared_ptr<const Contents> contents_of(const std::shared_ptr<const kv::ReadTransaction>& snapshot) const;
+  std::shared_ptr<const Segments> stored_segments(const std::shared_ptr<const kv::ReadTransaction>& snapshot) const;
   std::shared_ptr<const motion_db::KnownMotion> known(const kv::ReadTransaction& snapshot,
                                                       const motion_db::StoredMotion& stored) const;
 
@@ -224,6 +269,8 @@ class Database {
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Contents> contents_;
   mutable std::uint64_t contents_at_ = 0;
+  mutable std::shared_ptr<const Segments> segments_;
+  mutable std::uint64_t segments_at_ = 0;
   mutable std::map<std::uint64_t, std::shared_ptr<const motion_db::KnownMotion>> known_;  ///< by generation
   mutable std::map<std::size_t, std::shared_ptr<const RecordingJoins>> joins_;  ///< of contents_, by recording
   mutable std::optional<JoinWeights> join_weights_;                             ///< of contents_

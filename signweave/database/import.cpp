@@ -7,7 +7,7 @@
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/annotation_file.h"
 #include "signweave/formats/face_csv.h"
 
 namespace signweave {
@@ -191,7 +191,7 @@ std::optional<RecordingInfo> find_known(const Database& database, const ImportJo
 ImportReport import_recording(Database& database, const ImportJob& job, const ImportOptions& options,
                               const Database::Progress& progress) {
   const std::uint64_t motion_print = job.motion ? file_checksum(*job.motion) : 0;
-  const std::uint64_t annotation_print = job.annotation ? file_checksum(*job.annotation) : 0;
+  const std::uint64_t annotation_print = job.annotation ? annotation_file::fingerprint(*job.annotation) : 0;
   const std::optional<RecordingInfo> known = find_known(database, job, motion_print, annotation_print);
   const bool motion_known = known && known->motion;
   const bool document_known = known && known->document != 0;
@@ -233,7 +233,7 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
       !options.sign_tiers.empty() || !options.phase_tiers.empty() || !options.phase_labels.empty();
   if (job.annotation && (!document_known || known->annotation_fingerprint != annotation_print || options_about_tiers)) {
     const std::string where = job.annotation->string();
-    eaf::File file = eaf::read(*job.annotation);
+    annotation_file::File file = annotation_file::read(*job.annotation);
     annotation_notices = std::move(file.notices);
     names = tier_names(file.document, options, known ? &*known : nullptr, where, annotation_notices);
     document = std::move(file.document);
@@ -245,7 +245,7 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     } catch (const Error& error) {
       // Damaged: the file, which is the same, takes its place.
       if (error.code() != ErrorCode::corrupt || !job.annotation) throw;
-      document = eaf::read(*job.annotation).document;
+      document = annotation_file::read(*job.annotation).document;
       names = known->tiers;
       new_annotation = true;
     }

@@ -33,10 +33,9 @@ struct Pairing {
 };
 
 /// Finds out which files belong together. Folders are walked; files pair by the table of pairs, by stem in one folder,
-/// by a stem that is unique, and by the files that an EAF links; one EAF may serve several motions. A face capture
-/// STEM.face.csv goes with the motion STEM of its folder.
-/// Throws Error{not_found} for an input that is not there, Error{unsupported} for a file of a kind that cannot be read,
-/// Error{bad_input} for a bad table.
+/// by a stem that is unique, and by the files that an annotation links; one annotation may serve several motions. A
+/// face capture STEM.face.csv goes with the motion STEM of its folder. Throws Error{not_found} for an input that is not
+/// there, Error{unsupported} for a file of a kind that cannot be read, Error{bad_input} for a bad table.
 ///
 /// The table is CSV with the columns motion, annotation, signer, offset (ms); the last two may be missing, either of
 /// the first two may be empty; paths are relative to the table's folder. A first row "motion,annotation,…" is a

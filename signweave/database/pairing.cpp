@@ -7,7 +7,7 @@
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/database/import.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/annotation_file.h"
 
 namespace signweave {
 namespace {
@@ -19,7 +19,7 @@ enum class Kind { motion, annotation, face, other };
 Kind kind_of(const fs::path& path) {
   const std::string ending = fold_case(path.extension().string());
   if (ending == ".bvh") return Kind::motion;
-  if (ending == ".eaf") return Kind::annotation;
+  if (annotation_file::is_name(path)) return Kind::annotation;
   if (fold_case(path.filename().string()).ends_with(".face.csv")) return Kind::face;
   return Kind::other;
 }
@@ -27,9 +27,10 @@ Kind kind_of(const fs::path& path) {
 [[noreturn]] void refuse_kind(const fs::path& path) {
   throw Error(
       ErrorCode::unsupported,
-      fmt::format("{}: neither a motion file (.bvh), an annotation file (.eaf) nor a face capture, which is called "
-                  "as its motion, NAME.face.csv",
-                  path.string()));
+      fmt::format(
+          "{}: neither a motion file (.bvh), an annotation file (.eaf, .anvil) nor a face capture, which is called "
+          "as its motion, NAME.face.csv",
+          path.string()));
 }
 
 struct Files {
@@ -208,7 +209,7 @@ std::vector<ImportJob> read_pairs(const fs::path& table) {
 std::set<std::string> linked_motions(const fs::path& annotation) {
   std::set<std::string> names;
   try {
-    for (const LinkedFile& linked : eaf::read(annotation).document.linked_files) {
+    for (const LinkedFile& linked : annotation_file::read(annotation).document.linked_files) {
       for (const std::string& url : {linked.url, linked.relative_url}) {
         if (kind_of(linked_file_name(url)) == Kind::motion) names.insert(linked_file_name(url));
       }

@@ -41,14 +41,25 @@ Field compact_field() {
           .type_name = "MM"};
 }
 
+std::string check_documents(const std::string& text) {
+  if (parse_document_storage(text)) return {};
+  return fmt::format("'{}' is no storage of documents: document or node", printable(text));
+}
+
+Field documents_field() {
+  return {.name = "documents",
+          .help = "how annotation is stored: document (each in one record) or node (every annotation a record)",
+          .check = check_documents};
+}
+
 json run(Database& database, const RemoveCall& call) {
   database.remove(call.recording);
   return {{"removed", call.recording}};
 }
 
 std::string nothing_to_change(const RelayoutCall& call) {
-  return call.access_mode.empty() && !call.compact ? "what is to be changed? give --access-mode, --compact or both"
-                                                   : "";
+  const bool nothing = call.access_mode.empty() && !call.compact && call.documents.empty();
+  return nothing ? "what is to be changed? give --access-mode, --compact, --documents or several of them" : "";
 }
 
 Relayouted run(Database& database, const RelayoutCall& call, const Listener& listener) {
@@ -56,6 +67,7 @@ Relayouted run(Database& database, const RelayoutCall& call, const Listener& lis
   Storage storage;
   if (!call.access_mode.empty()) storage.mode = parse_access_mode(call.access_mode);
   if (call.compact) storage.tolerance = static_cast<float>(*call.compact / 1e3);
+  const std::optional<DocumentStorage> documents = parse_document_storage(call.documents);
   std::vector<std::string> names = call.recordings;
   const bool all = names.empty();
   if (all) {
@@ -73,7 +85,8 @@ Relayouted run(Database& database, const RelayoutCall& call, const Listener& lis
       listener.advance((static_cast<double>(i) + fraction) / static_cast<double>(names.size()));
     };
     try {
-      const bool stored_anew = database.relayout(names[i], stored, advance);
+      bool stored_anew = database.relayout(names[i], stored, advance);
+      if (documents && database.relayout_document(names[i], *documents)) stored_anew = true;
       if (database.measure(names[i]) || stored_anew) done.changed.push_back(names[i]);
     } catch (const Error& error) {  // the others go on
       if (error.code() == ErrorCode::cancelled) throw;
@@ -82,6 +95,7 @@ Relayouted run(Database& database, const RelayoutCall& call, const Listener& lis
     }
   }
   if (whole) database.set_storage(storage);
+  if (whole && documents) database.set_document_storage(*documents);
   return done;
 }
 

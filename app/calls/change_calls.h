@@ -14,10 +14,12 @@ namespace signweave::calls {
 /// Empty, or what is wrong with the value.
 std::string check_access_mode(const std::string& text);
 std::string check_compact(const std::string& text);
+std::string check_documents(const std::string& text);
 
-/// The fields of `create` and `relayout` that say how motions are stored.
+/// The fields of `create` and `relayout` that say how motions and documents are stored.
 Field access_mode_field();
 Field compact_field();
+Field documents_field();
 
 /// Removes a recording.
 struct RemoveCall {
@@ -36,10 +38,11 @@ void fields(Visit& visit, RemoveCall& call) {
 /// Throws Error{not_found}. Call `learn` after it.
 nlohmann::json run(Database& database, const RemoveCall& call);
 
-/// Stores motions in another access mode.
+/// Stores motions in another access mode, annotation documents in the other way.
 struct RelayoutCall {
   std::string access_mode;
   std::optional<double> compact;  ///< millimetres
+  std::string documents;
   std::vector<std::string> recordings;
 };
 
@@ -47,6 +50,7 @@ template <class Visit>
 void fields(Visit& visit, RelayoutCall& call) {
   visit(access_mode_field(), call.access_mode);
   visit(compact_field(), call.compact);
+  visit(documents_field(), call.documents);
   visit(Field{.name = "recordings",
               .help = "recordings to store anew; without any, all of them and those that are imported later",
               .words = "RECORDING"},

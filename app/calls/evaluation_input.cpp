@@ -9,7 +9,7 @@
 #include "signweave/core/text.h"
 #include "signweave/database/database.h"
 #include "signweave/database/import.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/annotation_file.h"
 #include "signweave/semantic_db/semantic_db.h"
 
 namespace signweave::calls {
@@ -55,7 +55,7 @@ struct Annotated {
 Annotated annotation_of(const ImportJob& job, FrameRate rate) {
   Annotated found{.signs = {}, .clock = {rate.frame_time(), Seconds(0)}};
   if (!job.annotation) return found;
-  const AnnotationDocument document = eaf::read(*job.annotation).document;
+  const AnnotationDocument document = annotation_file::read(*job.annotation).document;
   found.signs = signs_in(document, guess_tier_names(document)).signs;
   for (const LinkedFile& linked : document.linked_files) {
     for (const std::string& url : {linked.url, linked.relative_url}) {

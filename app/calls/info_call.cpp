@@ -27,6 +27,7 @@ DatabaseInfo run_info(const Database& database, const std::function<std::vector<
                     .usage = {},
                     .access_mode = database.access_mode(),
                     .tolerance = database.tolerance(),
+                    .documents = database.document_storage(),
                     .weights = {}};
   try {
     info.usage = usage();
@@ -70,6 +71,7 @@ json json_of(const DatabaseInfo& info) {
           {"usage", std::move(usage)},
           {"access_mode", to_string(info.access_mode)},
           {"compact_mm", millimetres(info.tolerance)},
+          {"documents", name_of(info.documents)},
           {"weights", json_of(info.weights)},
           {"recordings", std::move(recordings)}};
 }
@@ -124,6 +126,7 @@ std::vector<std::vector<std::string>> format_rows() {
       {".bvh", "yes", "yes", "skeleton and motion", "annotation; rotations beyond 1e-4 degrees"},
       {".glb .gltf", "no", "yes", "skeleton, motion, a simple body and face; for viewers", "annotation"},
       {".eaf", "yes", "yes", "annotation", "motion"},
+      {".anvil", "yes", "no", "annotation; written as .eaf", "motion"},
       {".json", "no", "yes", "a synthesis: poses, signs, sources, junctions", "nothing"},
       {".csv", "no", "yes", "joint positions per frame, metres", "rotations, annotation"},
       {".face.csv", "yes", "yes", "scalar tracks, as Live Link Face writes them", "everything else"},

@@ -22,6 +22,7 @@ struct DatabaseInfo {
   std::vector<Usage> usage;  ///< empty where looking at every entry met damage
   AccessMode access_mode;
   float tolerance = 0;
+  DocumentStorage documents = DocumentStorage::document;  ///< of those to come
   JoinWeights weights;
 };
 

@@ -1,5 +1,9 @@
 #include "app/calls/query_call.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "signweave/query/find.h"
 #include "signweave/query/parse.h"
 #include "signweave/query/plan.h"
@@ -7,6 +11,15 @@
 namespace signweave::calls {
 
 using nlohmann::json;
+
+namespace {
+
+/// To a tenth of a thousandth: what a float has beyond that is noise.
+double rounded(float distance) {
+  return std::round(static_cast<double>(distance) * 1e4) / 1e4;
+}
+
+}  // namespace
 
 QueryReport run(const Database& database, const QueryCall& call) {
   const PhaseQuery query = parse(call.text);
@@ -39,6 +52,7 @@ json json_of(const QueryReport& report) {
     one["recording"] = segment.recording;
     one["name"] = segment.name;
     one["parts"] = std::move(parts);
+    if (segment.distance) one["distance"] = rounded(*segment.distance);
     list.push_back(std::move(one));
   }
   return list;
@@ -46,9 +60,12 @@ json json_of(const QueryReport& report) {
 
 std::vector<std::vector<std::string>> rows_of(const QueryReport& report) {
   std::vector<std::vector<std::string>> rows = {{"recording", "name", "begin ms", "end ms"}};
+  const bool ranked = !report.answers.empty() && report.answers.front().distance.has_value();
+  if (ranked) rows.front().emplace_back("distance");
   for (const Segment& segment : report.answers) {
     rows.push_back({segment.recording, segment.name, std::to_string(segment.span.begin.count()),
                     std::to_string(segment.span.end.count())});
+    if (ranked) rows.back().push_back(fmt::format("{:.3f}", segment.distance.value_or(0)));
   }
   return rows;
 }

@@ -72,6 +72,7 @@ Run info(CLI::App& verb);
 Run check(CLI::App& verb);
 Run relayout(CLI::App& verb);
 Run query(CLI::App& verb);
+Run xpath(CLI::App& verb);
 Run sign(CLI::App& verb);
 Run edit(CLI::App& verb);
 Run export_recording(CLI::App& verb);

@@ -15,6 +15,7 @@ Run create(CLI::App& verb) {
     std::string engine = "lmdb";
     std::string mode = "by_frame";
     std::optional<double> compact;  ///< millimetres
+    std::string documents = "document";
   };
   auto options = std::make_shared<CreateArguments>();
   verb.add_option("DB", options->folder, "folder to make; must not exist or be empty")->required();
@@ -26,16 +27,21 @@ Run create(CLI::App& verb) {
   access_mode.shows_default = true;
   binder(access_mode, options->mode);
   binder(calls::compact_field(), options->compact);
+  calls::Field documents = calls::documents_field();
+  documents.shows_default = true;
+  binder(documents, options->documents);
   return [options](Io& io) {
     const AccessMode mode = *parse_access_mode(options->mode);
     Database::create(options->folder, {.engine = options->engine,
                                        .access_mode = mode,
-                                       .tolerance = static_cast<float>(options->compact.value_or(0) / 1e3)});
+                                       .tolerance = static_cast<float>(options->compact.value_or(0) / 1e3),
+                                       .documents = *parse_document_storage(options->documents)});
     if (io.json) {
       io.out << text_of(nlohmann::json{{"database", options->folder},
                                        {"engine", options->engine},
                                        {"access_mode", to_string(mode)},
-                                       {"compact_mm", options->compact.value_or(0)}});
+                                       {"compact_mm", options->compact.value_or(0)},
+                                       {"documents", options->documents}});
     }
   };
 }

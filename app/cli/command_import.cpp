@@ -72,7 +72,7 @@ Run import(CLI::App& verb) {
   auto options = std::make_shared<ImportArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   verb.add_option("FILE", options->inputs,
-                  "motion files (.bvh), annotation files (.eaf), face captures (.face.csv), folders of them");
+                  "motion files (.bvh), annotation files (.eaf, .anvil), face captures (.face.csv), folders of them");
   bind(verb, options->call);
   return [options](Io& io) {
     if (options->inputs.empty() && options->call.pairs.empty()) throw CLI::RequiredError("FILE or --pairs");

@@ -17,7 +17,7 @@
 #include "app/cli/rig_report.h"
 #include "signweave/annotation/sign.h"
 #include "signweave/core/text.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/annotation_file.h"
 #include "signweave/formats/face_csv.h"
 
 namespace signweave::cli {
@@ -104,9 +104,10 @@ void info_of_face(const std::string& path, Io& io) {
   print_notices(io, face.notices);
 }
 
-void info_of_eaf(const std::string& path, Io& io) {
-  const eaf::File file = eaf::read(path);
+void info_of_annotation(const std::string& path, Io& io) {
+  const annotation_file::File file = annotation_file::read(path);
   const AnnotationDocument& document = file.document;
+  const std::string format = document.source_format == SourceFormat::anvil ? "ANVIL" : "EAF " + document.format;
   const TierNames names = guess_tier_names(document);
   const SignsFound found = signs_in(document, names);
   const auto role_of = [&](const std::string& id) -> std::string {
@@ -129,7 +130,7 @@ void info_of_eaf(const std::string& path, Io& io) {
                        {"role", role_of(tier.id)}});
     }
     io.out << text_of(json{{"file", path},
-                           {"format", "EAF " + document.format},
+                           {"format", format},
                            {"tiers", std::move(tiers)},
                            {"signs", found.signs.size()},
                            {"notices", json_of(notices)}});
@@ -137,7 +138,7 @@ void info_of_eaf(const std::string& path, Io& io) {
   }
   std::size_t annotations = 0;
   for (const Tier& tier : document.tiers) annotations += tier.annotations.size();
-  io.out << fmt::format("{}: EAF {}, {}, {}, {}\n", path, document.format, counted(document.tiers.size(), "tier"),
+  io.out << fmt::format("{}: {}, {}, {}, {}\n", path, format, counted(document.tiers.size(), "tier"),
                         counted(annotations, "annotation"), counted(found.signs.size(), "sign"));
   std::vector<std::vector<std::string>> rows = {{"tier", "parent", "type", "annotations", "taken as"}};
   for (const Tier& tier : document.tiers) {
@@ -158,7 +159,7 @@ Run info(CLI::App& verb) {
   };
   auto options = std::make_shared<InfoArguments>();
   verb.add_option("PATH", options->path,
-                  "a database, a motion file (.bvh), an annotation file (.eaf) or a face capture (.face.csv)")
+                  "a database, a motion file (.bvh), an annotation file (.eaf, .anvil) or a face capture (.face.csv)")
       ->required();
   verb.add_option("RECORDING", options->recording, "of a database: all that is known of this one");
   verb.add_option("--rig", options->rig, "a mapping file (part = joint) that says which joint plays which part")
@@ -184,8 +185,8 @@ Run info(CLI::App& verb) {
       throw Error(ErrorCode::bad_input, options->path + ": is no file");
     } else if (ending == ".bvh") {
       info_of_bvh(options->path, options->motion, options->rig, io);
-    } else if (ending == ".eaf") {
-      info_of_eaf(options->path, io);
+    } else if (annotation_file::is_name(options->path)) {
+      info_of_annotation(options->path, io);
     } else if (fold_case(options->path).ends_with(".face.csv")) {
       info_of_face(options->path, io);
     } else {

@@ -26,6 +26,8 @@ constexpr Command kCommands[] = {
      "signweave relayout corpus.db --access-mode by_joint_and_frame", relayout},
     {"query", "find signs, phases and annotations", "signweave query corpus.db 'gloss = \"VANNES\" & phase = stroke'",
      query},
+    {"xpath", "ask the annotation documents themselves, in XPath 1.0",
+     "signweave xpath corpus.db '//TIER[@TIER_ID=\"Gloss\"]//ANNOTATION_VALUE'", xpath},
     {"sign", "make new signing from glosses", "signweave sign corpus.db 'VANNES MATIN PLUIE' -o out.bvh -o out.eaf",
      sign},
     {"edit", "change a recording's words", "signweave edit corpus.db meteo --replace BRETAGNE=VANNES -o out.bvh", edit},

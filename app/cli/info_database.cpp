@@ -47,17 +47,17 @@ void info_of_database(const std::string& folder, Io& io) {
   }
   const kv::EngineInfo& engine = found.engine;
   const Contents& contents = *found.contents;
-  io.out << fmt::format("{}: {} {}, layout {}, {}, {:.1f} MiB on disk, new motions {}, kept {}\n", folder, engine.name,
-                        engine.version, found.layout, counted(engine.entries, "record"),
-                        mebibytes(engine.bytes_on_disk), to_string(found.access_mode), precision_name(found.tolerance));
+  io.out << fmt::format("{}: {} {}, layout {}, {}, {:.1f} MiB on disk, new motions {}, kept {}{}\n", folder,
+                        engine.name, engine.version, found.layout, counted(engine.entries, "record"),
+                        mebibytes(engine.bytes_on_disk), to_string(found.access_mode), precision_name(found.tolerance),
+                        found.documents == DocumentStorage::node ? ", documents node" : "");
   std::vector<std::vector<std::string>> rows = {{"recording", "signer", "frames", "per second", "seconds", "joints",
                                                  "tracks", "access mode", "packets", "kept", "defects", "signs"}};
   for (std::size_t i = 0; i < contents.recordings.size(); ++i) {
     const RecordingInfo& info = contents.recordings[i];
     std::size_t signs = 0;
     const SegmentTable::RowRange range = contents.segments.recording_rows(static_cast<std::uint32_t>(i));
-    for (RowId row = range.begin; row < range.end; ++row)
-      signs += contents.segments.kind(row) == RowKind::sign ? 1 : 0;
+    for (RowId row = range.begin; row < range.end; ++row) signs += contents.segments.kind(row) == RowKind::sign ? 1 : 0;
     std::vector<std::string> row = {info.name, info.signer};
     if (info.motion) {
       const motion_db::StoredMotion& motion = *info.motion;

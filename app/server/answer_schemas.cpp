@@ -17,6 +17,7 @@ constexpr const char* kDatabaseAnswers = R"json({
       "engine": {"type": "string"}, "engine_version": {"type": "string"}, "entries": {"type": "integer"},
       "bytes_on_disk": {"type": "integer"}, "layout": {"type": "integer"}, "access_mode": {"type": "string"},
       "compact_mm": {"type": "number", "description": "0: motions are kept to the bit"},
+      "documents": {"enum": ["document", "node"], "description": "how annotation is stored that is imported later"},
       "weights": {"$ref": "#/components/schemas/Weights"},
       "usage": {"type": "array", "items": {"type": "object", "required": ["kind", "entries", "bytes"],
         "properties": {"kind": {"type": "string"}, "entries": {"type": "integer"}, "bytes": {"type": "integer"}}}},
@@ -91,10 +92,17 @@ constexpr const char* kSearchAnswers = R"json({
   "Answers": {"oneOf": [
     {"type": "array", "items": {"type": "object", "required": ["recording", "name", "begin_ms", "end_ms", "parts"],
       "properties": {"recording": {"type": "string"}, "name": {"type": "string"}, "begin_ms": {"type": "integer"},
-        "end_ms": {"type": "integer"}, "parts": {"type": "array", "items": {"type": "object",
+        "end_ms": {"type": "integer"}, "distance": {"type": "number", "minimum": 0}, "parts": {"type": "array", "items": {"type": "object",
           "required": ["name", "begin_ms", "end_ms"], "properties": {"name": {"type": "string"},
             "begin_ms": {"type": "integer"}, "end_ms": {"type": "integer"}}}}}}},
     {"type": "object", "required": ["plan"], "properties": {"plan": {"type": "string"}}}]},
+  "Nodes": {"type": "array", "items": {"type": "object", "required": ["recording", "kind", "value"], "properties": {
+    "recording": {"type": "string"},
+    "kind": {"enum": ["document", "element", "attribute", "text", "comment", "instruction", "namespace", "string",
+      "number", "boolean"]},
+    "name": {"type": "string", "description": "of an element or attribute"},
+    "value": {"type": ["string", "number", "boolean", "null"], "description": "of a node its text; null is no number"},
+    "xml": {"type": "string", "description": "of a node"}}}},
   "Distribution": {"type": "object", "required": ["count"], "properties": {
     "count": {"type": "integer"}, "mean": {"type": "number"}, "sd": {"type": "number"},
     "mean_95": {"type": ["array", "null"], "items": {"type": "number"}}, "least": {"type": "number"},

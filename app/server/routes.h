@@ -98,6 +98,7 @@ ApiResponse check_database(Call& call);
 ApiResponse list_formats(Call& call);
 ApiResponse show_openapi(Call& call);
 ApiResponse find_segments(Call& call);  // handle_search.cpp
+ApiResponse find_nodes(Call& call);     // handle_xpath.cpp
 ApiResponse count_transitions(Call& call);
 ApiResponse propose_segments(Call& call);
 ApiResponse evaluate_methods(Call& call);
@@ -125,6 +126,7 @@ ApiResponse cancel_job(Call& call);
 
 /// The fields of each call that has some, for the table and the document.
 calls::SchemaWriter query_fields();
+calls::SchemaWriter xpath_fields();
 calls::SchemaWriter stats_fields();
 calls::SchemaWriter segment_fields();
 calls::SchemaWriter evaluate_fields();

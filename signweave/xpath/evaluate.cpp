@@ -250,9 +250,12 @@ std::vector<Value> evaluate(const Expression& expression, const std::string& nam
   const auto cancel = [] {
     throw Error(ErrorCode::cancelled, "xpath: took longer than it may; ask for less or give it more time");
   };
-  if (over()) cancel();
+  const auto alive = [&] {
+    if (over()) cancel();
+  };
+  alive();
   const eaf::Xml xml(name, document, "an annotation file");
-  const Tree tree = tree_of(xml);
+  const Tree tree = tree_of(xml, alive);
   xmlXPathOrderDocElems(tree.get());
   Fault fault;
   const Context context = context_for(tree.get(), fault);

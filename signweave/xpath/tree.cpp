@@ -60,12 +60,13 @@ xmlNode* element(xmlDoc* tree, xmlNode* parent, pugi::xml_node from) {
 
 }  // namespace
 
-Tree tree_of(const eaf::Xml& xml) {
+Tree tree_of(const eaf::Xml& xml, const std::function<void()>& alive) {
   Tree tree(made(xmlNewDoc(chars("1.0"))));
   xmlNode* parent = nullptr;
   // Without recursion: a file may be as deep as it is long.
   pugi::xml_node from = xml.document().first_child();
-  while (from) {
+  for (std::size_t nodes = 0; from; ++nodes) {
+    if (nodes % 1024 == 0) alive();
     xmlNode* node = nullptr;
     switch (from.type()) {
       case pugi::node_element:

@@ -2,6 +2,7 @@
 
 #include <libxml/tree.h>
 
+#include <functional>
 #include <memory>
 
 #include "signweave/formats/eaf_xml.h"
@@ -17,7 +18,8 @@ using Tree = std::unique_ptr<xmlDoc, FreeTree>;
 inline constexpr const char* kSchemaInstance = "http://www.w3.org/2001/XMLSchema-instance";
 
 /// Made node by node of what our own reader read, so that both see the same and libxml2's parser sees nothing: no
-/// encodings, no entities, no DTD. Neighbouring texts are one node, as XPath wants it; CDATA is text.
-Tree tree_of(const eaf::Xml& xml);
+/// encodings, no entities, no DTD. Neighbouring texts are one node, as XPath wants it; CDATA is text. `alive` is called
+/// now and then, and may throw.
+Tree tree_of(const eaf::Xml& xml, const std::function<void()>& alive);
 
 }  // namespace signweave::xpath

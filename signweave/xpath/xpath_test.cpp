@@ -186,15 +186,26 @@ TEST(XPath, KnowsWhichPartTellsEverything) {
 }
 
 TEST(XPath, WhatLeadsOutOfAPartNeedsTheWhole) {
-  for (const char* text :
-       {"//TIER", "//TIER[1][@TIER_ID='x']", "//TIER[@TIER_ID='x']/..", "//TIER[@TIER_ID='x']/parent::*",
-        "//TIER[@TIER_ID='x']/following-sibling::TIER", "//TIER[@TIER_ID='x'] | //TIER[@TIER_ID='y']",
-        "//TIER[@TIER_ID='x']//ANNOTATION[//TIER]", "//TIER[@TIER_ID='x']//ANNOTATION[. and /ANNOTATION_DOCUMENT]",
-        "//TIER[@TIER_ID='x']//ANNOTATION[id('a')]", "//TIER[@TIER_ID='x']//ANNOTATION[lang('en')]",
-        "//TIER[@TIER_ID='x'] = //TIER", "//TIER[@TIER_ID='x' or 1]", "//TIER[@TIER_ID!='x']",
-        "//TIER[@TIER_ID='x']//ANNOTATION_VALUE + 1", "count(//TIER[@TIER_ID='x']) + count(//TIER)",
-        "//TIER[@TIER_ID='x']/ANNOTATION[count(ancestor::*) > 2]", "//TIER[@TIER_ID=//TIER[2]/@TIER_ID]",
-        "//TIER[@TIER_ID='x']/ANNOTATION[2 * //TIER]"}) {
+  for (const char* text : {"//TIER",
+                           "//TIER[1][@TIER_ID='x']",
+                           "//TIER[@TIER_ID='x']/..",
+                           "//TIER[@TIER_ID='x']/parent::*",
+                           "//TIER[@TIER_ID='x']/following-sibling::TIER",
+                           "//TIER[@TIER_ID='x'] | //TIER[@TIER_ID='y']",
+                           "//TIER[@TIER_ID='x']//ANNOTATION[//TIER]",
+                           "//TIER[@TIER_ID='x']//ANNOTATION[. and /ANNOTATION_DOCUMENT]",
+                           "//TIER[@TIER_ID='x']//ANNOTATION[id('a')]",
+                           "//TIER[@TIER_ID='x']//ANNOTATION[lang('en')]",
+                           "//TIER[@TIER_ID='x'] = //TIER",
+                           "//TIER[@TIER_ID='x' or 1]",
+                           "//TIER[@TIER_ID!='x']",
+                           "//TIER[@TIER_ID='x']//ANNOTATION_VALUE + 1",
+                           "count(//TIER[@TIER_ID='x']) + count(//TIER)",
+                           "//TIER[@TIER_ID='x']/ANNOTATION[count(ancestor::*) > 2]",
+                           "//TIER[@TIER_ID=//TIER[2]/@TIER_ID]",
+                           "//TIER[@TIER_ID='x']/ANNOTATION[2 * //TIER]",
+                           "//TIER[@TIER_ID='x'][../TIER[3]]",
+                           "//ALIGNABLE_ANNOTATION[@ANNOTATION_ID='a1'][count(../../*) > 2]"}) {
     EXPECT_EQ(excerpt(text), "whole") << text;
   }
 }

@@ -8,11 +8,13 @@
 #include "signweave/database/catalogue.h"
 #include "signweave/database/database.h"
 #include "signweave/database/measure.h"
+#include "signweave/database/movement.h"
 #include "signweave/database/tables.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/motion_db/quantise.h"
 #include "signweave/semantic_db/semantic_db.h"
 #include "signweave/semantic_db/table_store.h"
+#include "signweave/semantic_db/trace_store.h"
 
 // Everything that changes a database. A motion is written under a new generation first, where nobody looks; one
 // transaction then makes it visible, and what it replaces goes onto the sweep list in the same transaction. So a crash
@@ -143,6 +145,7 @@ void Database::put(const Recording& recording, const Progress& progress) {
   const RigNames rig = recording.rig ? *recording.rig : before ? before->rig : RigNames{};
   std::optional<motion_db::StoredMotion> stored;
   std::optional<RecordingFeatures> features;
+  std::optional<HandTrace> trace;
   std::vector<Defect> defects;
   if (recording.motion) {
     // What is stored keeps one hemisphere from frame to frame, so that whoever joins it need not look at every frame.
@@ -167,8 +170,9 @@ void Database::put(const Recording& recording, const Progress& progress) {
       segments = segments_if_sound(*store_->read(), *before);
     }
     // Of the motion as it will be read: what is measured again then says the same.
-    features = measure_phases(*motion, motion == &changed ? model_of(*motion, rig) : model,
-                              semantic_db::phase_spans(segments), recording.clock);
+    const SignerModel read_model = motion == &changed ? model_of(*motion, rig) : model;
+    features = measure_phases(*motion, read_model, semantic_db::phase_spans(segments), recording.clock);
+    if (recording.annotation || (before && before->document != 0)) trace = trace_hands(*motion, read_model);
     stored = write_motion(*motion, head.access_mode, tolerance, part_of(progress, rounds ? 0.5 : 0, 1));
   }
 
@@ -207,7 +211,10 @@ void Database::put(const Recording& recording, const Progress& progress) {
     info.face_fingerprint = recording.motion->face_fingerprint;
   }
   if (recording.annotation) {
-    if (info.document != 0) semantic_db::erase(*transaction, info.document);
+    if (info.document != 0) {
+      if (!trace && !new_rig) trace = trace_stored(*transaction, info);  // neither motion nor rig is another
+      semantic_db::erase(*transaction, info.document);
+    }
     info.document = head.next_generation++;
     info.tiers = recording.annotation->tiers;
     info.annotation_file = recording.annotation->file;
@@ -220,6 +227,10 @@ void Database::put(const Recording& recording, const Progress& progress) {
     semantic_db::put(*transaction, info.document, segments);
   } else if (info.document != 0 && !features) {
     segments = segments_if_sound(*transaction, info);
+  }
+  if (info.document != 0 && (trace || new_rig || recording.annotation)) {
+    if (!trace) semantic_db::erase_trace(*transaction, info.document);
+    semantic_db::put_trace(*transaction, info.document, trace ? *trace : trace_stored(*transaction, info));
   }
   if (info.document != 0) {  // other words, another clock, another rig: what they give is measured anew
     semantic_db::put_features(*transaction, info.document,
@@ -281,6 +292,8 @@ bool Database::relayout(std::string_view name, const Storage& to, const Progress
   if (rounded && info.document != 0) {
     const SegmentChunk segments = segments_if_sound(*transaction, info);
     semantic_db::put_features(*transaction, info.document, measure_stored(*transaction, info, segments));
+    semantic_db::erase_trace(*transaction, info.document);
+    semantic_db::put_trace(*transaction, info.document, trace_stored(*transaction, info));
   }
   catalogue::write_recording(*transaction, slot, info);
   ++head.changes;

@@ -32,6 +32,7 @@ namespace signweave {
 
 class CheckListener;
 class Database;
+class MovementCache;
 
 /// What an XPath expression says of one recording's document: a node that it selects, or its value.
 struct XPathAnswer {
@@ -86,7 +87,7 @@ class Snapshot {
 
 /// Entries of one kind.
 struct Usage {
-  std::string kind;  ///< "packets", "skeletons", "scalar tracks", "documents", "segments", "features", "weights",
+  std::string kind;  ///< "packets", "skeletons", "scalar tracks", "documents", "segments", "features", "traces", "weights",
                      ///< "catalogue"; "other": not ours
   std::uint64_t entries = 0;
   std::uint64_t bytes = 0;  ///< of keys and values, without what the engine spends beside them
@@ -237,11 +238,14 @@ class Database {
 
  private:
   friend class Snapshot;
+  friend class StoredMovement;
   friend void check_slots(const Database& database, std::uint32_t first, CheckListener& listener);
   class WriterLock;
 
   std::shared_ptr<const Contents> contents_of(const std::shared_ptr<const kv::ReadTransaction>& snapshot) const;
   std::shared_ptr<const Segments> stored_segments(const std::shared_ptr<const kv::ReadTransaction>& snapshot) const;
+  std::unique_ptr<Movement> movement_of(const std::shared_ptr<const kv::ReadTransaction>& snapshot,
+                                        const std::shared_ptr<const Segments>& segments) const;
   std::shared_ptr<const motion_db::KnownMotion> known(const kv::ReadTransaction& snapshot,
                                                       const motion_db::StoredMotion& stored) const;
 
@@ -271,6 +275,7 @@ class Database {
   mutable std::uint64_t contents_at_ = 0;
   mutable std::shared_ptr<const Segments> segments_;
   mutable std::uint64_t segments_at_ = 0;
+  mutable std::shared_ptr<MovementCache> movement_;  ///< of the newest state that was asked about
   mutable std::map<std::uint64_t, std::shared_ptr<const motion_db::KnownMotion>> known_;  ///< by generation
   mutable std::map<std::size_t, std::shared_ptr<const RecordingJoins>> joins_;  ///< of contents_, by recording
   mutable std::optional<JoinWeights> join_weights_;                             ///< of contents_

@@ -4,7 +4,9 @@
 
 #include "signweave/database/catalogue.h"
 #include "signweave/database/database.h"
+#include "signweave/database/movement.h"
 #include "signweave/semantic_db/semantic_db.h"
+#include "signweave/semantic_db/trace_store.h"
 
 namespace signweave {
 namespace {
@@ -77,6 +79,7 @@ bool Database::measure(std::string_view name) {
   }
   const SegmentChunk segments = semantic_db::read_segments(*transaction, info.document, info.name);
   semantic_db::put_features(*transaction, info.document, measure_stored(*transaction, info, segments));
+  semantic_db::put_trace(*transaction, info.document, trace_stored(*transaction, info));
   transaction->commit();
   return true;
 }

@@ -114,10 +114,6 @@ std::shared_ptr<const Segments> Database::segments() const {
   return stored_segments(store_->read());
 }
 
-std::vector<Segment> Database::find(const PhaseQuery& query, const FindLimits& limits) const {
-  return signweave::find(query, *segments(), limits);
-}
-
 bool Database::merge() {
   require_writable();
   const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();

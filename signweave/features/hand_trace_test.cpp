@@ -203,6 +203,22 @@ TEST(PointTrack, APartThatIsNotThereHasNoTrack) {
   EXPECT_TRUE(track_points(motion, model, kParts, {0, 10})[0].empty());
 }
 
+TEST(PointTrack, SpeedsAndPathsAreOfAllFrames) {
+  PointTrack track(3);
+  track[0] = {.velocity = {1, 0, 0}, .acceleration = 1, .state = {.contact = Contact::head}};
+  track[1] = {.position = {0.5f, 0, 0}, .velocity = {0, 3, 0}, .acceleration = 5};
+  track[2] = {.position = {0, 2, 0}, .velocity = {2, 0, 0}, .acceleration = 3, .state = {.contact = Contact::torso}};
+  const PointOver all = over(track, {10, 1}, 0.4f);
+  EXPECT_FLOAT_EQ(all.peak_speed, 3);
+  EXPECT_FLOAT_EQ(all.mean_speed, 2);
+  EXPECT_FLOAT_EQ(all.peak_acceleration, 5);
+  EXPECT_FLOAT_EQ(all.mean_acceleration, 3);
+  EXPECT_FLOAT_EQ(all.path_length, 0.45f);  // two steps of a tenth of a second, at 2 and 2.5 m/s
+  EXPECT_FLOAT_EQ(all.displacement, 0.8f);
+  EXPECT_EQ(all.contact, Contact::head | Contact::torso);
+  EXPECT_EQ(all.end.position.y(), 2);
+}
+
 TEST(PointTrack, FacingIsTheNearestAxis) {
   EXPECT_EQ(facing_of({0, 0, 0}), Facing::unknown);
   EXPECT_EQ(facing_of({0.9f, 0.1f, 0.2f}), Facing::left);

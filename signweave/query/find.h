@@ -1,6 +1,9 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "signweave/core/error.h"
@@ -10,6 +13,8 @@
 #include "signweave/semantic_db/segments.h"
 
 namespace signweave {
+
+class Movement;
 
 /// A row that takes part in an answer.
 struct SegmentPart {
@@ -31,15 +36,44 @@ struct Segment {
   /// Every place in order, each followed by its partners in relations; empty for a query of one place without
   /// relations.
   std::vector<SegmentPart> parts;
+  std::vector<std::pair<std::string, std::string>> bindings;  ///< variables without `$`, and their values in match form
+  std::optional<float> distance = {};  ///< from the example of like(…), shoulder widths (query/example.h)
   friend bool operator==(const Segment&, const Segment&) = default;
+};
+
+/// The same without its names.
+struct FoundRow {
+  RowId row = kNoRow;  ///< of Segments
+  TimeSpan span{};
+};
+
+/// A query made ready for some segments, to be asked again and again. For one thread at a time.
+class PreparedQuery {
+ public:
+  /// Borrows the movement; without it nothing is known of movement.
+  PreparedQuery(PhaseQuery query, std::shared_ptr<const Segments> segments, const Movement* movement = nullptr);
+  ~PreparedQuery();
+  PreparedQuery(PreparedQuery&&) noexcept;
+  PreparedQuery& operator=(PreparedQuery&&) noexcept;
+
+  /// As `find` below.
+  std::vector<Segment> find(const FindLimits& limits = {});
+  /// The same without names, parts and bindings, instead of what was in `rows`.
+  void find(std::vector<FoundRow>& rows, const FindLimits& limits = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 /// The segments that answer a query, each once, ordered by recording (by name), begin, end, row.
 /// The answer is the whole sequence, or the part that `@` marks; where several combinations of parts give one answer,
-/// `parts` is the first of them in time.
+/// `parts` is the first of them in time. With like(…) the answers come by their distance, the nearest first, and
+/// without a limit the kNearest nearest; those of which nothing is known are left out.
 ///
 /// Throws Error{cancelled} where `limits` say so, and Error{bad_input} past five million answers without a limit.
-std::vector<Segment> find(const PhaseQuery& query, const Segments& segments, const FindLimits& limits = {});
+std::vector<Segment> find(const PhaseQuery& query, const Segments& segments, const FindLimits& limits = {},
+                          const Movement* movement = nullptr);
 
 /// What in a query the database does not know (a gloss, a tier, a recording), with near matches: for an empty answer,
 /// which is no error.

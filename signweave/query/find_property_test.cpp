@@ -94,6 +94,7 @@ class Oracle {
   void search(const PhaseQuery& query, std::vector<RowId>& places, std::set<std::vector<RowId>>& result) {
     if (places.size() == query.elements.size()) return keep(query, places, result);
     for (RowId row = 0; row < table_.size(); ++row) {
+      if (table_.kind(row) == RowKind::unit) continue;  // nothing here asks for them
       if (!places.empty() && !may_follow(places.back(), row, query.gaps[places.size() - 1])) continue;
       if (!answers(query.elements[places.size()].term.expression, row, false)) continue;
       places.push_back(row);
@@ -123,6 +124,7 @@ class Oracle {
   SegmentRow row(RowId id) const { return table_.row(id); }
 
   bool same_group(RowId a, RowId b) const {
+    if (row(a).kind == RowKind::unit || row(b).kind == RowKind::unit) return false;  // no query here asks for units
     if (row(a).recording != row(b).recording || row(a).tier != row(b).tier || row(a).extra != row(b).extra)
       return false;
     return a != b;
@@ -301,6 +303,13 @@ class Oracle {
         return compare(it.span.begin, condition);
       case Field::end:
         return compare(it.span.end, condition);
+      case Field::movement:  // nothing is known of movement here
+        return false;
+      case Field::like:
+        return true;
+      case Field::unit:  // nor are these asked for
+      case Field::signer:
+        return false;
     }
     return false;
   }

@@ -22,6 +22,7 @@ class Hinter {
 
  private:
   void look_at(const Condition& condition) {
+    if (std::holds_alternative<QueryVariable>(condition.value)) return;
     if (condition.field == Field::gloss) {
       if (glosses_.empty()) glosses_ = segments_.glosses();
       look_for(condition, glosses_, "no sign has the gloss");

@@ -60,6 +60,21 @@ bool starts_with_odd_quote(std::string_view rest) noexcept {
 
 }  // namespace
 
+std::string in_quotes(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '\n') {
+      result += "\\n";
+    } else if (c == '\t') {
+      result += "\\t";
+    } else {
+      if (c == '"' || c == '\\') result += '\\';
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
 QueryLexer::QueryLexer(std::string_view text) : text_(text) {
   if (text_.size() > kLongest) {
     text_ = {};
@@ -102,6 +117,12 @@ std::string_view QueryLexer::bracketed() {
   return text_.substr(begin, end - begin);
 }
 
+void QueryLexer::join_slash() {
+  if (next_.kind != QueryToken::Kind::word || at_ >= text_.size() || text_[at_] != '/') return;
+  next_.text += text_[at_++];
+  for (; at_ < text_.size() && !ends_word(text_.substr(at_)); ++at_) next_.text += text_[at_];
+}
+
 std::string QueryLexer::shown(const QueryToken& token) {
   switch (token.kind) {
     case QueryToken::Kind::end:
@@ -138,7 +159,7 @@ QueryToken QueryLexer::read() {
   const std::string_view rest = text_.substr(at_);
   if (rest.empty()) return {QueryToken::Kind::end, at_, "", ""};
   constexpr std::string_view kSymbols[] = {"->", "!=", "=~", "<=", ">=", "(", ")", "[",
-                                           "&",  "|",  "!",  "@",  "=",  "<", ">"};
+                                           "&",  "|",  "!",  "@",  ",",  "=", "<", ">"};
   for (const std::string_view symbol : kSymbols) {
     if (!rest.starts_with(symbol)) continue;
     const std::size_t begin = at_;

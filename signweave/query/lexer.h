@@ -16,13 +16,16 @@ struct QueryToken {
     text,      ///< "…", `text` with its escapes resolved
     regex,     ///< /…/flags
     variable,  ///< $X
-    symbol,    ///< ( ) [ & | ! @ -> = != =~ < <= > >=
+    symbol,    ///< ( ) [ & | ! @ , -> = != =~ < <= > >=
   };
   Kind kind = Kind::end;
   std::size_t begin = 0;  ///< byte offset
   std::string text;       ///< of a symbol: itself; of a regex: the pattern
   std::string flags;      ///< of a regex
 };
+
+/// A text in double quotes, which reads back as itself.
+std::string in_quotes(std::string_view text);
 
 /// Cuts a query into tokens, with one token of look-ahead. Throws QueryError.
 class QueryLexer {
@@ -38,6 +41,8 @@ class QueryLexer {
   void expect(std::string_view symbol, std::string_view hint);
   /// The bytes up to the next ']', which is taken too; to be called where the next token is "[".
   std::string_view bracketed();
+  /// Where the next token is a word and a slash follows it at once ("m/s"), makes both and what follows one word.
+  void join_slash();
   /// The token as it is named in an error: "'&'", "the end of the query".
   static std::string shown(const QueryToken& token);
 

@@ -60,6 +60,18 @@ unsigned phases_called(const Condition& condition) {
   return condition.compare == Compare::equal ? result : kAll & ~result;
 }
 
+/// A sign moves in its strokes, all else over its span.
+std::vector<TimeSpan> stretches_of(const SegmentTable& table, RowId row) {
+  if (table.kind(row) != RowKind::sign) return {table.span(row)};
+  std::vector<TimeSpan> result;
+  for (const RowId child : table.children(row)) {
+    if (table.kind(child) == RowKind::phase && table.phase(child) == PhaseKind::stroke) {
+      result.push_back(table.span(child));
+    }
+  }
+  return result;
+}
+
 bool compares(Milliseconds time, Compare compare, Milliseconds value) noexcept {
   switch (compare) {
     case Compare::equal:
@@ -82,9 +94,11 @@ bool compares(Milliseconds time, Compare compare, Milliseconds value) noexcept {
 
 }  // namespace
 
-Matcher::Matcher(const Expression& expression, const SegmentTable& table, Watch& watch, Plain plain)
+Matcher::Matcher(const Expression& expression, const SegmentTable& table, Watch& watch, const MovingTable& moving,
+                 Plain plain)
     : table_(&table),
       watch_(&watch),
+      moving_(moving),
       plain_(plain),
       tier_names_(tiers_named(expression)),
       scopes_(scopes_of(expression, tier_names_)) {
@@ -100,7 +114,7 @@ BoundExpression Matcher::bind(const Expression& expression) {
     result.condition = bind(expression.condition);
   } else if (expression.kind == Expression::Kind::link) {
     const Plain plain = expression.link <= Link::descendant ? Plain::any : Plain::sign;
-    result.linked = std::make_unique<Matcher>(expression.operands.front(), *table_, *watch_, plain);
+    result.linked = std::make_unique<Matcher>(expression.operands.front(), *table_, *watch_, moving_, plain);
   } else {
     result.top = top_scope(expression, tier_names_);
     for (const Expression& operand : expression.operands) result.operands.push_back(bind(operand));
@@ -121,12 +135,20 @@ BoundCondition Matcher::bind(const Condition& condition) {
       [[fallthrough]];
     }
     case Field::gloss:
+    case Field::signer:
+      if (std::holds_alternative<QueryVariable>(condition.value)) {
+        result.variable = true;
+        break;
+      }
       if (const Regex* regex = std::get_if<Regex>(&condition.value)) {
         result.regex = compile(*regex);
         result.known.resize(table_->text_count());
       } else {
-        result.label = table_->find_text(match_form(std::get<std::string>(condition.value)));
+        result.text = match_form(std::get<std::string>(condition.value));
+        result.label = table_->find_text(result.text);
       }
+      break;
+    case Field::unit:
       break;
     case Field::phase:
       result.set = phases_called(condition);
@@ -143,11 +165,17 @@ BoundCondition Matcher::bind(const Condition& condition) {
     case Field::end:
       result.time = std::get<Milliseconds>(condition.value);
       break;
+    case Field::movement:
+      result.movement = std::make_unique<MovementCheck>(condition, moving_.movement);
+      break;
+    case Field::like:
+      break;
   }
   return result;
 }
 
 bool Matcher::fits(BoundCondition& condition, std::uint32_t label) {
+  if (condition.variable) return true;  // VariableCheck looks at all of them together
   if (!condition.regex) return (condition.label == label) == (condition.compare == Compare::equal);
   std::uint8_t& known = condition.known[label];
   if (known == 0) {
@@ -159,20 +187,44 @@ bool Matcher::fits(BoundCondition& condition, std::uint32_t label) {
 
 bool Matcher::accepts(RowId row) {
   watch_->tick();
+  if (root_.kind == Expression::Kind::condition) {  // the usual ones without the detour over scopes
+    BoundCondition& condition = root_.condition;
+    if (condition.field == Field::gloss) {
+      return table_->kind(row) == RowKind::sign && fits(condition, table_->label(row));
+    }
+    if (condition.field == Field::tier) {
+      return !table_->extra(row) && std::ranges::find(condition.tiers, table_->tier(row)) != condition.tiers.end() &&
+             fits(condition, table_->label(row));
+    }
+  }
   const Scopes found = holds(root_, row);
   return !found.empty() && found.has(scopes_of_row(row));
 }
 
-Scopes Matcher::scopes_of_row(RowId id) const noexcept {
-  const SegmentRow row = table_->row(id);
-  if (row.kind == RowKind::unit) return Scopes::none();
-  Scopes result = Scopes::linked();
-  if (plain_ == Plain::any || row.kind == RowKind::sign) result = result | Scopes::plain();
-  if (row.kind == RowKind::sign) result = result | Scopes::signs();
-  if (row.kind == RowKind::phase) result = result | Scopes::phases();
-  if (row.extra) return result;
+std::optional<std::vector<std::uint32_t>> Matcher::only_tiers() const {
+  Scopes tiers = Scopes::none();
+  std::vector<std::uint32_t> result;
   for (unsigned place = 0; place < tiers_.size(); ++place) {
-    if (std::find(tiers_[place].begin(), tiers_[place].end(), row.tier) != tiers_[place].end()) {
+    tiers = tiers | Scopes::tier(place);
+    if (scopes_.has(Scopes::tier(place))) result.insert(result.end(), tiers_[place].begin(), tiers_[place].end());
+  }
+  if (!((scopes_ | tiers) == tiers)) return std::nullopt;
+  std::ranges::sort(result);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+Scopes Matcher::scopes_of_row(RowId row) const noexcept {
+  const RowKind kind = table_->kind(row);
+  if (kind == RowKind::unit) return Scopes::units();
+  Scopes result = Scopes::linked();
+  if (plain_ == Plain::any || kind == RowKind::sign) result = result | Scopes::plain();
+  if (kind == RowKind::sign) result = result | Scopes::signs();
+  if (kind == RowKind::phase) result = result | Scopes::phases();
+  if (tiers_.empty() || table_->extra(row)) return result;
+  const std::uint32_t tier = table_->tier(row);
+  for (unsigned place = 0; place < tiers_.size(); ++place) {
+    if (std::find(tiers_[place].begin(), tiers_[place].end(), tier) != tiers_[place].end()) {
       result = result | Scopes::tier(place);
     }
   }
@@ -205,44 +257,72 @@ Scopes Matcher::holds(BoundExpression& expression, RowId row) {
   return result;
 }
 
-bool Matcher::holds(BoundCondition& condition, RowId id) {
-  const SegmentRow row = table_->row(id);
+bool Matcher::holds(BoundCondition& condition, RowId row) {
   switch (condition.field) {
     case Field::gloss: {
-      if (row.kind == RowKind::annotation || row.kind == RowKind::unit) return false;
-      return fits(condition, row.kind == RowKind::sign ? row.label : table_->label(row.parent));
+      const RowKind kind = table_->kind(row);
+      if (kind != RowKind::sign && kind != RowKind::phase) return false;
+      return fits(condition, table_->label(kind == RowKind::sign ? row : table_->parent(row)));
     }
     case Field::phase:
-      return row.kind == RowKind::phase && (condition.set >> static_cast<unsigned>(row.phase) & 1U) != 0;
+      return table_->kind(row) == RowKind::phase &&
+             (condition.set >> static_cast<unsigned>(table_->phase(row)) & 1U) != 0;
     case Field::hand:
-      return row.kind != RowKind::annotation && (condition.set >> static_cast<unsigned>(row.hand) & 1U) != 0;
+      return table_->kind(row) != RowKind::annotation &&
+             (condition.set >> static_cast<unsigned>(table_->hand(row)) & 1U) != 0;
     case Field::recording:
-      return condition.recordings[row.recording];
+      return condition.recordings[table_->recording(row)];
+    case Field::unit:
+      return table_->kind(row) == RowKind::unit;
+    case Field::signer: {
+      const std::string signer = match_form(table_->text_at(table_->tier_rows_of(row).signer));
+      if (condition.regex) return RE2::FullMatch(signer, *condition.regex);
+      return (signer == condition.text) == (condition.compare == Compare::equal);
+    }
     case Field::tier:
-      return holds_on_tier(condition, id);
+      return holds_on_tier(condition, row);
     case Field::duration:
-      return compares(row.span.duration(), condition.compare, condition.time);
+      return compares(table_->span(row).duration(), condition.compare, condition.time);
     case Field::begin:
-      return compares(row.span.begin, condition.compare, condition.time);
+      return compares(table_->begin(row), condition.compare, condition.time);
     case Field::end:
-      return compares(row.span.end, condition.compare, condition.time);
+      return compares(table_->end(row), condition.compare, condition.time);
+    case Field::movement:
+      return holds_moving(*condition.movement, row);
+    case Field::like:
+      return true;  // it orders the answers
   }
   return false;
 }
 
-bool Matcher::holds_on_tier(BoundCondition& condition, RowId id) {
-  const SegmentRow row = table_->row(id);
+bool Matcher::holds_moving(MovementCheck& check, RowId row) {
+  if (moving_.movement == nullptr) return false;
+  const std::uint32_t recording = table_->recording(row);
+  const std::uint32_t number = (*moving_.numbers)[recording];
+  if (number == SegmentTable::kNone) return false;
+  const RowKind kind = table_->kind(row);
+  const Hand hand = table_->hand(row);
+  const MovingRow moving{.row = row - table_->recording_rows(recording).begin,
+                         .recording = number,
+                         .any_hand = kind == RowKind::annotation || hand == Hand::both,
+                         .hand = hand == Hand::left ? Side::left : Side::right};
+  return check.holds(moving, [&] { return stretches_of(*table_, row); });
+}
+
+bool Matcher::holds_on_tier(BoundCondition& condition, RowId row) {
+  const SegmentTable::TierRows& own = table_->tier_rows_of(row);
+  const TimeSpan span = table_->span(row);
   for (const std::uint32_t tier : condition.tiers) {
-    if (row.tier == tier && !row.extra) {
-      if (fits(condition, row.label)) return true;
+    if (own.tier == tier && !table_->extra(row)) {
+      if (fits(condition, table_->label(row))) return true;
       continue;
     }
-    const SegmentTable::TierRows* rows = table_->tier_rows(row.recording, tier);
+    const SegmentTable::TierRows* rows = table_->tier_rows(own.recording, tier);
     if (rows == nullptr) continue;
     bool found = false;
-    for_rows_around(*table_, *rows, rows->own(), row.span, [&](RowId other) {
+    for_rows_around(*table_, *rows, rows->own(), span, [&](RowId other) {
       watch_->tick();
-      found = row.span.overlaps(table_->span(other)) && fits(condition, table_->label(other));
+      found = span.overlaps(table_->span(other)) && fits(condition, table_->label(other));
       return !found;
     });
     if (found) return true;
@@ -284,10 +364,10 @@ bool Matcher::holds_for_linked(Link link, Matcher& linked, RowId row) {
     case Link::equals:
       break;
   }
-  const SegmentRow from = table_->row(row);
+  const TimeSpan span = table_->span(row);
   bool found = false;
-  for_rows_around(*table_, from.recording, from.span, [&](RowId other) {
-    found = other != row && related(from.span, link, table_->span(other)) && linked.accepts(other);
+  for_rows_around(*table_, table_->recording(row), span, [&](RowId other) {
+    found = other != row && related(span, link, table_->span(other)) && linked.accepts(other);
     return !found;
   });
   return found;

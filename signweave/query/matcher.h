@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "signweave/query/movement_check.h"
 #include "signweave/query/phase_query.h"
 #include "signweave/query/scopes.h"
 #include "signweave/query/watch.h"
@@ -26,8 +27,11 @@ struct BoundCondition {
   std::vector<std::uint8_t> known;            ///< [label] of the regex: 0 not tried yet, 1 no, 2 yes
   std::vector<std::uint32_t> tiers;           ///< of tier: those of that name
   std::vector<bool> recordings;               ///< [recording] of recording: whether it fits
+  std::string text;                           ///< of signer: its match form
+  bool variable = false;                      ///< = $X or != $X
   unsigned set = 0;                           ///< of phase and hand: bit n for the enumerator n
   Milliseconds time{0};
+  std::unique_ptr<MovementCheck> movement;  ///< of movement
 };
 
 class Matcher;
@@ -49,7 +53,8 @@ class Matcher {
   /// What a row must be where the expression speaks of times and recordings only.
   enum class Plain { sign, any };
 
-  Matcher(const Expression& expression, const SegmentTable& table, Watch& watch, Plain plain = Plain::sign);
+  Matcher(const Expression& expression, const SegmentTable& table, Watch& watch, const MovingTable& moving = {},
+          Plain plain = Plain::sign);
 
   /// Whether the expression holds for the row, and the row is of the sort that the expression ranges over.
   bool accepts(RowId row);
@@ -57,8 +62,11 @@ class Matcher {
   Scopes scopes() const noexcept { return scopes_; }
   BoundExpression& root() noexcept { return root_; }
   const SegmentTable& table() const noexcept { return *table_; }
+  const MovingTable& moving() const noexcept { return moving_; }
   /// For each tier that the expression names, in order, the tiers of the table with that name.
   const std::vector<std::vector<std::uint32_t>>& tiers() const noexcept { return tiers_; }
+  /// The tiers on which all rows that it may accept lie as annotations; none where others may be accepted too.
+  std::optional<std::vector<std::uint32_t>> only_tiers() const;
   /// Whether a label fits a gloss or tier condition.
   bool fits(BoundCondition& condition, std::uint32_t label);
 
@@ -68,11 +76,13 @@ class Matcher {
   Scopes holds(BoundExpression& expression, RowId row);
   bool holds(BoundCondition& condition, RowId row);
   bool holds_on_tier(BoundCondition& condition, RowId row);
+  bool holds_moving(MovementCheck& check, RowId row);
   bool holds_for_linked(Link link, Matcher& linked, RowId row);
   Scopes scopes_of_row(RowId row) const noexcept;
 
   const SegmentTable* table_;
   Watch* watch_;
+  MovingTable moving_;
   Plain plain_;
   std::vector<std::string> tier_names_;
   std::vector<std::vector<std::uint32_t>> tiers_;

@@ -20,7 +20,7 @@ namespace signweave {
 // measured of the hands is a column of floats for each measure, computed by `measure_rows` when a recording is put.
 
 /// What is measured of one hand over one segment. Stored on disk: never renumber.
-enum class Measure : std::uint8_t {
+enum class HandMeasure : std::uint8_t {
   speed = 0,              ///< the peak, metres a second
   mean_speed = 1,         ///< metres a second
   acceleration = 2,       ///< the peak of its length, metres a second squared
@@ -44,7 +44,7 @@ inline constexpr std::size_t kHandMeasures = 15;
 
 /// One column: a measure of a hand, or one of both (then `side` does not matter).
 struct Column {
-  Measure measure = Measure::speed;
+  HandMeasure measure = HandMeasure::speed;
   Side side = Side::right;
 };
 inline constexpr std::size_t kMovementColumns = 2 * kHandMeasures + 3;
@@ -85,15 +85,15 @@ using MovementColumns = std::array<std::vector<float>, kMovementColumns>;
 MovementColumns measure_rows(std::span<const MovementRow> rows, const RecordingFeatures& features,
                              const HandTrace& trace, const FrameClock& clock);
 
-/// The movement of what a segment table lists, by the table's own numbers of rows and recordings. Immutable, so that
-/// threads may share it.
+/// The movement of what the segments of a database list. Recordings are numbered as in Segments, rows within their
+/// recording, as its table has them. For one thread.
 class Movement {
  public:
   virtual ~Movement() = default;
 
-  /// One number for each row of the table, kNotKnown where nothing is known of it; or empty: nothing is stored, ask for
-  /// the trace. Valid as long as this object.
-  virtual std::span<const float> column(Column column) const = 0;
+  /// One number for each row of a recording, kNotKnown where nothing is known of it; or empty: nothing is stored, ask
+  /// for the trace. Valid as long as this object.
+  virtual std::span<const float> column(Column column, std::uint32_t recording) const = 0;
   /// Metres; 0 where it is not known.
   virtual float shoulder_width(std::uint32_t recording) const = 0;
   virtual FrameClock clock(std::uint32_t recording) const = 0;
@@ -102,6 +102,22 @@ class Movement {
   /// Points of the body over some frames of a recording, as `track_points` gives them, computed from the motion.
   virtual std::vector<PointTrack> points(std::uint32_t recording, std::span<const Part> parts,
                                          FrameRange range) const = 0;
+};
+
+/// One of the measures of a hand, or of a point in its place; `body` tells the zones.
+float measure_of(const PointOver& over, HandMeasure measure, const SignerBody& body) noexcept;
+
+/// Metres between two points, the least of the frames that both have; a number that is none where one of them is.
+float least_distance(std::span<const PointFrame> a, std::span<const PointFrame> b, float shoulder_width) noexcept;
+
+/// Of several stretches (at least one) as of one: peaks, sums, and means by `frames`. Displacement is from the begin of
+/// the first to the end of the last.
+PointOver join(std::span<const PointOver> overs, std::span<const double> frames, float shoulder_width) noexcept;
+
+/// Where rows of one table get their movement.
+struct MovingTable {
+  const Movement* movement = nullptr;                   ///< none: nothing is known
+  const std::vector<std::uint32_t>* numbers = nullptr;  ///< [recording of the table] its number in Segments
 };
 
 /// The frames of a segment within a motion of so many, as features are measured over: one frame where it is shorter

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,28 @@ std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Inter
 
 /// The first row of a range, in which no two overlap, that ends at `time` or later.
 RowId first_ending_at_or_after(const SegmentTable& table, SegmentTable::RowRange range, Milliseconds time) noexcept;
+
+/// Where a search on one tier stood last: the next one mostly goes on from there.
+struct TierCursor {
+  const SegmentTable::TierRows* tier = nullptr;
+  RowId at = 0;
+};
+
+/// The same as `first_ending_at_or_after(table, tier.own(), time)`, from where the cursor stands; sets it.
+inline RowId first_ending_at_or_after(const SegmentTable& table, const SegmentTable::TierRows& tier, Milliseconds time,
+                                      TierCursor& cursor) noexcept {
+  constexpr RowId kSteps = 8;
+  const SegmentTable::RowRange own = tier.own();
+  RowId row = cursor.tier == &tier ? cursor.at : own.begin;
+  cursor.tier = &tier;
+  if (row == own.begin || table.end(row - 1) < time) {
+    const RowId last = std::min(own.end, row + kSteps);
+    while (row < last && table.end(row) < time) ++row;
+    if (row < last || row == own.end) return cursor.at = row;
+    return cursor.at = first_ending_at_or_after(table, {row, own.end}, time);
+  }
+  return cursor.at = first_ending_at_or_after(table, {own.begin, row}, time);
+}
 
 /// Whether two spans stand in a relation (`Link::overlaps` and the ones after it).
 bool related(TimeSpan one, Link link, TimeSpan other) noexcept;

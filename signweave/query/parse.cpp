@@ -8,6 +8,7 @@
 
 #include "signweave/core/text.h"
 #include "signweave/query/lexer.h"
+#include "signweave/query/parse_movement.h"
 #include "signweave/query/regex.h"
 #include "signweave/query/scopes.h"
 
@@ -18,10 +19,12 @@ using Kind = QueryToken::Kind;
 
 constexpr int kDeepest = 200;
 constexpr std::size_t kMostPlaces = 64;
+constexpr int kMostVariables = 64;
 constexpr int kMostRegexes = 64;  ///< each remembers one byte per label of the database while it is answered
 
 constexpr std::array kFields = {Field::gloss, Field::phase,    Field::hand,  Field::recording,
-                                Field::tier,  Field::duration, Field::begin, Field::end};
+                                Field::tier,  Field::duration, Field::begin, Field::end,
+                                Field::unit,  Field::signer};
 constexpr std::array kLinks = {Link::parent, Link::child,  Link::ancestor, Link::descendant, Link::overlaps,
                                Link::during, Link::starts, Link::ends,     Link::equals};
 constexpr std::array kCompares = {Compare::equal,      Compare::not_equal, Compare::matches,      Compare::less,
@@ -29,10 +32,6 @@ constexpr std::array kCompares = {Compare::equal,      Compare::not_equal, Compa
 constexpr std::array kPhaseKinds = {PhaseKind::preparation, PhaseKind::stroke, PhaseKind::retraction, PhaseKind::hold,
                                     PhaseKind::other};
 constexpr std::array kHands = {Hand::both, Hand::right, Hand::left};
-
-/// Conditions on movement, which the language is to have: understood so far as to be refused by name.
-constexpr std::array<std::string_view, 8> kMovement = {"speed",  "acceleration", "position", "direction",
-                                                       "height", "distance",     "path",     "jerk"};
 
 template <typename Values>
 auto value_of(const Values& values, std::string_view word) {
@@ -48,11 +47,31 @@ std::vector<std::string> words_of(const Values& values) {
 }
 
 bool is_time(Field field) noexcept {
-  return field >= Field::duration;
+  return field >= Field::duration && field <= Field::end;
 }
 
 bool is_relation(Link link) noexcept {
   return link >= Link::overlaps;
+}
+
+/// How many like(…) are joined by `&` alone.
+int outermost_examples(const Expression& expression) noexcept {
+  if (expression.kind == Expression::Kind::condition) return expression.condition.field == Field::like ? 1 : 0;
+  if (expression.kind != Expression::Kind::all) return 0;
+  int result = 0;
+  for (const Expression& operand : expression.operands) result += outermost_examples(operand);
+  return result;
+}
+
+/// How many conditions on variables are joined by `&` alone.
+int outermost_variables(const Expression& expression) noexcept {
+  if (expression.kind == Expression::Kind::condition) {
+    return std::holds_alternative<QueryVariable>(expression.condition.value) ? 1 : 0;
+  }
+  if (expression.kind != Expression::Kind::all) return 0;
+  int result = 0;
+  for (const Expression& operand : expression.operands) result += outermost_variables(operand);
+  return result;
 }
 
 class Parser {
@@ -88,6 +107,7 @@ class Parser {
       if (!link || !is_relation(*link)) break;
       in_.take();
       result.relations.push_back({*link, term()});
+      if (ranked_in_term_) in_.fail(example_, "like(…) orders what is before a relation; move it there");
       if (result.relations.size() > kMostPlaces) {
         in_.fail(in_.peek().begin, fmt::format("more than {} relations of one segment; ask in parts", kMostPlaces));
       }
@@ -102,8 +122,19 @@ class Parser {
       if (marked_) in_.fail(begin, "a second @; mark one part only as the answer");
       marked_ = result.marked = true;
     }
+    const int before = examples_;
+    const int variables_before = variables_;
     result.expression = expression();
+    if (outermost_variables(result.expression) != variables_ - variables_before) {
+      in_.fail(variable_, "a variable is joined to the conditions of a place with & only, outside of |, ! and links");
+    }
     check_tiers(result.expression, begin);
+    ranked_in_term_ = examples_ > before;
+    if (outermost_examples(result.expression) != examples_ - before) {
+      in_.fail(example_,
+               "like(…) is no condition, it orders the answers; join it to the conditions of a place with &, "
+               "outside of |, ! and links");
+    }
     return result;
   }
 
@@ -199,9 +230,22 @@ class Parser {
       return result;
     }
     const std::optional<Field> field = value_of(kFields, name.text);
-    if (!field || (is_time(*field) && in_.next_is("("))) refuse_word(name);
-    result.condition = condition(*field);
+    if (name.text == "like") {
+      result.condition = example(name);
+    } else if (is_quantity(name.text) && (!field || in_.next_is("("))) {
+      result.condition = parse_movement(in_, name);
+    } else if (field) {
+      result.condition = condition(*field);
+    } else {
+      refuse_word(name);
+    }
     return result;
+  }
+
+  Condition example(const QueryToken& name) {
+    example_ = name.begin;
+    if (++examples_ > 1) in_.fail(name.begin, "a second like(…); one example orders the answers");
+    return parse_example(in_, name);
   }
 
   Expression inside_link() {
@@ -222,6 +266,7 @@ class Parser {
   Condition condition(Field field) {
     Condition result;
     result.field = field;
+    if (field == Field::unit) return result;
     if (field == Field::tier) {
       in_.expect("(", "name the tier: tier(\"Mouthing\") = \"pluie\"");
       const QueryToken name = in_.take();
@@ -252,7 +297,10 @@ class Parser {
 
   void value(Condition& condition) {
     const QueryToken token = in_.peek();
-    if (token.kind == Kind::variable) refuse_variable(token);
+    if (token.kind == Kind::variable) {
+      condition.value = variable(condition);
+      return;
+    }
     if (condition.compare == Compare::matches) {
       if (token.kind != Kind::regex) {
         in_.fail(token.begin, fmt::format("expected a regular expression after '=~', found {}; write it between "
@@ -360,34 +408,47 @@ class Parser {
   }
 
   [[noreturn]] void refuse_word(const QueryToken& name) {
-    const bool call = in_.next_is("(");
-    const bool movement = std::find(kMovement.begin(), kMovement.end(), name.text) != kMovement.end();
-    if (movement || (call && value_of(kFields, name.text))) {
-      in_.fail(name.begin,
-               fmt::format("conditions on movement ('{}') are not supported yet; leave this one out", name.text),
-               ErrorCode::unsupported);
-    }
     if (name.text == "signer") {
       in_.fail(name.begin, "conditions on the signer are not supported yet; use recording = \"…\"",
                ErrorCode::unsupported);
     }
     std::vector<std::string> known = words_of(kFields);
     for (const Link link : kLinks) known.emplace_back(word_of(link));
+    for (std::string& word : movement_words()) {
+      if (std::find(known.begin(), known.end(), word) == known.end()) known.push_back(std::move(word));
+    }
     in_.fail(name.begin, fmt::format("no condition is called '{}'{}; use one of {}", printable(name.text),
                                      did_you_mean(name.text, known), fmt::join(known, ", ")));
   }
 
   [[noreturn]] void refuse_variable(const QueryToken& token) {
     in_.fail(token.begin,
-             fmt::format("variables ('{}') are not supported yet; a label that begins with $ stands in double quotes",
-                         printable(token.text)),
-             ErrorCode::unsupported);
+             fmt::format("'{}' stands alone; write gloss = {}, and a label that begins with $ in double quotes",
+                         printable(token.text), printable(token.text)));
+  }
+
+  QueryVariable variable(const Condition& condition) {
+    const QueryToken token = in_.take();
+    if ((condition.field != Field::gloss && condition.field != Field::tier) || condition.compare > Compare::not_equal) {
+      in_.fail(token.begin, fmt::format("a variable stands for a label; write gloss = {} or tier(\"Mouthing\") != {}",
+                                        printable(token.text), printable(token.text)));
+    }
+    if (++variables_ > kMostVariables) {
+      in_.fail(token.begin, fmt::format("more than {} conditions on variables; ask in parts", kMostVariables));
+    }
+    variable_ = token.begin;
+    return {token.text.substr(1)};
   }
 
   void expect_end() {
     const QueryToken& next = in_.peek();
     if (next.kind == Kind::end) return;
     const bool closing = in_.next_is(")");
+    if (in_.next_is(",")) {
+      in_.fail(next.begin,
+               "',' has no meaning here; a text with such characters stands in double quotes, and "
+               "conditions are joined with & or |");
+    }
     in_.fail(next.begin, closing ? std::string("')' without '('; take it away")
                                  : fmt::format("expected & | -> or the end of the query, found {}; join conditions "
                                                "with &, | or ->",
@@ -397,6 +458,11 @@ class Parser {
   QueryLexer in_;
   int depth_ = 0;
   int regexes_ = 0;
+  int examples_ = 0;
+  int variables_ = 0;
+  std::size_t variable_ = 0;     ///< where the last one stands
+  std::size_t example_ = 0;      ///< where the last like(…) begins
+  bool ranked_in_term_ = false;  ///< the last term has one
   bool marked_ = false;
 };
 

@@ -4,23 +4,10 @@
 
 #include <cassert>
 
+#include "signweave/query/lexer.h"
+
 namespace signweave {
 namespace {
-
-std::string in_quotes(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '\n') {
-      result += "\\n";
-    } else if (c == '\t') {
-      result += "\\t";
-    } else {
-      if (c == '"' || c == '\\') result += '\\';
-      result += c;
-    }
-  }
-  return result + '"';
-}
 
 std::string slashed(const Regex& regex) {
   std::string result = "/";
@@ -59,11 +46,22 @@ std::string to_string(const Condition& condition) {
     std::string operator()(const std::string& text) const { return in_quotes(text); }
     std::string operator()(const Regex& regex) const { return slashed(regex); }
     std::string operator()(PhaseKind kind) const { return std::string(word_of(kind)); }
+    std::string operator()(const QueryVariable& variable) const { return "$" + variable.name; }
     std::string operator()(Hand hand) const { return std::string(word_of(hand)); }
     std::string operator()(Milliseconds time) const { return fmt::format("{}ms", time.count()); }
+    std::string operator()(const Amount& amount) const { return to_string(amount); }
+    std::string operator()(Height height) const { return std::string(word_of(height)); }
+    std::string operator()(Across across) const { return std::string(word_of(across)); }
+    std::string operator()(Reach reach) const { return std::string(word_of(reach)); }
+    std::string operator()(Facing facing) const { return std::string(word_of(facing)); }
+    std::string operator()(Contact contact) const { return std::string(word_of(contact)); }
+    std::string operator()(const Example& example) const { return to_string(example); }
   };
-  const std::string field = condition.field == Field::tier ? fmt::format("tier({})", in_quotes(condition.tier))
-                                                           : std::string(word_of(condition.field));
+  if (condition.field == Field::unit) return std::string(word_of(condition.field));
+  if (condition.field == Field::like) return std::visit(Printer(), condition.value);
+  const std::string field = condition.field == Field::tier       ? fmt::format("tier({})", in_quotes(condition.tier))
+                            : condition.field == Field::movement ? to_string(condition.movement)
+                                                                 : std::string(word_of(condition.field));
   return fmt::format("{} {} {}", field, word_of(condition.compare), std::visit(Printer(), condition.value));
 }
 
@@ -105,7 +103,8 @@ std::string to_string(const PhaseQuery& query) {
 }
 
 std::string_view word_of(Field field) noexcept {
-  constexpr std::string_view kWords[] = {"gloss", "phase", "hand", "recording", "tier", "duration", "begin", "end"};
+  constexpr std::string_view kWords[] = {"gloss",    "phase", "hand", "recording", "tier",
+                                         "duration", "begin", "end",  "movement",  "unit", "signer", "like"};
   return kWords[static_cast<std::size_t>(field)];
 }
 

@@ -9,6 +9,7 @@
 
 #include "signweave/annotation/sign.h"
 #include "signweave/core/time.h"
+#include "signweave/query/movement_term.h"
 
 namespace signweave {
 
@@ -26,6 +27,10 @@ enum class Field {
   duration,
   begin,  ///< annotation time
   end,
+  movement,  ///< `Condition::movement`
+  unit,      ///< the segment is a unit: no comparison, no value
+  signer,    ///< name of the signer
+  like,      ///< no condition, but the order of the answers: by their distance from an example
 };
 
 enum class Compare { equal, not_equal, matches, less, less_equal, greater, greater_equal };
@@ -37,13 +42,24 @@ struct Regex {
   friend bool operator==(const Regex&, const Regex&) = default;
 };
 
+/// $NAME: the same label wherever it stands in a query.
+struct QueryVariable {
+  std::string name;
+  friend bool operator==(const QueryVariable&, const QueryVariable&) = default;
+};
+
 /// FIELD COMPARE VALUE. The parser sees to it that they fit: texts and regular expressions for gloss, recording, tier;
-/// a PhaseKind (or a regular expression over their names) for phase; a Hand for hand; milliseconds for the times.
+/// a PhaseKind (or a regular expression over their names) for phase; a Hand for hand; milliseconds for the times; what
+/// `value_kind` says for movement. `like` has an Example and no comparison; it stands only among the outermost operands
+/// of `&` of an element, once in a query.
 struct Condition {
   Field field = Field::gloss;
-  std::string tier;  ///< of Field::tier only
+  std::string tier;       ///< of Field::tier only
+  MovementTerm movement;  ///< of Field::movement only
   Compare compare = Compare::equal;
-  std::variant<std::string, Regex, PhaseKind, Hand, Milliseconds> value;
+  std::variant<std::string, Regex, PhaseKind, Hand, Milliseconds, Amount, Height, Across, Reach, Facing, Contact,
+               Example, QueryVariable>
+      value;
   friend bool operator==(const Condition&, const Condition&) = default;
 };
 

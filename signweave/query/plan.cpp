@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "signweave/query/rank.h"
+
 namespace signweave {
 namespace {
 
@@ -81,6 +83,7 @@ class AccessFinder {
 
   std::optional<Access> of(BoundCondition& condition) {
     if (condition.field != Field::phase && condition.compare == Compare::not_equal) return std::nullopt;
+    if (condition.variable) return std::nullopt;
     Access access;
     switch (condition.field) {
       case Field::gloss:
@@ -106,10 +109,17 @@ class AccessFinder {
         }
         access.through.push_back(fmt::format("all rows of the recordings with {}", to_string(*condition.source)));
         break;
+      case Field::unit:
+        add(table_.units(), access.lists, access);
+        access.through.push_back("all units");
+        break;
+      case Field::signer:
       case Field::hand:
       case Field::duration:
       case Field::begin:
       case Field::end:
+      case Field::movement:
+      case Field::like:
         return std::nullopt;
     }
     return access;
@@ -177,12 +187,21 @@ std::vector<Access> accesses_of(Matcher& matcher) {
   const auto add = [&](Scopes scope) {
     if (matcher.scopes().has(scope)) result.push_back(AccessFinder(matcher, scope).find());
   };
+  add(Scopes::units());
   add(Scopes::phases());
   add(Scopes::signs());
   for (unsigned place = 0; place < matcher.tiers().size(); ++place) add(Scopes::tier(place));
   add(Scopes::linked());
   add(Scopes::plain());
   return result;
+}
+
+/// An index that leads to all rows for which the condition holds, and to no others.
+bool is_exact(const BoundExpression& expression) noexcept {
+  if (expression.kind != Expression::Kind::condition || expression.condition.variable) return false;
+  const Field field = expression.condition.field;
+  if (field == Field::gloss) return expression.condition.compare != Compare::not_equal;
+  return field == Field::phase || field == Field::unit;
 }
 
 std::size_t rows_of(std::span<const Access> accesses) noexcept {
@@ -201,14 +220,16 @@ std::string follow(const PhaseQuery& query, std::size_t from, std::size_t to) {
 
 }  // namespace
 
-BoundQuery bind(const PhaseQuery& query, const SegmentTable& table, Watch& watch) {
+BoundQuery bind(const PhaseQuery& query, const SegmentTable& table, Watch& watch, const MovingTable& moving) {
   BoundQuery result;
   result.gaps = query.gaps;
   for (const Element& element : query.elements) {
-    result.elements.push_back({Matcher(element.term.expression, table, watch), element.term.marked, {}});
+    result.elements.push_back({Matcher(element.term.expression, table, watch, moving), element.term.marked, {}});
     for (const Relation& relation : element.relations) {
       result.elements.back().relations.push_back(
-          {relation.link, Matcher(relation.term.expression, table, watch), relation.term.marked});
+          {relation.link, Matcher(relation.term.expression, table, watch, moving), relation.term.marked, {}});
+      BoundQuery::BoundRelation& bound = result.elements.back().relations.back();
+      bound.tiers = bound.matcher.only_tiers();
     }
   }
   return result;
@@ -225,18 +246,30 @@ Plan plan(BoundQuery& query) {
     BoundQuery::BoundElement& element = query.elements[e];
     std::vector<Access> accesses = accesses_of(element.matcher);
     const std::size_t rows = rows_of(accesses);
-    offer({e, std::nullopt, std::move(accesses), rows});
+    offer({e, std::nullopt, std::move(accesses), rows, is_exact(element.matcher.root())});
     for (std::size_t r = 0; r < element.relations.size(); ++r) {
       std::vector<Access> around = accesses_of(element.relations[r].matcher);
       const std::size_t partners = rows_of(around);
-      offer({e, r, std::move(around), partners * kAround});
+      offer({e, r, std::move(around), partners * kAround, false});
     }
   }
   return std::move(*best);
 }
 
-std::vector<RowId> candidates(std::span<const Access> accesses, const SegmentTable& table) {
-  std::vector<RowId> result;
+std::optional<std::span<const RowId>> one_list(std::span<const Access> accesses) noexcept {
+  std::optional<std::span<const RowId>> found = std::span<const RowId>();
+  for (const Access& access : accesses) {
+    if (!access.parents.empty() || !access.ranges.empty()) return std::nullopt;
+    for (const std::span<const RowId> list : access.lists) {
+      if (!found->empty()) return std::nullopt;
+      found = list;
+    }
+  }
+  return found;
+}
+
+void candidates(std::span<const Access> accesses, const SegmentTable& table, std::vector<RowId>& result) {
+  result.clear();
   result.reserve(rows_of(accesses));
   for (const Access& access : accesses) {
     for (const std::span<const RowId> list : access.lists) result.insert(result.end(), list.begin(), list.end());
@@ -252,7 +285,6 @@ std::vector<RowId> candidates(std::span<const Access> accesses, const SegmentTab
   }
   if (!std::is_sorted(result.begin(), result.end())) std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
 }
 
 std::string explain(const PhaseQuery& query, const Segments& segments) {
@@ -282,6 +314,10 @@ std::string explain(const PhaseQuery& query, const Segments& segments) {
       steps.push_back(fmt::format("find the partner: {} {} {}", to_string(element.term.expression),
                                   word_of(relation.link), to_string(relation.term.expression)));
     }
+  }
+  if (const std::optional<std::size_t> place = ranked_place(query)) {
+    steps.push_back(fmt::format("order by the distance from {}: the nearest of them, {} without a limit",
+                                to_string(example_at(query, *place)), kNearest));
   }
   std::string result = to_string(query) + '\n';
   for (std::size_t i = 0; i < steps.size(); ++i) result += fmt::format("{}. {}\n", i + 1, steps[i]);

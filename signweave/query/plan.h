@@ -27,6 +27,7 @@ struct BoundQuery {
     Link link = Link::overlaps;
     Matcher matcher;
     bool marked = false;
+    std::optional<std::vector<std::uint32_t>> tiers;  ///< Matcher::only_tiers
   };
   struct BoundElement {
     Matcher matcher;
@@ -37,8 +38,8 @@ struct BoundQuery {
   std::vector<Interval> gaps;
 };
 
-/// Borrows all three, which must outlive the result.
-BoundQuery bind(const PhaseQuery& query, const SegmentTable& table, Watch& watch);
+/// Borrows all, which must outlive the result.
+BoundQuery bind(const PhaseQuery& query, const SegmentTable& table, Watch& watch, const MovingTable& moving = {});
 
 /// Where a search begins: with the element, or the partner in a relation, that has the fewest rows to look at. From
 /// there it goes along the sequence in both directions.
@@ -47,12 +48,15 @@ struct Plan {
   std::optional<std::size_t> relation;  ///< begin with this partner of the element, then look for the element around it
   std::vector<Access> accesses;         ///< together they hold all candidates
   std::size_t rows = 0;                 ///< about how many
+  bool exact = false;                   ///< each of the candidates fulfils the element's expression
 };
 
 Plan plan(BoundQuery& query);
 
-/// The rows of the accesses, ascending, each once.
-std::vector<RowId> candidates(std::span<const Access> accesses, const SegmentTable& table);
+/// Puts the rows of the accesses into `rows`, ascending, each once.
+void candidates(std::span<const Access> accesses, const SegmentTable& table, std::vector<RowId>& rows);
+/// The same where it is one list of an index: that.
+std::optional<std::span<const RowId>> one_list(std::span<const Access> accesses) noexcept;
 
 /// The plan for a query in words, one step a line: for `query --explain`.
 std::string explain(const PhaseQuery& query, const Segments& segments);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <random>
 #include <string>
 #include <utility>
@@ -15,7 +16,8 @@ namespace signweave {
 /// have answers now and then.
 class RandomQueries {
  public:
-  explicit RandomQueries(std::mt19937& random) : random_(random) {}
+  /// With `movement`, conditions on movement are among the others, and sometimes an example.
+  explicit RandomQueries(std::mt19937& random, bool movement = false) : random_(random), movement_(movement) {}
 
   PhaseQuery query() {
     PhaseQuery result;
@@ -28,6 +30,7 @@ class RandomQueries {
       result.elements.push_back(element);
       if (i > 0) result.gaps.push_back(gap());
     }
+    if (movement_ && one_in(4)) rank(result.elements[below(places)].term.expression);
     if (one_in(3)) {
       Element& element = result.elements[below(places)];
       (element.relations.empty() || one_in(2) ? element.term : element.relations[0].term).marked = true;
@@ -35,7 +38,80 @@ class RandomQueries {
     return result;
   }
 
+  /// A condition on movement.
+  Expression moving() {
+    Expression result;
+    Condition& condition = result.condition;
+    condition.field = Field::movement;
+    MovementTerm& term = condition.movement;
+    term.quantity = static_cast<Quantity>(below(10));
+    term.point = point(false);
+    if (term.quantity == Quantity::contact && term.point.kind == Point::Kind::part) term.point = Point::own_hand();
+    if (term.quantity == Quantity::distance) {
+      do term.other = point(false);
+      while (*term.other == term.point);
+      if (one_in(2)) term.component = one_in(2) ? Component::begin : Component::end;
+    } else if (term.quantity >= Quantity::begin) {
+      term.component = static_cast<Component>(1 + below(term.point.kind == Point::Kind::part ? 3 : 7));
+    }
+    constexpr Compare kOrder[] = {Compare::less, Compare::less_equal, Compare::greater, Compare::greater_equal};
+    condition.compare = kOrder[below(4)];
+    const Compare equality = one_in(2) ? Compare::equal : Compare::not_equal;
+    const auto named = [&](auto value, Compare compare) {
+      condition.value = value;
+      condition.compare = compare;
+    };
+    const Unit length = one_in(2) ? Unit::metres : Unit::shoulder_widths;
+    const bool number = one_in(2);
+    switch (value_kind(term)) {
+      case ValueKind::speed:
+        condition.value = amount(Unit::metres_per_second);
+        break;
+      case ValueKind::acceleration:
+        condition.value = amount(Unit::metres_per_second_squared);
+        break;
+      case ValueKind::share:
+        condition.value = amount(Unit::none);
+        break;
+      case ValueKind::height:
+        condition.value = amount(length);
+        if (!number) named(static_cast<Height>(below(8)), one_in(2) ? equality : condition.compare);
+        break;
+      case ValueKind::across:
+        condition.value = amount(length);
+        if (!number) named(static_cast<Across>(below(3)), equality);
+        break;
+      case ValueKind::reach:
+        condition.value = amount(length);
+        if (!number) named(static_cast<Reach>(below(2)), equality);
+        break;
+      case ValueKind::length:
+        condition.value = amount(length);
+        break;
+      case ValueKind::facing:
+        named(static_cast<Facing>(1 + below(6)), equality);
+        break;
+      case ValueKind::contact:
+        named(static_cast<Contact>(1U << below(3)), Compare::equal);
+        break;
+    }
+    return result;
+  }
+
  private:
+  Point point(bool sided) {
+    const unsigned choice = below(4);
+    if (choice == 0 && !sided) return Point::own_hand();
+    if (choice < 3) return Point::palm(one_in(2) ? Side::left : Side::right);
+    Point result = Point::of(static_cast<Part>(below(kPartCount)));
+    return result;
+  }
+
+  Amount amount(Unit unit) {
+    constexpr double kDivisors[] = {1000, 700, 1000, 3000, 1};
+    return {(static_cast<double>(below(4000)) - 1000) / kDivisors[below(5)], unit};
+  }
+
   unsigned below(unsigned most) { return random_() % most; }
   bool one_in(unsigned n) { return below(n) == 0; }
   std::string label() {
@@ -111,7 +187,32 @@ class RandomQueries {
     return result;
   }
 
+  /// Joins an example to the conditions of a place.
+  void rank(Expression& expression) {
+    Expression like;
+    like.condition.field = Field::like;
+    Example example;
+    example.recording = one_in(3) ? "quo\"te\\" : fmt::format("r{}", below(3));
+    example.span = {Milliseconds(below(20)), Milliseconds(20 + below(20))};
+    for (unsigned i = 0; i < below(3); ++i) {
+      const Point added = point(true);
+      if (std::find(example.points.begin(), example.points.end(), added) == example.points.end()) {
+        example.points.push_back(added);
+      }
+    }
+    like.condition.value = example;
+    if (expression.kind == Expression::Kind::all) {
+      expression.operands.push_back(like);
+      return;
+    }
+    Expression all;
+    all.kind = Expression::Kind::all;
+    all.operands = {std::move(expression), like};
+    expression = std::move(all);
+  }
+
   Expression condition() {
+    if (movement_ && one_in(4)) return moving();
     Expression result;
     Condition& condition = result.condition;
     switch (below(8)) {
@@ -143,10 +244,11 @@ class RandomQueries {
   }
 
   std::mt19937& random_;
+  bool movement_;
 };
 
-inline PhaseQuery random_query(std::mt19937& random) {
-  return RandomQueries(random).query();
+inline PhaseQuery random_query(std::mt19937& random, bool movement = false) {
+  return RandomQueries(random, movement).query();
 }
 
 }  // namespace signweave

@@ -33,10 +33,15 @@ Scopes scope_of(const Condition& condition, const std::vector<std::string>& tier
       const auto at = std::find(tiers.begin(), tiers.end(), condition.tier);
       return Scopes::tier(static_cast<unsigned>(at - tiers.begin()));
     }
+    case Field::unit:
+      return Scopes::units();
     case Field::recording:
+    case Field::signer:
     case Field::duration:
     case Field::begin:
     case Field::end:
+    case Field::movement:
+    case Field::like:
       break;
   }
   return Scopes::plain();

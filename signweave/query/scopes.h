@@ -10,7 +10,7 @@
 namespace signweave {
 
 /// Which rows an expression ranges over (docs/query.md, "Which segments a condition is about"): a set, because the
-/// alternatives of an expression may differ in it. From general to special: plain, linked, tiers, signs, phases.
+/// alternatives of an expression may differ in it. From general to special: plain, linked, tiers, signs, phases, units.
 ///
 /// Each condition has one scope. A conjunction has the most special one of its conditions; `|` keeps both. So a row can
 /// be tested without multiplying the expression out: `a | b` joins what the two sides allow, `a & b` takes of each pair
@@ -26,6 +26,8 @@ class Scopes {
   static constexpr Scopes tier(unsigned place) noexcept { return Scopes(std::uint64_t{4} << (kMostTiers - 1 - place)); }
   static constexpr Scopes signs() noexcept { return Scopes(std::uint64_t{4} << kMostTiers); }
   static constexpr Scopes phases() noexcept { return Scopes(std::uint64_t{8} << kMostTiers); }
+
+  static constexpr Scopes units() noexcept { return Scopes(std::uint64_t{16} << kMostTiers); }
 
   constexpr bool empty() const noexcept { return bits_ == 0; }
   constexpr bool has(Scopes one) const noexcept { return (bits_ & one.bits_) != 0; }

@@ -19,7 +19,12 @@ struct FindLimits {
 /// Looks at deadline and cancel now and then. Belongs to one search.
 class Watch {
  public:
-  explicit Watch(const FindLimits& limits) : limits_(limits) {}
+  explicit Watch(const FindLimits& limits = {}) : limits_(limits) {}
+  /// For another search.
+  void begin(const FindLimits& limits) {
+    limits_ = limits;
+    ticks_ = 0;
+  }
 
   /// To be called for each row that is looked at. Throws Error{cancelled}.
   void tick() {

@@ -29,6 +29,7 @@ void put_features(kv::WriteTransaction& transaction, std::uint64_t generation, c
 
 void erase(kv::WriteTransaction& transaction, std::uint64_t generation) {
   transaction.erase(key_of('F', generation));
+  transaction.erase(key_of('T', generation));
   erase_document(transaction, generation);
   transaction.erase(key_of('S', generation));
 }
@@ -60,6 +61,7 @@ std::string_view kind_of(ByteSpan key) noexcept {
   if (is_document_key(key)) return "documents";
   if (key.size() != 1 + sizeof(std::uint64_t)) return {};
   if (key[0] == std::byte{'F'}) return "features";
+  if (key[0] == std::byte{'T'}) return "traces";
   if (key[0] == std::byte{'I'}) return "segment tables";
   return key[0] == std::byte{'S'} ? "segments" : std::string_view{};
 }

@@ -1,0 +1,177 @@
+#include "signweave/database/movement.h"
+
+#include <algorithm>
+
+#include "signweave/database/catalogue.h"
+#include "signweave/database/database.h"
+#include "signweave/database/measure.h"
+#include "signweave/semantic_db/semantic_db.h"
+#include "signweave/semantic_db/trace_store.h"
+
+namespace signweave {
+namespace {
+
+HandTrace no_trace(std::string why_not) {
+  HandTrace trace;
+  trace.why_not = std::move(why_not);
+  return trace;
+}
+
+/// The rows of a recording as its table has them.
+std::vector<MovementRow> rows_of(const SegmentTable::Part& part) {
+  const SegmentTable& table = *part.table;
+  const SegmentTable::RowRange range = table.recording_rows(part.recording);
+  std::vector<MovementRow> rows;
+  rows.reserve(range.size());
+  for (RowId row = range.begin; row < range.end; ++row) {
+    const RowId parent = table.parent(row);
+    // A unit moves as long as it lasts.
+    const RowKind kind = table.kind(row) == RowKind::unit ? RowKind::annotation : table.kind(row);
+    rows.push_back({.kind = kind,
+                    .phase = table.phase(row),
+                    .parent = range.contains(parent) ? parent - range.begin : kNoRow,
+                    .span = table.span(row)});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::shared_ptr<MovementCache::Recording> MovementCache::find(std::uint32_t recording) const {
+  const std::lock_guard guard(mutex_);
+  const auto at = recordings_.find(recording);
+  return at == recordings_.end() ? nullptr : at->second;
+}
+
+std::shared_ptr<MovementCache::Recording> MovementCache::add(std::uint32_t recording,
+                                                             std::shared_ptr<Recording> entry) {
+  std::size_t bytes = 0;
+  for (const auto& points : entry->trace->points) bytes += points.size() * sizeof(TraceSample);
+  const std::lock_guard guard(mutex_);
+  if (bytes_ + bytes > kMostBytes) {
+    recordings_.clear();
+    bytes_ = 0;
+  }
+  bytes_ += bytes;
+  return recordings_.try_emplace(recording, std::move(entry)).first->second;
+}
+
+HandTrace trace_stored(const kv::ReadTransaction& snapshot, const RecordingInfo& info) {
+  if (!info.motion) return no_trace("there is no motion");
+  try {
+    if (info.document != 0) {
+      if (auto stored = semantic_db::read_trace(snapshot, info.document, info.name)) return *std::move(stored);
+    }
+    const motion_db::StoredMotion& stored = *info.motion;
+    const Motion motion =
+        motion_db::read(snapshot, stored, motion_db::read_skeleton(snapshot, stored), {0, stored.frames});
+    return trace_hands(motion, model_of(motion, info.rig));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::corrupt) throw;
+    return no_trace(error.what());
+  }
+}
+
+/// Movement of the state that a transaction sees.
+class StoredMovement : public Movement {
+ public:
+  StoredMovement(const Database& database, std::shared_ptr<const kv::ReadTransaction> transaction,
+                 std::shared_ptr<const Segments> segments, std::shared_ptr<MovementCache> cache)
+      : database_(&database),
+        transaction_(std::move(transaction)),
+        segments_(std::move(segments)),
+        cache_(std::move(cache)) {}
+
+  std::span<const float> column(Column column, std::uint32_t recording) const override {
+    MovementCache::Recording& entry = at(recording);
+    std::call_once(entry.measured, [&] { measure(recording, entry); });
+    return entry.columns[place_of(column)];
+  }
+  float shoulder_width(std::uint32_t recording) const override { return at(recording).trace->shoulder_width; }
+  FrameClock clock(std::uint32_t recording) const override { return at(recording).info.clock; }
+  std::shared_ptr<const HandTrace> hands(std::uint32_t recording) const override { return at(recording).trace; }
+
+  std::vector<PointTrack> points(std::uint32_t recording, std::span<const Part> parts,
+                                 FrameRange range) const override {
+    const RecordingInfo& info = at(recording).info;
+    if (!info.motion) return std::vector<PointTrack>(parts.size());
+    if (motion_of_ != recording) {  // rows come recording by recording
+      const motion_db::StoredMotion& stored = *info.motion;
+      motion_ =
+          motion_db::read(*transaction_, stored, motion_db::read_skeleton(*transaction_, stored), {0, stored.frames});
+      model_ = model_of(motion_, info.rig);
+      motion_of_ = recording;
+    }
+    return track_points(motion_, model_, parts, range);
+  }
+
+ private:
+  MovementCache::Recording& at(std::uint32_t recording) const {
+    if (at_ != recording) {
+      entry_ = cache_->find(recording);
+      if (!entry_) entry_ = cache_->add(recording, read(recording));
+      kept_.push_back(entry_);  // what was lent stays valid
+      at_ = recording;
+    }
+    return *entry_;
+  }
+
+  std::shared_ptr<MovementCache::Recording> read(std::uint32_t recording) const {
+    auto entry = std::make_shared<MovementCache::Recording>();
+    try {
+      entry->info = database_->recording_in(*transaction_, segments_->recording_name(recording));
+      entry->trace = std::make_shared<const HandTrace>(trace_stored(*transaction_, entry->info));
+    } catch (const Error& error) {  // a damaged entry of the catalogue
+      if (error.code() != ErrorCode::corrupt && error.code() != ErrorCode::not_found) throw;
+      entry->trace = std::make_shared<const HandTrace>(no_trace(error.what()));
+    }
+    return entry;
+  }
+
+  void measure(std::uint32_t recording, MovementCache::Recording& entry) const {
+    const std::vector<MovementRow> rows = rows_of(segments_->part(recording));
+    RecordingFeatures features;
+    if (entry.info.document != 0 && entry.trace->samples() != 0) {
+      try {
+        if (auto stored = semantic_db::read_features(*transaction_, entry.info.document, entry.info.name)) {
+          features = *std::move(stored);
+        }
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::corrupt) throw;  // `check` tells of it; the trace says nearly the same
+      }
+    }
+    entry.columns = measure_rows(rows, features, *entry.trace, entry.info.clock);
+  }
+
+  const Database* database_;
+  std::shared_ptr<const kv::ReadTransaction> transaction_;
+  std::shared_ptr<const Segments> segments_;
+  std::shared_ptr<MovementCache> cache_;
+  mutable std::optional<std::uint32_t> at_;
+  mutable std::shared_ptr<MovementCache::Recording> entry_;
+  mutable std::vector<std::shared_ptr<MovementCache::Recording>> kept_;
+  mutable std::optional<std::uint32_t> motion_of_;
+  mutable Motion motion_;
+  mutable SignerModel model_;
+};
+
+std::unique_ptr<Movement> Database::movement_of(const std::shared_ptr<const kv::ReadTransaction>& snapshot,
+                                                const std::shared_ptr<const Segments>& segments) const {
+  const std::uint64_t changes = catalogue::read_head(*snapshot).changes;
+  std::shared_ptr<MovementCache> cache;
+  {
+    const std::lock_guard guard(mutex_);
+    if (!movement_ || movement_->changes() < changes) movement_ = std::make_shared<MovementCache>(changes);
+    cache = movement_;
+  }
+  if (cache->changes() != changes) cache = std::make_shared<MovementCache>(changes);  // of an older state: for itself
+  return std::make_unique<StoredMovement>(*this, snapshot, segments, std::move(cache));
+}
+
+std::vector<Segment> Database::find(const PhaseQuery& query, const FindLimits& limits) const {
+  const std::shared_ptr<const kv::ReadTransaction> snapshot = store_->read();
+  const std::shared_ptr<const Segments> segments = stored_segments(snapshot);
+  return signweave::find(query, *segments, limits, movement_of(snapshot, segments).get());
+}
+
+}  // namespace signweave

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "signweave/query/movement.h"
+#include "signweave/query/phase_query.h"
+
+namespace signweave {
+
+/// A row of a table as a condition on movement looks at it.
+struct MovingRow {
+  RowId row = kNoRow;  ///< within its recording
+  std::uint32_t recording = 0;
+  bool any_hand = true;     ///< it is of no hand or of both, so that `hand` means either
+  Side hand = Side::right;  ///< of a row of one hand
+};
+
+/// What is looked at of a row: a sign's strokes in order, of other rows their span.
+using Stretches = std::function<std::vector<TimeSpan>()>;
+
+/// A condition on movement made ready for one database. Borrows the movement, which may be null: then nothing is known.
+/// For one thread.
+class MovementCheck {
+ public:
+  /// `condition` must have Field::movement.
+  MovementCheck(const Condition& condition, const Movement* movement);
+
+  /// False also where what is asked for is not known. `stretches` is called where something is not stored. Throws
+  /// Error{corrupt} where a trace or motion is damaged.
+  bool holds(const MovingRow& row, const Stretches& stretches);
+
+  /// Appends `first` + all rows of a recording for which it holds, and perhaps others (of `hand`: what either hand
+  /// does). False, and nothing, where something that it asks for is not stored.
+  bool scan(std::uint32_t recording, RowId first, std::vector<RowId>& rows);
+
+ private:
+  struct Way {
+    Point point;
+    std::optional<Point> other;
+    bool own = false;        ///< `point` is there for `hand`: of a row of one hand it must be that
+    bool other_own = false;  ///< the same of `other`
+    HandMeasure measure = HandMeasure::speed;
+    std::span<const float> column = {};  ///< of `recording_`; empty: from frames
+  };
+  /// Both included; no number lies within where low is above high, and what is no number nowhere.
+  struct Bounds {
+    float low, high;
+    bool hold(float value) const noexcept { return low <= value && value <= high; }
+  };
+
+  void load(std::uint32_t recording);
+  static void append_within(std::span<const float> column, Bounds bounds, RowId first, std::vector<RowId>& rows);
+  bool fits(float value) const;
+  Bounds bounds(std::uint32_t recording) const;
+  float from_frames(const Way& way, std::uint32_t recording, std::span<const TimeSpan> stretches) const;
+  PointTrack track(const Point& point, std::uint32_t recording, const HandTrace& trace, FrameRange frames) const;
+
+  const Movement* movement_;
+  const Condition* condition_;
+  std::vector<Way> ways_;                   ///< one of them has to hold
+  std::optional<std::uint32_t> recording_;  ///< of which columns and bounds are at hand
+  Bounds bounds_{};
+  bool scaled_ = false;    ///< the value's unit is not the column's: it depends on the signer's shoulders
+  bool by_state_ = false;  ///< the value is told from a state number
+};
+
+}  // namespace signweave

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signweave/core/time.h"
+#include "signweave/features/point_track.h"
+#include "signweave/rig/part.h"
+#include "signweave/rig/signer_space.h"
+
+namespace signweave {
+
+// The part of the syntax tree that speaks of movement (docs/query.md, "Movement" and "Query by example").
+
+/// A point of the signer.
+struct Point {
+  enum class Kind : std::uint8_t {
+    hand,  ///< the palm of a hand of the segment's own: either of both where both sign; of an annotation: either
+    palm,  ///< the palm of the hand on `side`
+    part,  ///< where `part` begins
+  };
+  Kind kind = Kind::palm;
+  Side side = Side::right;  ///< of a palm
+  Part part = Part::head;   ///< of a part
+
+  static constexpr Point own_hand() noexcept { return {.kind = Kind::hand}; }
+  static constexpr Point palm(Side side) noexcept { return {.kind = Kind::palm, .side = side}; }
+  static constexpr Point of(Part part) noexcept { return {.kind = Kind::part, .part = part}; }
+  friend bool operator==(const Point&, const Point&) = default;
+};
+
+/// What is asked of a point.
+enum class Quantity : std::uint8_t {
+  speed,  ///< the peak
+  mean_speed,
+  acceleration,  ///< the peak
+  mean_acceleration,
+  path,          ///< its length
+  displacement,  ///< straight from begin to end
+  distance,      ///< from another point: the least, or that at begin or end
+  contact,       ///< what a hand touches at some moment
+  begin,         ///< a component at the first moment
+  end,           ///< a component at the last moment
+};
+
+enum class Component : std::uint8_t { none, x, height, forward, openness, palm, fingers, contact, begin, end };
+
+/// QUANTITY(POINT)[.COMPONENT], or distance(POINT, POINT)[.COMPONENT].
+struct MovementTerm {
+  Quantity quantity = Quantity::speed;
+  Point point;
+  std::optional<Point> other;  ///< of a distance only
+  Component component = Component::none;
+  friend bool operator==(const MovementTerm&, const MovementTerm&) = default;
+};
+
+/// What a number counts. All others are turned into these by the parser.
+enum class Unit : std::uint8_t { none, metres, shoulder_widths, metres_per_second, metres_per_second_squared };
+
+/// A number with its unit.
+struct Amount {
+  double value = 0;
+  Unit unit = Unit::none;
+  friend bool operator==(const Amount&, const Amount&) = default;
+};
+
+/// A piece of a recording that others are held against: like("meteo"@1200..3400, right_hand).
+struct Example {
+  std::string recording;
+  TimeSpan span{};            ///< annotation time
+  std::vector<Point> points;  ///< what is compared; empty: both hands, as far as the example has them
+  friend bool operator==(const Example&, const Example&) = default;
+};
+
+/// What the value of a term can be.
+enum class ValueKind : std::uint8_t {
+  speed,         ///< an amount in m/s
+  acceleration,  ///< an amount in m/s2
+  length,        ///< an amount in m or sw
+  height,        ///< the same, or a named height
+  across,        ///< the same, or left, centre, right
+  reach,         ///< the same, or near, far
+  share,         ///< a bare number
+  facing,        ///< up, down, …
+  contact,       ///< hand, head, torso
+};
+ValueKind value_kind(const MovementTerm& term) noexcept;
+
+std::string to_string(const MovementTerm& term);
+std::string to_string(const Amount& amount);
+std::string to_string(const Example& example);
+std::string to_string(const Point& point);
+
+std::string_view word_of(Quantity quantity) noexcept;
+std::string_view word_of(Component component) noexcept;
+std::string_view word_of(Facing facing) noexcept;
+/// Of one contact.
+std::string_view word_of(Contact contact) noexcept;
+inline std::string_view word_of(Height height) noexcept {
+  return name_of(height);
+}
+inline std::string_view word_of(Across across) noexcept {
+  return name_of(across);
+}
+inline std::string_view word_of(Reach reach) noexcept {
+  return name_of(reach);
+}
+
+/// The point of a name: "hand", "right_hand", "left_elbow", "head", "right_index_tip", or that of a part
+/// ("left_forearm"). `right_hand` is the palm; the wrist is `right_wrist`.
+std::optional<Point> point_named(std::string_view word);
+/// All names that `to_string` gives.
+std::vector<std::string> point_words();
+
+}  // namespace signweave

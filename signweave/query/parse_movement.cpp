@@ -1,0 +1,398 @@
+#include "signweave/query/parse_movement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "signweave/core/text.h"
+#include "signweave/query/parse.h"
+
+namespace signweave {
+namespace {
+
+using Kind = QueryToken::Kind;
+
+constexpr std::array kQuantities = {
+    Quantity::speed, Quantity::mean_speed,   Quantity::acceleration, Quantity::mean_acceleration,
+    Quantity::path,  Quantity::displacement, Quantity::distance,     Quantity::contact,
+    Quantity::begin, Quantity::end};
+constexpr std::array kPlaceComponents = {Component::height, Component::x, Component::forward};
+constexpr std::array kHandComponents = {Component::height, Component::x,       Component::forward, Component::openness,
+                                        Component::palm,   Component::fingers, Component::contact};
+constexpr std::array kDistanceComponents = {Component::begin, Component::end};
+constexpr std::array kHeights = {Height::below_waist, Height::waist, Height::chest,    Height::shoulder,
+                                 Height::chin,        Height::mouth, Height::forehead, Height::above_head};
+constexpr std::array kAcross = {Across::left, Across::centre, Across::right};
+constexpr std::array kReaches = {Reach::near, Reach::far};
+constexpr std::array kFacings = {Facing::up, Facing::down, Facing::left, Facing::right, Facing::forward, Facing::back};
+constexpr std::array kContacts = {Contact::hands, Contact::head, Contact::torso};
+constexpr std::array kCompares = {Compare::equal,      Compare::not_equal, Compare::less,
+                                  Compare::less_equal, Compare::greater,   Compare::greater_equal};
+
+struct UnitName {
+  std::string_view word;
+  Unit unit;
+  double per;  ///< so many of it make one of `unit`
+};
+constexpr std::array kUnits = {
+    UnitName{"m", Unit::metres, 1},
+    UnitName{"cm", Unit::metres, 100},
+    UnitName{"mm", Unit::metres, 1000},
+    UnitName{"sw", Unit::shoulder_widths, 1},
+    UnitName{"m/s", Unit::metres_per_second, 1},
+    UnitName{"cm/s", Unit::metres_per_second, 100},
+    UnitName{"mm/s", Unit::metres_per_second, 1000},
+    UnitName{"m/s2", Unit::metres_per_second_squared, 1},
+    UnitName{"cm/s2", Unit::metres_per_second_squared, 100},
+    UnitName{"m/s^2", Unit::metres_per_second_squared, 1},
+    UnitName{"cm/s^2", Unit::metres_per_second_squared, 100},
+    UnitName{"m/s\xC2\xB2", Unit::metres_per_second_squared, 1},
+    UnitName{"cm/s\xC2\xB2", Unit::metres_per_second_squared, 100},
+};
+constexpr std::size_t kUnitsShown = 9;  ///< the rest are other spellings
+
+/// What a value is in words: what may stand after the comparison.
+struct Allowed {
+  std::vector<Unit> units;
+  std::string_view number;         ///< an example of one; empty: none
+  std::vector<std::string> names;  ///< of places and the like
+  std::string_view compares;
+};
+
+template <typename Values>
+std::vector<std::string> words_of(const Values& values) {
+  std::vector<std::string> result;
+  for (const auto value : values) result.emplace_back(word_of(value));
+  return result;
+}
+
+template <typename Values>
+auto value_of(const Values& values, std::string_view word) {
+  const auto at = std::find_if(values.begin(), values.end(), [&](auto value) { return word_of(value) == word; });
+  return at == values.end() ? std::nullopt : std::optional(*at);
+}
+
+Allowed allowed_for(ValueKind kind) {
+  const std::vector<Unit> lengths = {Unit::shoulder_widths, Unit::metres, Unit::none};
+  switch (kind) {
+    case ValueKind::speed:
+      return {{Unit::metres_per_second}, "1.5 m/s", {}, ""};
+    case ValueKind::acceleration:
+      return {{Unit::metres_per_second_squared}, "20 m/s2", {}, ""};
+    case ValueKind::length:
+      return {lengths, "10 cm or 0.3 (shoulder widths)", {}, ""};
+    case ValueKind::height:
+      return {lengths, "0.3 (shoulder widths)", words_of(kHeights), "= != < <= > >="};
+    case ValueKind::across:
+      return {lengths, "0.3 (shoulder widths to the signer's left)", words_of(kAcross), "= !="};
+    case ValueKind::reach:
+      return {lengths, "0.8 (shoulder widths)", words_of(kReaches), "= !="};
+    case ValueKind::share:
+      return {{Unit::none}, "0.5", {}, ""};
+    case ValueKind::facing:
+      return {{}, "", words_of(kFacings), "= !="};
+    case ValueKind::contact:
+      return {{}, "", words_of(kContacts), "="};
+  }
+  return {};
+}
+
+/// "write 1.5 m/s", "write one of up, down", or both.
+std::string what_to_write(const Allowed& allowed) {
+  if (allowed.number.empty()) return fmt::format("use one of {}", fmt::join(allowed.names, ", "));
+  if (allowed.names.empty()) return fmt::format("write a number such as {}", allowed.number);
+  return fmt::format("write a number such as {}, or one of {}", allowed.number, fmt::join(allowed.names, ", "));
+}
+
+bool looks_like_number(std::string_view word) noexcept {
+  if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
+  return !word.empty() && (word.front() == '.' || (word.front() >= '0' && word.front() <= '9'));
+}
+
+class MovementParser {
+ public:
+  explicit MovementParser(QueryLexer& in) : in_(in) {}
+
+  Condition movement(const QueryToken& name) {
+    Condition result;
+    result.field = Field::movement;
+    MovementTerm& term = result.movement;
+    term.quantity = value_of(kQuantities, name.text).value();
+    in_.expect("(", fmt::format("name a point: {}(right_hand)", name.text));
+    term.point = point(false);
+    if (term.quantity == Quantity::distance) {
+      in_.expect(",", "name two points: distance(right_hand, head)");
+      const std::size_t begin = in_.peek().begin;
+      term.other = point(false);
+      if (*term.other == term.point) in_.fail(begin, "a point is in no distance from itself; name two points");
+    }
+    in_.expect(")", term.quantity == Quantity::distance ? "close the parenthesis after the two points"
+                                                        : "close the parenthesis after the point");
+    if (term.quantity == Quantity::contact) require_hand(term.point, name.begin, "contact");
+    term.component = component(term, name);
+    result.compare = compare(result);
+    return result;
+  }
+
+  Condition example(const QueryToken& name) {
+    Condition result;
+    result.field = Field::like;
+    Example example;
+    in_.expect("(", R"(name a piece of a recording: like("meteo"@1200..3400))");
+    const QueryToken recording = in_.take();
+    if (recording.kind != Kind::text && recording.kind != Kind::word) {
+      in_.fail(recording.begin, fmt::format("expected a recording's name, found {}; write like(\"meteo\"@1200..3400)",
+                                            QueryLexer::shown(recording)));
+    }
+    example.recording = recording.text;
+    in_.expect("@", R"(tell from when to when: like("meteo"@1200..3400))");
+    example.span = span();
+    while (in_.accept(",")) {
+      const std::size_t begin = in_.peek().begin;
+      const Point added = point(true);
+      if (std::find(example.points.begin(), example.points.end(), added) != example.points.end()) {
+        in_.fail(begin, fmt::format("'{}' is named twice; name it once", to_string(added)));
+      }
+      example.points.push_back(added);
+    }
+    in_.expect(")", fmt::format("close the parenthesis of '{}', or name points after commas", name.text));
+    result.value = std::move(example);
+    return result;
+  }
+
+ private:
+  Point point(bool sided) {
+    const QueryToken token = in_.take();
+    const bool named = token.kind == Kind::word || token.kind == Kind::text;
+    const std::optional<Point> found = named ? point_named(fold_case(token.text)) : std::nullopt;
+    if (found && sided && found->kind == Point::Kind::hand) {
+      in_.fail(token.begin, "tell which hand is compared: right_hand or left_hand, or name none for both");
+    }
+    if (found) return *found;
+    constexpr std::string_view kExamples = "hand, right_hand, left_elbow, head, right_index_tip";
+    if (!named) {
+      in_.fail(token.begin, fmt::format("expected a point of the signer, found {}; name one such as {}",
+                                        QueryLexer::shown(token), kExamples));
+    }
+    in_.fail(token.begin, fmt::format("no point is called {}{}; name one such as {}", QueryLexer::shown(token),
+                                      did_you_mean(token.text, point_words()), kExamples));
+  }
+
+  void require_hand(const Point& point, std::size_t begin, std::string_view what) {
+    if (point.kind != Point::Kind::part) return;
+    in_.fail(begin, fmt::format("'{}' is known of hands only; use hand, right_hand or left_hand", what));
+  }
+
+  Component component(const MovementTerm& term, const QueryToken& name) {
+    const QueryToken& next = in_.peek();
+    const bool ends = term.quantity == Quantity::begin || term.quantity == Quantity::end;
+    if (next.kind != Kind::word || !next.text.starts_with('.')) {
+      if (!ends) return Component::none;
+      in_.fail(next.begin, fmt::format("expected a component after '{}(…)', found {}; write {}({}).height", name.text,
+                                       QueryLexer::shown(next), name.text, to_string(term.point)));
+    }
+    QueryToken token = in_.take();
+    if (token.text == "." && in_.peek().kind == Kind::word) token.text += in_.take().text;
+    const std::string word = fold_case(token.text.substr(1));
+    std::optional<Component> found = value_of(kHandComponents, word);
+    std::vector<std::string> known = words_of(kPlaceComponents);
+    if (term.quantity == Quantity::distance) {
+      found = value_of(kDistanceComponents, word);
+      known = words_of(kDistanceComponents);
+    } else if (!ends) {
+      in_.fail(token.begin, fmt::format("'{}' has no components; leave '{}' out, or ask for begin({}){}", name.text,
+                                        printable(token.text), to_string(term.point), printable(token.text)));
+    } else if (term.point.kind != Point::Kind::part) {
+      known = words_of(kHandComponents);
+    }
+    if (!found) {
+      in_.fail(token.begin, fmt::format("no component is called '{}'{}; use one of {}", printable(word),
+                                        did_you_mean(word, known), fmt::join(known, ", ")));
+    }
+    if (std::find(known.begin(), known.end(), word) == known.end()) require_hand(term.point, token.begin, word);
+    return *found;
+  }
+
+  /// Takes comparison and value, which tell together what is allowed.
+  Compare compare(Condition& condition) {
+    const Allowed allowed = allowed_for(value_kind(condition.movement));
+    const std::string what = to_string(condition.movement);
+    const QueryToken at = in_.peek();
+    const std::optional<Compare> found = at.kind == Kind::symbol ? value_of(kCompares, at.text) : std::nullopt;
+    if (!found) {
+      in_.fail(at.begin, fmt::format("expected a comparison after '{}', found {}; use one of {}", what,
+                                     QueryLexer::shown(at), allowed.number.empty() ? allowed.compares : "< <= > >="));
+    }
+    in_.take();
+    const std::size_t begin = in_.peek().begin;
+    condition.value = value(condition.movement, allowed, *found);
+    const bool equality = *found == Compare::equal || *found == Compare::not_equal;
+    if (std::holds_alternative<Amount>(condition.value)) {
+      if (!equality) return *found;
+      in_.fail(at.begin, fmt::format("what is measured is never exactly a number; use < <= > >= with {}",
+                                     to_string(std::get<Amount>(condition.value))));
+    }
+    const auto padded = [](std::string_view text) { return fmt::format(" {} ", text); };
+    if (padded(allowed.compares).find(padded(word_of(*found))) != std::string::npos) return *found;
+    if (*found == Compare::not_equal)
+      in_.fail(at.begin, fmt::format("'{}' is one of several at once; use !({} = …)", what, what));
+    in_.fail(begin, fmt::format("'{}' has no order; compare it with {}", in_value_, allowed.compares));
+  }
+
+  decltype(Condition::value) value(const MovementTerm& term, const Allowed& allowed, Compare compare) {
+    in_.join_slash();
+    const QueryToken token = in_.peek();
+    if (token.kind != Kind::word && token.kind != Kind::text) {
+      in_.fail(token.begin, fmt::format("expected a value after '{}', found {}; {}", word_of(compare),
+                                        QueryLexer::shown(token), what_to_write(allowed)));
+    }
+    in_.take();
+    in_value_ = token.text;
+    if (token.kind == Kind::word && looks_like_number(token.text)) return amount(token, allowed);
+    const std::string word = fold_case(token.text);
+    const auto named = [&](const auto& values) -> std::optional<decltype(Condition::value)> {
+      if (const auto one = value_of(values, word)) return *one;
+      return std::nullopt;
+    };
+    std::optional<decltype(Condition::value)> found;
+    switch (value_kind(term)) {
+      case ValueKind::height:
+        found = named(kHeights);
+        break;
+      case ValueKind::across:
+        found = word == "center" ? Across::centre : named(kAcross);
+        break;
+      case ValueKind::reach:
+        found = named(kReaches);
+        break;
+      case ValueKind::facing:
+        found = named(kFacings);
+        break;
+      case ValueKind::contact:
+        found = named(kContacts);
+        break;
+      case ValueKind::speed:
+      case ValueKind::acceleration:
+      case ValueKind::length:
+      case ValueKind::share:
+        break;
+    }
+    if (found) return *std::move(found);
+    in_.fail(token.begin, fmt::format("{} is no value of '{}'{}; {}", QueryLexer::shown(token), to_string(term),
+                                      did_you_mean(token.text, allowed.names), what_to_write(allowed)));
+  }
+
+  Amount amount(const QueryToken& token, const Allowed& allowed) {
+    if (allowed.number.empty()) {
+      in_.fail(token.begin, fmt::format("'{}' is a number; {}", printable(token.text), what_to_write(allowed)));
+    }
+    std::string_view text = token.text;
+    if (text.starts_with('+')) text.remove_prefix(1);
+    const std::size_t digits =
+        std::min(text.find_first_not_of("0123456789.", text.starts_with('-') ? 1 : 0), text.size());
+    constexpr std::size_t kLongest = 40;
+    double value = 0;
+    const auto end = std::from_chars(text.data(), text.data() + digits, value, std::chars_format::fixed);
+    if (end.ec != std::errc() || end.ptr != text.data() + digits || digits > kLongest) {
+      in_.fail(token.begin, fmt::format("'{}' is no number; {}", printable(token.text), what_to_write(allowed)));
+    }
+    std::string word(text.substr(digits));
+    std::size_t at = token.begin;
+    if (word.empty() && in_.peek().kind == Kind::word) {
+      const QueryToken& next = in_.peek();
+      in_.join_slash();
+      if (!is_relation(next.text)) {
+        at = next.begin;
+        word = in_.take().text;
+      }
+    }
+    const auto unit = std::find_if(kUnits.begin(), kUnits.end(), [&](const UnitName& row) { return row.word == word; });
+    if (!word.empty() && unit == kUnits.end()) {
+      in_.fail(at, fmt::format("no unit is called '{}'{}; {}", printable(word), did_you_mean(word, shown_units()),
+                               what_to_write(allowed)));
+    }
+    const Unit meant = word.empty() ? Unit::none : unit->unit;
+    if (std::find(allowed.units.begin(), allowed.units.end(), meant) == allowed.units.end()) {
+      in_.fail(word.empty() ? token.begin : at,
+               word.empty()
+                   ? fmt::format("the number {} lacks a unit; {}", printable(token.text), what_to_write(allowed))
+                   : fmt::format("'{}' is not what this is measured in; {}", printable(word), what_to_write(allowed)));
+    }
+    const double result = word.empty() ? value : value / unit->per;
+    constexpr double kMost = 1e6;
+    if (std::abs(result) > kMost) in_.fail(token.begin, "a number above a million; write a smaller one");
+    const bool bare_length = meant == Unit::none && allowed.units.size() > 1;
+    return {result, bare_length ? Unit::shoulder_widths : meant};
+  }
+
+  /// A relation may follow a bare number: "… > 0.5 during phase = stroke".
+  static bool is_relation(std::string_view word) noexcept {
+    constexpr std::array kRelations = {Link::overlaps, Link::during, Link::starts, Link::ends, Link::equals};
+    return value_of(kRelations, word).has_value();
+  }
+  static std::vector<std::string> shown_units() {
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < kUnitsShown; ++i) result.emplace_back(kUnits[i].word);
+    return result;
+  }
+
+  /// "1200..3400", in milliseconds unless a unit is given.
+  TimeSpan span() {
+    const std::size_t begin = in_.peek().begin;
+    std::string text;
+    while (in_.peek().kind == Kind::word) text += in_.take().text;
+    const std::size_t dots = text.find("..");
+    constexpr std::string_view kWrite = "write when it begins and ends in milliseconds, such as 1200..3400";
+    if (dots == std::string::npos) in_.fail(begin, fmt::format("'{}' is no span of time; {}", printable(text), kWrite));
+    const auto bound = [&](std::string_view part) {
+      std::string_view digits = part;
+      std::int64_t times = 1;
+      if (digits.ends_with("ms")) {
+        digits.remove_suffix(2);
+      } else if (digits.ends_with("s")) {
+        digits.remove_suffix(1);
+        times = 1000;
+      }
+      double value = 0;
+      const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
+      const double count = value * static_cast<double>(times);
+      if (digits.empty() || end.ec != std::errc() || end.ptr != digits.data() + digits.size() ||
+          std::abs(count) > 1e12 || std::abs(count - std::round(count)) > 1e-6) {
+        in_.fail(begin, fmt::format("'{}' is no time in whole milliseconds; {}", printable(part), kWrite));
+      }
+      return Milliseconds(static_cast<std::int64_t>(std::round(count)));
+    };
+    const TimeSpan result{bound(std::string_view(text).substr(0, dots)),
+                          bound(std::string_view(text).substr(dots + 2))};
+    if (result.end <= result.begin) in_.fail(begin, "the example ends before it begins; swap the two times");
+    return result;
+  }
+
+  QueryLexer& in_;
+  std::string in_value_;
+};
+
+}  // namespace
+
+bool is_quantity(std::string_view word) noexcept {
+  return value_of(kQuantities, word).has_value();
+}
+
+std::vector<std::string> movement_words() {
+  std::vector<std::string> result = words_of(kQuantities);
+  result.emplace_back("like");
+  return result;
+}
+
+Condition parse_movement(QueryLexer& in, const QueryToken& name) {
+  return MovementParser(in).movement(name);
+}
+
+Condition parse_example(QueryLexer& in, const QueryToken& name) {
+  return MovementParser(in).example(name);
+}
+
+}  // namespace signweave

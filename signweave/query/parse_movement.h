@@ -1,0 +1,19 @@
+#pragma once
+
+#include "signweave/query/lexer.h"
+#include "signweave/query/phase_query.h"
+
+namespace signweave {
+
+/// True where a word begins a condition on movement, given that "(" follows.
+bool is_quantity(std::string_view word) noexcept;
+/// The words that begin one, and "like".
+std::vector<std::string> movement_words();
+
+/// The rest of a condition on movement, of which `name` is taken and "(" is next. Throws QueryError.
+Condition parse_movement(QueryLexer& in, const QueryToken& name);
+
+/// The rest of like(…), of which `name` is taken. Throws QueryError.
+Condition parse_example(QueryLexer& in, const QueryToken& name);
+
+}  // namespace signweave

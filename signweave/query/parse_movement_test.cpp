@@ -1,0 +1,155 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "signweave/query/parse.h"
+
+namespace signweave {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ParseMovement, WhatIsWellFormedReadsBackAsItself) {
+  struct Row {
+    const char* text;
+    const char* normal;
+  };
+  const Row rows[] = {
+      {"phase = stroke & speed(right_hand) > 1.5 m/s", "phase = stroke & speed(right_hand) > 1.5 m/s"},
+      {"gloss = \"VANNES\" & end(right_hand).height > shoulder",
+       "gloss = \"VANNES\" & end(right_hand).height > shoulder"},
+      {"speed(hand)>150cm/s", "speed(hand) > 1.5 m/s"},
+      {"speed ( Right_Hand ) <= 2 m/s & hand = left", "speed(right_hand) <= 2 m/s & hand = left"},
+      {"mean_speed(left_elbow) < 0.25m/s", "mean_speed(left_elbow) < 0.25 m/s"},
+      {"acceleration(hand) >= 20 m/s2", "acceleration(hand) >= 20 m/s2"},
+      {"mean_acceleration(hand) >= 20 m/s\xC2\xB2", "mean_acceleration(hand) >= 20 m/s2"},
+      {"acceleration(hand) >= 2000cm/s^2", "acceleration(hand) >= 20 m/s2"},
+      {"path(right_index_tip) > 40cm", "path(right_index_tip) > 0.4 m"},
+      {"displacement(right_forearm) > 0.3", "displacement(right_elbow) > 0.3 sw"},
+      {"distance(right_hand, left_hand) < 50 mm", "distance(right_hand, left_hand) < 0.05 m"},
+      {"distance(hand,head).end < 0.2 sw", "distance(hand, head).end < 0.2 sw"},
+      {"begin(right_hand).height >= chest", "begin(right_hand).height >= chest"},
+      {"begin(right_wrist).height > -0.25", "begin(right_wrist).height > -0.25 sw"},
+      {"end(left_hand) . x = Center", "end(left_hand).x = centre"},
+      {"end(hand).forward != near", "end(hand).forward != near"},
+      {"end(hand).openness > .5", "end(hand).openness > 0.5"},
+      {"begin(hand).palm = up & end(hand).fingers = forward", "begin(hand).palm = up & end(hand).fingers = forward"},
+      {"contact(right_hand) = head", "contact(right_hand) = head"},
+      {"end(right_hand).contact = hand", "end(right_hand).contact = hand"},
+      {"begin > 1s & begin(hand).x > 0.1", "begin > 1000ms & begin(hand).x > 0.1 sw"},
+      {"begin(hand).x > 0.1 during phase = stroke", "begin(hand).x > 0.1 sw during phase = stroke"},
+      {"!speed(hand) > 1 m/s -> gloss =~ /s/", "!speed(hand) > 1 m/s -> gloss =~ /s/"},
+      {"path(hand) > 0.5mm", "path(hand) > 0.0005 m"},
+      {"like(\"meteo\"@1200..3400)", "like(\"meteo\"@1200..3400)"},
+      {"phase = stroke & like(meteo @ 1.2s .. 3400ms, right_hand, left_elbow)",
+       "phase = stroke & like(\"meteo\"@1200..3400, right_hand, left_elbow)"},
+      {"gloss = A -> hand = left & like(\"say \\\"x\\\"\"@-10..20)",
+       "gloss = \"A\" -> hand = left & like(\"say \\\"x\\\"\"@-10..20)"},
+  };
+  for (const Row& row : rows) {
+    try {
+      const PhaseQuery query = parse(row.text);
+      EXPECT_EQ(to_string(query), row.normal);
+      EXPECT_EQ(parse(to_string(query)), query) << row.text;
+    } catch (const QueryError& error) {
+      ADD_FAILURE() << row.text << '\n' << error.what() << '\n' << error.caret;
+    }
+  }
+}
+
+TEST(ParseMovement, EveryPointReadsBackFromItsName) {
+  for (const std::string& word : point_words()) {
+    const std::optional<Point> point = point_named(word);
+    ASSERT_TRUE(point) << word;
+    EXPECT_EQ(to_string(*point), word);
+  }
+  EXPECT_EQ(point_named("right_hand"), Point::palm(Side::right));
+  EXPECT_EQ(point_named("right_wrist"), Point::of(Part::right_hand));
+  EXPECT_FALSE(point_named("rigth_hand"));
+}
+
+TEST(ParseMovement, AFaultIsOneLineWithItsColumn) {
+  struct Row {
+    const char* text;
+    std::size_t column;
+    const char* says;
+  };
+  const Row rows[] = {
+      {"speed > 1", 7, "expected '(', found '>'; name a point: speed(right_hand)"},
+      {"speeed(hand) > 1 m/s", 1, "no condition is called 'speeed'; did you mean speed?"},
+      {"speed() > 1 m/s", 7, "expected a point of the signer, found ')'; name one such as hand, right_hand"},
+      {"speed(rigth_hand) > 1 m/s", 7, "no point is called 'rigth_hand'; did you mean right_hand"},
+      {"speed(right_hand > 1 m/s", 18, "close the parenthesis after the point"},
+      {"speed(right_hand, head) > 1 m/s", 17, "expected ')', found ','"},
+      {"speed(right_hand).x > 1 m/s", 18, "'speed' has no components; leave '.x' out, or ask for begin(right_hand).x"},
+      {"speed(right_hand)", 18,
+       "expected a comparison after 'speed(right_hand)', found the end of the query; use one of "
+       "< <= > >="},
+      {"speed(right_hand) = 1 m/s", 19, "what is measured is never exactly a number; use < <= > >= with 1 m/s"},
+      {"speed(right_hand) =~ /1/", 19, "expected a comparison"},
+      {"speed(right_hand) > ", 21,
+       "expected a value after '>', found the end of the query; write a number such as 1.5"},
+      {"speed(right_hand) > 1.5", 21, "the number 1.5 lacks a unit; write a number such as 1.5 m/s"},
+      {"speed(right_hand) > 1.5 & hand = left", 21, "lacks a unit"},
+      {"speed(right_hand) > 1.5 m", 25, "'m' is not what this is measured in; write a number such as 1.5 m/s"},
+      {"speed(right_hand) > 1.5 km/h", 25, "no unit is called 'km/h'"},
+      {"speed(right_hand) > 1.5 m/sec", 25, "no unit is called 'm/sec'; did you mean m/s"},
+      {"speed(right_hand) > 1.5.1 m/s", 21, "is no number"},
+      {"speed(right_hand) > 1e3 m/s", 21, "no unit is called 'e3'"},
+      {"speed(right_hand) > 10000000 m/s", 21, "above a million"},
+      {"speed(right_hand) > fast", 21, "'fast' is no value of 'speed(right_hand)'; write a number such as 1.5 m/s"},
+      {"path(hand) > 1 m/s", 16, "'m/s' is not what this is measured in"},
+      {"distance(right_hand) < 1 cm", 20, "expected ',', found ')'; name two points"},
+      {"distance(head, head) < 1 cm", 16, "in no distance from itself"},
+      {"distance(head, hand).least < 1 cm", 21, "no component is called 'least'; use one of begin, end"},
+      {"end(right_hand) > shoulder", 17,
+       "expected a component after 'end(…)', found '>'; write end(right_hand).height"},
+      {"end(right_hand).heigth > shoulder", 16, "no component is called 'heigth'; did you mean height?"},
+      {"end(right_hand).height > sholder", 26,
+       "'sholder' is no value of 'end(right_hand).height'; did you mean shoulder?"},
+      {"end(right_hand).x > left", 21, "'left' has no order; compare it with = !="},
+      {"end(head).openness > 0.5", 10, "'openness' is known of hands only; use hand, right_hand or left_hand"},
+      {"contact(head) = torso", 1, "'contact' is known of hands only"},
+      {"contact(hand) != torso", 15, "'contact(hand)' is one of several at once; use !(contact(hand) = …)"},
+      {"contact(hand) = 3", 17, "'3' is a number; use one of hand, head, torso"},
+      {"end(hand).palm = dwon", 18, "did you mean down?"},
+      {"end(hand).palm > up", 18, "has no order"},
+      {"end(hand).openness > 0.5 cm", 26, "'cm' is not what this is measured in; write a number such as 0.5"},
+      {"like", 5, "expected '(', found the end of the query; name a piece of a recording"},
+      {"like(\"meteo\")", 13, "expected '@', found ')'; tell from when to when"},
+      {"like(\"meteo\"@)", 14, "'' is no span of time"},
+      {"like(\"meteo\"@1200)", 14, "'1200' is no span of time; write when it begins and ends in milliseconds"},
+      {"like(\"meteo\"@12x..15)", 14, "'12x' is no time in whole milliseconds"},
+      {"like(\"meteo\"@1.5..15)", 14, "'1.5' is no time in whole milliseconds"},
+      {"like(\"meteo\"@20..10)", 14, "swap the two times"},
+      {"like(\"meteo\"@1..2, right_hnd)", 20, "no point is called 'right_hnd'"},
+      {"like(\"meteo\"@1..2, hand)", 20, "tell which hand is compared"},
+      {"like(\"meteo\"@1..2, head, head)", 26, "'head' is named twice"},
+      {"like(\"meteo\"@1..2 right_hand)", 14, "is no time in whole milliseconds"},
+      {"like(\"meteo\"@1..2) & like(\"meteo\"@3..4)", 22, "a second like(…)"},
+      {"gloss = A | like(\"meteo\"@1..2)", 13, "like(…) is no condition, it orders the answers"},
+      {"!like(\"meteo\"@1..2)", 2, "like(…) is no condition"},
+      {"parent(like(\"meteo\"@1..2))", 8, "like(…) is no condition"},
+      {"gloss = A overlaps like(\"meteo\"@1..2)", 20, "like(…) orders what is before a relation"},
+      {"duration(hand) > 1s", 9, "expected a comparison after 'duration', found '('"},
+  };
+  for (const Row& row : rows) {
+    try {
+      parse(row.text);
+      ADD_FAILURE() << row.text;
+    } catch (const QueryError& error) {
+      EXPECT_EQ(error.code(), ErrorCode::bad_input) << row.text;
+      EXPECT_EQ(error.column, row.column) << row.text << '\n' << error.what() << '\n' << error.caret;
+      EXPECT_THAT(error.what(), HasSubstr(row.says)) << row.text;
+      EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n")));
+    }
+  }
+}
+
+TEST(ParseMovement, AnExampleMayStandAmongTheOutermostConditions) {
+  EXPECT_NO_THROW(parse("(gloss = A & like(\"m\"@1..2)) & hand = left"));
+  EXPECT_NO_THROW(parse("(gloss = A | gloss = B) & like(\"m\"@1..2) overlaps tier(\"X\") = b -> gloss = C"));
+  EXPECT_THROW(parse("(gloss = A | like(\"m\"@1..2)) & hand = left"), QueryError);
+}
+
+}  // namespace
+}  // namespace signweave

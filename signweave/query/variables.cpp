@@ -1,0 +1,115 @@
+#include "signweave/query/variables.h"
+
+#include <algorithm>
+
+#include "signweave/core/text.h"
+#include "signweave/query/neighbours.h"
+
+namespace signweave {
+
+VariableCheck::VariableCheck(const PhaseQuery& query, const SegmentTable& table) : table_(&table) {
+  for (std::size_t place = 0; place < query.elements.size(); ++place) {
+    const Element& element = query.elements[place];
+    look_at(element.term.expression, place, std::nullopt);
+    for (std::size_t r = 0; r < element.relations.size(); ++r) look_at(element.relations[r].term.expression, place, r);
+  }
+}
+
+void VariableCheck::look_at(const Expression& expression, std::size_t place, std::optional<std::size_t> relation) {
+  if (expression.kind == Expression::Kind::all) {
+    for (const Expression& operand : expression.operands) look_at(operand, place, relation);
+    return;
+  }
+  if (expression.kind != Expression::Kind::condition) return;
+  const Condition& condition = expression.condition;
+  const QueryVariable* name = std::get_if<QueryVariable>(&condition.value);
+  if (name == nullptr) return;
+  Use use{.place = place,
+          .relation = relation,
+          .field = condition.field,
+          .tiers = {},
+          .equal = condition.compare == Compare::equal};
+  if (condition.field == Field::tier) {
+    for (std::uint32_t tier = 0; tier < table_->tier_count(); ++tier) {
+      if (match_form(table_->tier_at(tier)) == match_form(condition.tier)) use.tiers.push_back(tier);
+    }
+  }
+  auto at = std::ranges::find(variables_, name->name, &Variable::name);
+  if (at == variables_.end()) at = variables_.insert(variables_.end(), Variable{name->name, {}});
+  at->uses.push_back(std::move(use));
+}
+
+void VariableCheck::labels_of(const Use& use, RowId row, std::vector<std::uint32_t>& labels) const {
+  labels.clear();
+  if (use.field == Field::gloss) {
+    const RowKind kind = table_->kind(row);
+    if (kind == RowKind::sign) labels.push_back(table_->label(row));
+    if (kind == RowKind::phase) labels.push_back(table_->label(table_->parent(row)));
+    return;
+  }
+  const SegmentTable::TierRows& own = table_->tier_rows_of(row);
+  const TimeSpan span = table_->span(row);
+  for (const std::uint32_t tier : use.tiers) {
+    if (own.tier == tier && !table_->extra(row)) {
+      labels.push_back(table_->label(row));
+      continue;
+    }
+    const SegmentTable::TierRows* rows = table_->tier_rows(own.recording, tier);
+    if (rows == nullptr) continue;
+    for_rows_around(*table_, *rows, rows->own(), span, [&](RowId other) {
+      if (span.overlaps(table_->span(other))) labels.push_back(table_->label(other));
+      return true;
+    });
+  }
+}
+
+bool VariableCheck::value_of(const Variable& variable, const std::vector<RowId>& rows,
+                             const std::vector<std::vector<RowId>>& partners, std::uint32_t& value) const {
+  std::optional<std::vector<std::uint32_t>> possible;
+  std::vector<std::uint32_t> labels;
+  const auto row_of = [&](const Use& use) {
+    return use.relation ? partners[use.place][*use.relation] : rows[use.place];
+  };
+  for (const Use& use : variable.uses) {
+    if (!use.equal || row_of(use) == kNoRow) continue;
+    labels_of(use, row_of(use), labels);
+    if (!possible) {
+      possible = labels;
+    } else {
+      std::erase_if(*possible, [&](std::uint32_t one) { return std::ranges::find(labels, one) == labels.end(); });
+    }
+    if (possible->empty()) return false;
+  }
+  value = SegmentTable::kNone;
+  if (!possible) return true;  // nothing says yet what it is
+  for (const Use& use : variable.uses) {
+    if (use.equal || row_of(use) == kNoRow) continue;
+    labels_of(use, row_of(use), labels);
+    // As of a text: some label of the tier is another; of a sign, its gloss is.
+    std::erase_if(*possible, [&](std::uint32_t one) {
+      return std::ranges::all_of(labels, [&](std::uint32_t label) { return label == one; });
+    });
+    if (possible->empty()) return false;
+  }
+  value = possible->front();
+  return true;
+}
+
+bool VariableCheck::hold(const std::vector<RowId>& rows, const std::vector<std::vector<RowId>>& partners) const {
+  std::uint32_t value = 0;
+  return std::ranges::all_of(variables_,
+                             [&](const Variable& variable) { return value_of(variable, rows, partners, value); });
+}
+
+std::vector<std::pair<std::string, std::string>> VariableCheck::values(
+    const std::vector<RowId>& rows, const std::vector<std::vector<RowId>>& partners) const {
+  std::vector<std::pair<std::string, std::string>> result;
+  for (const Variable& variable : variables_) {
+    std::uint32_t value = 0;
+    if (!value_of(variable, rows, partners, value) || value == SegmentTable::kNone) continue;
+    result.emplace_back(variable.name, table_->text_at(value));
+  }
+  return result;
+}
+
+}  // namespace signweave

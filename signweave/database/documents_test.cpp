@@ -212,7 +212,8 @@ std::string generated_expression() {
                                          "//ANNOTATION[count(//TIER) > 2]",
                                          "/descendant::*[@ANNOTATION_ID][1]",
                                          " | //ANNOTATION_VALUE",
-                                         "[count(../*) > 2]"};
+                                         "[count(../*) > 2]",
+                                         "[string-length(..) > 40]"};
   const std::string path = head + rest[static_cast<std::size_t>(pick(static_cast<int>(rest.size())))];
   const std::vector<std::string> around = {"", "", "", "count", "string", "boolean", "string-length"};
   const std::string& call = around[static_cast<std::size_t>(pick(static_cast<int>(around.size())))];

@@ -205,6 +205,7 @@ TEST(XPath, WhatLeadsOutOfAPartNeedsTheWhole) {
                            "//TIER[@TIER_ID=//TIER[2]/@TIER_ID]",
                            "//TIER[@TIER_ID='x']/ANNOTATION[2 * //TIER]",
                            "//TIER[@TIER_ID='x'][../TIER[3]]",
+                           "//TIER[@TIER_ID='x'][string-length(..) > 9]",
                            "//ALIGNABLE_ANNOTATION[@ANNOTATION_ID='a1'][count(../../*) > 2]"}) {
     EXPECT_EQ(excerpt(text), "whole") << text;
   }

@@ -69,8 +69,9 @@ enum class ExcerptOf {
   annotation,  ///< EAF's, by its id
   track,       ///< ANVIL's, by its name
 };
-/// The excerpt with what bears the name; only what is around where nothing does. No answer where a part cannot stand for
-/// the whole: in `document` storage, in a document of the other format, and where the document itself is such (Cut).
+/// The excerpt with what bears the name; only what is around where nothing does. No answer where a part cannot stand
+/// for the whole: in `document` storage, in a document of the other format, and where the document itself is such
+/// (Cut).
 std::optional<std::string> read_excerpt(const kv::ReadTransaction& snapshot, std::uint64_t generation, ExcerptOf what,
                                         std::string_view name, const std::string& where);
 

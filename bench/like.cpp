@@ -68,6 +68,8 @@ std::vector<FrameRange> segments_of(const HandTrace& trace, bool phases, std::mt
   }
 }
 
+constexpr std::array kPalms = {TracePoint::left_palm, TracePoint::right_palm};
+
 Shape shape_of(const HandTrace& trace, FrameRange frames) {
   Shape shape(2);
   for (const Side side : kSides) resample(trace, palm_on(side), frames, shape[static_cast<std::size_t>(side)]);
@@ -130,6 +132,7 @@ int main(int argc, char** argv) {
       const auto search = [&] {
         NearestSearch nearest(example, 20);
         for (std::uint32_t id = 0; id < segments.size(); ++id) {
+          if (nearest.too_far(TraceStretch(trace, segments[id]), kPalms)) continue;
           if (!resample(trace, TracePoint::left_palm, segments[id], shape[0])) continue;
           if (resample(trace, TracePoint::right_palm, segments[id], shape[1])) nearest.offer(id, shape);
         }
@@ -154,8 +157,8 @@ int main(int argc, char** argv) {
       const std::string what = fmt::format("like/{}_of_{}_frames_at_{}", phases ? "phases" : "signs", frames,
                                            static_cast<int>(rate.hertz()));
       bench::print(what, 1e3, "ms", bench::compare(rounds, search, pass), "<= 10");
-      fmt::print(stderr, "{}: {} segments; refused {} by ends, {} by envelope, {} while warping\n", what,
-                 counts.offered, counts.by_ends, counts.by_envelope, counts.abandoned);
+      fmt::print(stderr, "{}: {} segments; refused {} by some moments, {} by ends, {} by envelope, {} while warping\n",
+                 what, segments.size(), counts.by_moments, counts.by_ends, counts.by_envelope, counts.abandoned);
     }
   }
 

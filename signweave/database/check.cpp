@@ -11,6 +11,7 @@
 #include "signweave/formats/annotation_file.h"
 #include "signweave/semantic_db/semantic_db.h"
 #include "signweave/semantic_db/table_store.h"
+#include "signweave/semantic_db/trace_store.h"
 
 namespace signweave {
 namespace {
@@ -35,6 +36,12 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
     listener.fault(
         fmt::format("{}: the stored segments are not those of the stored annotation; import it again", info.name));
     return;
+  }
+  const std::optional<HandTrace> trace = semantic_db::read_trace(snapshot, info.document, info.name);
+  if (trace && info.motion && trace->samples() > 0 && trace->frames != info.motion->frames) {
+    listener.fault(fmt::format("{}: the stored trace of the hands is not that of its motion; import it again with "
+                               "--replace-motion",
+                               info.name));
   }
   if (!motion_sound) return;  // what is measured of a damaged motion tells nothing
   const std::string fault = fault_of_features(snapshot, info, stored);

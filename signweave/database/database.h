@@ -185,8 +185,9 @@ class Database {
   /// catalogue.
   std::shared_ptr<const Segments> segments() const;
 
-  /// The segments that answer a query, by recording name and time.
-  std::vector<Segment> find(const PhaseQuery& query, const FindLimits& limits = {}) const;
+  /// The segments that answer a query, by recording name and time; those of like(…) by distance. `counts` tells what the
+  /// search was about.
+  std::vector<Segment> find(const PhaseQuery& query, const FindLimits& limits = {}, FindCounts* counts = nullptr) const;
 
   /// Frames of a recording's motion (clamped to it), reading only the packets that hold them; all joints where
   /// `joints` is empty, others at rest. Throws Error{not_found} for an unknown recording or one without motion.

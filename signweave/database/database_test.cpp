@@ -278,7 +278,7 @@ TEST_P(DatabaseTest, KilledAtAnyMomentEachRecordingIsAsItWasOrAsItWasToBecome) {
     // Nothing is left of what was under way.
     std::uint64_t expected = 3 + database.segments()->members().size();  // head, sweep list, segment tables and theirs
     for (const RecordingInfo& info : database.contents()->recordings) {
-      expected += 1 + 3 + motion_db::packet_count(*info.motion) + 1;  // entry; 3 of the document; packets; skeleton
+      expected += 1 + 4 + motion_db::packet_count(*info.motion) + 1;  // entry; 4 of the document; packets; skeleton
     }
     EXPECT_EQ(database.engine().entries, expected);
   }

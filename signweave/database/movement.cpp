@@ -168,10 +168,14 @@ std::unique_ptr<Movement> Database::movement_of(const std::shared_ptr<const kv::
   return std::make_unique<StoredMovement>(*this, snapshot, segments, std::move(cache));
 }
 
-std::vector<Segment> Database::find(const PhaseQuery& query, const FindLimits& limits) const {
+std::vector<Segment> Database::find(const PhaseQuery& query, const FindLimits& limits, FindCounts* counts) const {
   const std::shared_ptr<const kv::ReadTransaction> snapshot = store_->read();
   const std::shared_ptr<const Segments> segments = stored_segments(snapshot);
-  return signweave::find(query, *segments, limits, movement_of(snapshot, segments).get());
+  const std::unique_ptr<Movement> movement = movement_of(snapshot, segments);
+  PreparedQuery prepared(query, segments, movement.get());
+  std::vector<Segment> found = prepared.find(limits);
+  if (counts != nullptr) *counts = prepared.counts();
+  return found;
 }
 
 }  // namespace signweave

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 namespace signweave {
 namespace {
@@ -90,37 +91,56 @@ bool resample(std::span<const PointFrame> track, float shoulder_width, PointShap
   return known;
 }
 
-bool resample(const HandTrace& trace, TracePoint point, FrameRange frames, PointShape& out) noexcept {
-  const std::vector<TraceSample>& samples = trace[point];
-  assert(!samples.empty() && !frames.empty() && frames.begin >= 0 && frames.end <= trace.frames);
-  constexpr std::int16_t kNone = std::numeric_limits<std::int16_t>::min();
-  const float position = TraceSample::kPosition;
-  const float velocity = TraceSample::kVelocity * kVelocityTime / trace.shoulder_width;
-  const auto step = static_cast<float>(trace.step);
-  const auto begin = static_cast<float>(frames.begin % trace.step);
-  const TraceSample* first = &samples[static_cast<std::size_t>(frames.begin / trace.step)];
-  const auto left = static_cast<std::size_t>(samples.data() + samples.size() - 1 - first);
+TraceStretch::TraceStretch(const HandTrace& trace, FrameRange frames) noexcept
+    : trace_(&trace), first_(static_cast<std::size_t>(frames.begin / trace.step)) {
+  assert(!frames.empty() && frames.begin >= 0 && frames.end <= trace.frames);
+  left_ = trace.samples() - 1 - first_;
   // The last sample is that of the last frame, which may be nearer than a whole step.
   const std::int64_t regular = (trace.frames - 1) / trace.step * trace.step;
-  const float short_step = static_cast<float>(trace.frames - 1 - regular);
-  const auto whole_steps = static_cast<std::size_t>(regular / trace.step - frames.begin / trace.step);
-  const float scale = static_cast<float>(frames.size() - 1) / static_cast<float>(kN - 1);
+  whole_steps_ = static_cast<std::size_t>(regular / trace.step) - first_;
+  begin_ = static_cast<float>(frames.begin % trace.step);
+  step_ = static_cast<float>(trace.step);
+  per_step_ = 1 / step_;
+  const std::int64_t last_step = trace.frames - 1 - regular;
+  per_last_step_ = last_step > 0 ? 1 / static_cast<float>(last_step) : per_step_;
+  scale_ = static_cast<float>(frames.size() - 1) / static_cast<float>(kN - 1);
+  velocity_ = TraceSample::kVelocity * kVelocityTime / trace.shoulder_width;
+}
+
+TraceStretch::Place TraceStretch::place(std::size_t moment) const noexcept {
+  const float at = begin_ + scale_ * static_cast<float>(moment);
+  // By way of a signed number: an unsigned one takes several instructions.
+  const auto steps = static_cast<std::size_t>(static_cast<std::int64_t>(at * per_step_));
+  const std::size_t low = std::min({steps, whole_steps_, left_});
+  const float gap = low == whole_steps_ ? per_last_step_ : per_step_;
+  return {low, std::min(low + 1, left_), std::min((at - static_cast<float>(low) * step_) * gap, 1.0f)};
+}
+
+bool TraceStretch::read(TracePoint point, const Place& at, Lanes& out) const noexcept {
+  constexpr std::int16_t kNone = std::numeric_limits<std::int16_t>::min();
+  const TraceSample* samples = (*trace_)[point].data() + first_;
+  static_assert(sizeof(TraceSample) == 8 * sizeof(std::int16_t));
+  std::array<std::int16_t, 8> a;
+  std::array<std::int16_t, 8> b;
+  std::memcpy(a.data(), samples + at.low, sizeof a);
+  std::memcpy(b.data(), samples + at.high, sizeof b);
+  constexpr float kP = TraceSample::kPosition;
+  const Lanes scale = {kP, kP, kP, velocity_, velocity_, velocity_, 0, 0};
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    const auto from = static_cast<float>(a[i]);
+    out[i] = scale[i] * (from + at.part * (static_cast<float>(b[i]) - from));
+  }
+  return a[0] != kNone && b[0] != kNone;
+}
+
+bool resample(const HandTrace& trace, TracePoint point, FrameRange frames, PointShape& out) noexcept {
+  assert(!trace[point].empty());
+  const TraceStretch stretch(trace, frames);
   bool known = true;
+  TraceStretch::Lanes lanes;
   for (std::size_t moment = 0; moment < kN; ++moment) {
-    const float at = begin + scale * static_cast<float>(moment);
-    const auto low = std::min({static_cast<std::size_t>(at / step), whole_steps, left});
-    const std::size_t high = std::min(low + 1, left);
-    const float gap = low == whole_steps && short_step > 0 ? short_step : step;
-    const float part = std::min((at - static_cast<float>(low) * step) / gap, 1.0f);
-    const TraceSample& a = first[low];
-    const TraceSample& b = first[high];
-    known = known && a.position[0] != kNone && b.position[0] != kNone;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto p = static_cast<float>(a.position[axis]);
-      const auto v = static_cast<float>(a.velocity[axis]);
-      out.at(axis, moment) = position * (p + part * (static_cast<float>(b.position[axis]) - p));
-      out.at(3 + axis, moment) = velocity * (v + part * (static_cast<float>(b.velocity[axis]) - v));
-    }
+    known = stretch.read(point, stretch.place(moment), lanes) && known;
+    for (std::size_t axis = 0; axis < PointShape::kAxes; ++axis) out.at(axis, moment) = lanes[axis];
   }
   return known;
 }
@@ -144,6 +164,43 @@ NearestSearch::NearestSearch(Shape example, std::size_t most)
       }
     }
   }
+  low_lanes_.resize(example_.size() * kN);
+  high_lanes_.resize(example_.size() * kN);
+  for (std::size_t i = 0; i < low_lanes_.size(); ++i) {
+    for (std::size_t axis = 0; axis < PointShape::kAxes; ++axis) {
+      low_lanes_[i][axis] = low_[i / kN].at(axis, i % kN);
+      high_lanes_[i][axis] = high_[i / kN].at(axis, i % kN);
+    }
+  }
+}
+
+bool NearestSearch::too_far(const TraceStretch& stretch, std::span<const TracePoint> points) noexcept {
+  assert(points.size() == example_.size());
+  const float most = limit();
+  if (most == kInfinity) return false;
+  // Moments far from each other first: each tells something else.
+  constexpr std::array<std::uint8_t, kN> kMoments = {16, 0, 31, 8, 24, 4, 12, 20, 28, 2,  6,  10, 14, 18, 22, 26,
+                                                     30, 1, 3,  5, 7,  9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29};
+  float sum = 0;
+  TraceStretch::Lanes lanes;
+  for (const std::size_t moment : kMoments) {
+    const TraceStretch::Place place = stretch.place(moment);
+    TraceStretch::Lanes parts{};
+    for (std::size_t point = 0; point < points.size(); ++point) {
+      stretch.read(points[point], place, lanes);
+      const TraceStretch::Lanes& low = low_lanes_[point * kN + moment];
+      const TraceStretch::Lanes& high = high_lanes_[point * kN + moment];
+      for (std::size_t i = 0; i < lanes.size(); ++i) {
+        const float outside = std::max(std::max(lanes[i] - high[i], low[i] - lanes[i]), 0.0f);
+        parts[i] += outside * outside;
+      }
+    }
+    for (const float part : parts) sum += part;
+    if (sum <= most) continue;
+    ++counts_.by_moments;
+    return true;
+  }
+  return false;
 }
 
 float NearestSearch::limit() const noexcept {

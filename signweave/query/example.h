@@ -42,6 +42,31 @@ struct PointShape {
 /// One stretch of movement, ready to be compared. One entry for each point.
 using Shape = std::vector<PointShape>;
 
+/// Points of a trace over some frames (at least one, within the motion), read moment by moment. Borrows the trace.
+class TraceStretch {
+ public:
+  /// The trace must have the points.
+  TraceStretch(const HandTrace& trace, FrameRange frames) noexcept;
+
+  /// Between which samples a moment lies.
+  struct Place {
+    std::size_t low = 0;
+    std::size_t high = 0;
+    float part = 0;  ///< of the way from one to the other
+  };
+  Place place(std::size_t moment) const noexcept;
+  /// Position, velocity, and two zeros. False where one of the numbers is none.
+  using Lanes = std::array<float, PointShape::kAxes + 2>;
+  bool read(TracePoint point, const Place& at, Lanes& out) const noexcept;
+
+ private:
+  const HandTrace* trace_;
+  std::size_t first_;        ///< the sample at or before the first frame
+  std::size_t left_;         ///< samples behind it
+  std::size_t whole_steps_;  ///< to the last sample that is a whole step behind the one before
+  float begin_, step_, per_step_, per_last_step_, scale_, velocity_;
+};
+
 /// A point of a trace, which must have it, over some frames (at least one, within the motion). False where a number of
 /// them is none.
 bool resample(const HandTrace& trace, TracePoint point, FrameRange frames, PointShape& out) noexcept;
@@ -62,6 +87,7 @@ class NearestSearch {
   /// What became of those that were offered.
   struct Counts {
     std::size_t offered = 0;
+    std::size_t by_moments = 0;   ///< `too_far`, and so not among `offered`
     std::size_t by_ends = 0;      ///< refused by first and last moment
     std::size_t by_envelope = 0;  ///< refused by the example's envelope
     std::size_t abandoned = 0;    ///< while warping
@@ -72,6 +98,10 @@ class NearestSearch {
 
   /// Shows a candidate, in any order of ids: the example's points, with numbers that are finite.
   void offer(std::uint32_t id, const Shape& candidate);
+
+  /// Whether these points of a trace, in the example's order, are too far to be an answer, told from a few moments
+  /// of them: then they need not be offered. What seems near may be far yet.
+  bool too_far(const TraceStretch& stretch, std::span<const TracePoint> points) noexcept;
 
   /// Nearest first. The search is over.
   std::vector<Found> take();
@@ -89,6 +119,8 @@ class NearestSearch {
   Shape example_;
   Shape low_;   ///< [point] least of the example within the band around each moment
   Shape high_;  ///< [point] the most
+  /// [point * kShapePoints + moment] the same, moment by moment.
+  std::vector<TraceStretch::Lanes> low_lanes_, high_lanes_;
   std::size_t most_;
   std::vector<Found> heap_;  ///< the farthest on top
   Counts counts_;

@@ -147,6 +147,36 @@ TEST(Example, ATraceAndItsTrackHaveOneShape) {
   }
 }
 
+RC_GTEST_PROP(Example, WhatIsTooFarByAFewMomentsIsNoAnswer, (std::uint32_t seed)) {
+  std::mt19937 random(seed);
+  const TestMotion test(400, seed, {random() % 2 == 0 ? 60 : 120, 1});
+  const HandTrace trace = trace_hands(test.motion, test.model);
+  constexpr std::array kPalms = {TracePoint::left_palm, TracePoint::right_palm};
+  const auto shape_of = [&](FrameRange frames) {
+    Shape shape(2);
+    for (std::size_t i = 0; i < 2; ++i) resample(trace, kPalms[i], frames, shape[i]);
+    return shape;
+  };
+  std::vector<FrameRange> pieces;
+  for (int i = 0; i < 60; ++i) {
+    const auto begin = static_cast<std::int64_t>(random() % 390);
+    pieces.push_back({begin, begin + 1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(400 - begin))});
+  }
+  pieces.push_back(pieces[7]);
+  const Shape example = shape_of(pieces[random() % pieces.size()]);
+  NearestSearch search(example, 3);
+  std::vector<NearestSearch::Found> all;
+  for (std::uint32_t id = 0; id < pieces.size(); ++id) {
+    all.push_back({warped_distance(example, shape_of(pieces[id])), id});
+    if (!search.too_far(TraceStretch(trace, pieces[id]), kPalms)) search.offer(id, shape_of(pieces[id]));
+  }
+  std::ranges::sort(all, [](const auto& a, const auto& b) {
+    return a.distance < b.distance || (a.distance == b.distance && a.id < b.id);
+  });
+  all.resize(3);
+  RC_ASSERT(search.take() == all);
+}
+
 TEST(Example, AShapeBeginsAndEndsWithItsFrames) {
   const TestMotion test(100, 7);
   const HandTrace trace = trace_hands(test.motion, test.model);

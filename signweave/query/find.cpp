@@ -33,12 +33,11 @@ std::vector<Segment> PreparedQuery::State::nearest(const FindLimits& limits) {
   std::size_t part = 0;
   for (std::size_t place = 0; place < *ranked; ++place) part += 1 + query.elements[place].relations.size();
   NearestSearch search(example.shape(), std::max<std::size_t>(1, limits.limit.value_or(kNearest)));
-  Shape shape;
   for (std::size_t i = 0; i < all.size(); ++i) {
     watch.tick();
     const RowId row = all[i].parts.empty() ? all[i].row : all[i].parts[part].row;
     const TimeSpan span = all[i].parts.empty() ? all[i].span : all[i].parts[part].span;
-    if (example.shape_of(segments->recording(row), span, shape)) search.offer(static_cast<std::uint32_t>(i), shape);
+    example.offer(static_cast<std::uint32_t>(i), segments->recording(row), span, search);
   }
   std::vector<Segment> result;
   for (const NearestSearch::Found& found : search.take()) {
@@ -63,6 +62,15 @@ PreparedQuery::PreparedQuery(PhaseQuery query, std::shared_ptr<const Segments> s
 PreparedQuery::~PreparedQuery() = default;
 PreparedQuery::PreparedQuery(PreparedQuery&&) noexcept = default;
 PreparedQuery& PreparedQuery::operator=(PreparedQuery&&) noexcept = default;
+
+FindCounts PreparedQuery::counts() const noexcept {
+  FindCounts all;
+  for (const std::unique_ptr<Search>& search : state_->searches) {
+    all.looked_at += search->counts().looked_at;
+    all.kept += search->counts().kept;
+  }
+  return all;
+}
 
 std::vector<Segment> PreparedQuery::find(const FindLimits& limits) {
   if (state_->ranked) return state_->nearest(limits);

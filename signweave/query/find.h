@@ -41,6 +41,12 @@ struct Segment {
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
+/// What a search was about.
+struct FindCounts {
+  std::size_t looked_at = 0;  ///< rows that the plan begins with
+  std::size_t kept = 0;       ///< those of them that fulfil the conditions there
+};
+
 /// The same without its names.
 struct FoundRow {
   RowId row = kNoRow;  ///< of Segments
@@ -58,6 +64,8 @@ class PreparedQuery {
 
   /// As `find` below.
   std::vector<Segment> find(const FindLimits& limits = {});
+  /// Of the last search.
+  FindCounts counts() const noexcept;
   /// The same without names, parts and bindings, instead of what was in `rows`.
   void find(std::vector<FoundRow>& rows, const FindLimits& limits = {});
 

@@ -261,6 +261,11 @@ void MovementCheck::append_within(std::span<const float> column, Bounds bounds, 
   }
 }
 
+bool MovementCheck::scannable() const noexcept {
+  const MovementTerm& term = condition_->movement;
+  return term.point.kind != Point::Kind::part && (!term.other || term.other->kind != Point::Kind::part);
+}
+
 bool MovementCheck::scan(std::uint32_t recording, RowId first, std::vector<RowId>& rows) {
   if (ways_.empty()) return true;
   load(recording);

@@ -33,6 +33,8 @@ class MovementCheck {
   /// Error{corrupt} where a trace or motion is damaged.
   bool holds(const MovingRow& row, const Stretches& stretches);
 
+  /// Whether what it asks for may be stored: it is about hands.
+  bool scannable() const noexcept;
   /// Appends `first` + all rows of a recording for which it holds, and perhaps others (of `hand`: what either hand
   /// does). False, and nothing, where something that it asks for is not stored.
   bool scan(std::uint32_t recording, RowId first, std::vector<RowId>& rows);

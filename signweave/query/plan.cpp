@@ -11,6 +11,8 @@ namespace {
 
 /// A sign has about so many phases.
 constexpr std::size_t kChildrenPerRow = 3;
+/// Looking at so many numbers of a column costs about what one row from an index does.
+constexpr std::size_t kRowsPerScan = 16;
 
 std::vector<Access> accesses_of(Matcher& matcher);
 
@@ -62,6 +64,7 @@ class AccessFinder {
       sum.lists.insert(sum.lists.end(), other->lists.begin(), other->lists.end());
       sum.parents.insert(sum.parents.end(), other->parents.begin(), other->parents.end());
       sum.ranges.insert(sum.ranges.end(), other->ranges.begin(), other->ranges.end());
+      sum.scans.insert(sum.scans.end(), other->scans.begin(), other->scans.end());
       sum.through.insert(sum.through.end(), other->through.begin(), other->through.end());
       sum.rows += other->rows;
     }
@@ -73,7 +76,7 @@ class AccessFinder {
     if (expression.link != Link::parent) return std::nullopt;
     Access result;
     for (const Access& inner : accesses_of(*expression.linked)) {
-      if (!inner.ranges.empty() || !inner.parents.empty()) return std::nullopt;
+      if (!inner.ranges.empty() || !inner.parents.empty() || !inner.scans.empty()) return std::nullopt;
       result.parents.insert(result.parents.end(), inner.lists.begin(), inner.lists.end());
       result.rows += inner.rows * kChildrenPerRow;
       for (const std::string& through : inner.through) result.through.push_back("the children of " + through);
@@ -118,9 +121,14 @@ class AccessFinder {
       case Field::duration:
       case Field::begin:
       case Field::end:
-      case Field::movement:
       case Field::like:
         return std::nullopt;
+      case Field::movement:
+        if (!condition.movement->scannable()) return std::nullopt;
+        access.scans.push_back(condition.movement.get());
+        access.rows = table_.size() / kRowsPerScan + 1;
+        access.through.push_back(fmt::format("the column of numbers ({})", to_string(*condition.source)));
+        break;
     }
     return access;
   }
@@ -259,7 +267,7 @@ Plan plan(BoundQuery& query) {
 std::optional<std::span<const RowId>> one_list(std::span<const Access> accesses) noexcept {
   std::optional<std::span<const RowId>> found = std::span<const RowId>();
   for (const Access& access : accesses) {
-    if (!access.parents.empty() || !access.ranges.empty()) return std::nullopt;
+    if (!access.parents.empty() || !access.ranges.empty() || !access.scans.empty()) return std::nullopt;
     for (const std::span<const RowId> list : access.lists) {
       if (!found->empty()) return std::nullopt;
       found = list;
@@ -268,7 +276,8 @@ std::optional<std::span<const RowId>> one_list(std::span<const Access> accesses)
   return found;
 }
 
-void candidates(std::span<const Access> accesses, const SegmentTable& table, std::vector<RowId>& result) {
+void candidates(std::span<const Access> accesses, const SegmentTable& table, const MovingTable& moving,
+                std::vector<RowId>& result) {
   result.clear();
   result.reserve(rows_of(accesses));
   for (const Access& access : accesses) {
@@ -281,6 +290,15 @@ void candidates(std::span<const Access> accesses, const SegmentTable& table, std
     }
     for (const SegmentTable::RowRange range : access.ranges) {
       for (RowId row = range.begin; row < range.end; ++row) result.push_back(row);
+    }
+    for (MovementCheck* scan : access.scans) {
+      if (moving.movement == nullptr) continue;
+      for (std::uint32_t recording = 0; recording < table.recording_count(); ++recording) {
+        const std::uint32_t number = (*moving.numbers)[recording];
+        const SegmentTable::RowRange rows = table.recording_rows(recording);
+        if (number == SegmentTable::kNone || scan->scan(number, rows.begin, result)) continue;
+        for (RowId row = rows.begin; row < rows.end; ++row) result.push_back(row);  // nothing is stored of it
+      }
     }
   }
   if (!std::is_sorted(result.begin(), result.end())) std::sort(result.begin(), result.end());

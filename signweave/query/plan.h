@@ -17,6 +17,7 @@ struct Access {
   std::vector<std::span<const RowId>> lists;    ///< rows
   std::vector<std::span<const RowId>> parents;  ///< rows, of which the children are meant
   std::vector<SegmentTable::RowRange> ranges;   ///< rows
+  std::vector<MovementCheck*> scans;            ///< rows whose numbers fulfil these conditions on movement
   std::size_t rows = 0;                         ///< about how many
   std::vector<std::string> through;             ///< for people: "the gloss index (gloss = \"VANNES\")"
 };
@@ -54,7 +55,8 @@ struct Plan {
 Plan plan(BoundQuery& query);
 
 /// Puts the rows of the accesses into `rows`, ascending, each once.
-void candidates(std::span<const Access> accesses, const SegmentTable& table, std::vector<RowId>& rows);
+void candidates(std::span<const Access> accesses, const SegmentTable& table, const MovingTable& moving,
+                std::vector<RowId>& rows);
 /// The same where it is one list of an index: that.
 std::optional<std::span<const RowId>> one_list(std::span<const Access> accesses) noexcept;
 

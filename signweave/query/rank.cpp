@@ -82,6 +82,10 @@ RankedExample::RankedExample(const Example& example, const Segments& segments, c
                               to_string(point), name, example.span.begin.count(), example.span.end.count()));
     }
   }
+  for (const Point& point : points_) {
+    if (const std::optional<TracePoint> kept = traced(point)) traced_.push_back(*kept);
+  }
+  if (traced_.size() < points_.size()) traced_.clear();
   if (points_.empty()) {
     throw Error(ErrorCode::not_found,
                 fmt::format("like(…): neither hand is known in '{}' from {} to {} ms; name another "
@@ -106,16 +110,19 @@ bool RankedExample::resample_point(const Point& point, std::uint32_t recording, 
   return !tracks.empty() && !tracks.front().empty() && resample(tracks.front(), trace_->shoulder_width, out);
 }
 
-bool RankedExample::shape_of(std::uint32_t recording, TimeSpan span, Shape& out) {
+void RankedExample::offer(std::uint32_t id, std::uint32_t recording, TimeSpan span, NearestSearch& search) {
   load(recording);
-  if (trace_->samples() == 0) return false;
+  if (trace_->samples() == 0) return;
   const FrameRange frames = measured_frames(span, clock_, trace_->frames);
-  if (frames.empty()) return false;
-  out.resize(points_.size());
+  if (frames.empty()) return;
+  const bool at_hand =
+      !traced_.empty() && std::ranges::none_of(traced_, [&](TracePoint point) { return (*trace_)[point].empty(); });
+  if (at_hand && search.too_far(TraceStretch(*trace_, frames), traced_)) return;
+  candidate_.resize(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (!resample_point(points_[i], recording, frames, out[i])) return false;
+    if (!resample_point(points_[i], recording, frames, candidate_[i])) return;
   }
-  return true;
+  search.offer(id, candidate_);
 }
 
 }  // namespace signweave

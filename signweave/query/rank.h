@@ -28,8 +28,9 @@ class RankedExample {
   RankedExample(const Example& example, const Segments& segments, const Movement* movement);
 
   const Shape& shape() const noexcept { return shape_; }
-  /// The shape of a stretch of a recording (numbered as in Segments); false where it is not known.
-  bool shape_of(std::uint32_t recording, TimeSpan span, Shape& out);
+  /// Offers a stretch of a recording (numbered as in Segments) to a search for this example, unless it is not known, or
+  /// too far at a glance.
+  void offer(std::uint32_t id, std::uint32_t recording, TimeSpan span, NearestSearch& search);
 
  private:
   bool resample_point(const Point& point, std::uint32_t recording, FrameRange frames, PointShape& out) const;
@@ -37,7 +38,9 @@ class RankedExample {
 
   const Movement* movement_;
   std::vector<Point> points_;
+  std::vector<TracePoint> traced_;  ///< the same where all of them are kept in traces; else empty
   Shape shape_;
+  Shape candidate_;
   std::optional<std::uint32_t> recording_;  ///< whose trace is at hand
   std::shared_ptr<const HandTrace> trace_;
   FrameClock clock_;

@@ -48,6 +48,7 @@ bool Search::less(const Match& a, const Match& b) const noexcept {
 Search::Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement)
     : member_(member),
       table_(member.table),
+      movement_(movement),
       query_(bind(query, table_, watch_, {movement, &member.numbers})),
       variables_(query, table_) {
   plan_ = plan(query_);
@@ -70,8 +71,10 @@ void Search::run(const FindLimits& limits) {
   watch_.check();
   matches_.clear();
   parts_.clear();
+  counts_ = {};
   std::uint32_t recording = 0;
   for (const RowId row : first_rows()) {
+    ++counts_.looked_at;
     if (const std::uint32_t next = table_.recording(row); next != recording) {
       if (full()) break;
       recording = next;
@@ -79,6 +82,7 @@ void Search::run(const FindLimits& limits) {
     if (!member_.whole && member_.numbers[recording] == Segments::kNone) continue;
     if (!plan_.exact && !query_.elements[start_].matcher.accepts(row)) continue;
     if (plan_.exact) watch_.tick();
+    ++counts_.kept;
     rows_[start_] = row;
     place_after(start_ + 1);
     rows_[start_] = kNoRow;
@@ -102,11 +106,11 @@ void Search::append(std::vector<FoundRow>& rows) const {
 std::span<const RowId> Search::first_rows() {
   if (!plan_.relation) {
     if (const auto list = one_list(plan_.accesses)) return *list;
-    candidates(plan_.accesses, table_, candidates_);
+    candidates(plan_.accesses, table_, {movement_, &member_.numbers}, candidates_);
     return candidates_;
   }
   std::vector<RowId> found;
-  candidates(plan_.accesses, table_, found);
+  candidates(plan_.accesses, table_, {movement_, &member_.numbers}, found);
   BoundQuery::BoundRelation& relation = query_.elements[start_].relations[*plan_.relation];
   candidates_.clear();
   for (const RowId partner : found) {

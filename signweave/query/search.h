@@ -22,6 +22,7 @@ class Search {
   /// What the last run found, in order; rows as in Segments.
   void append(std::vector<Segment>& segments);
   void append(std::vector<FoundRow>& rows) const;
+  const FindCounts& counts() const noexcept { return counts_; }
 
  private:
   /// An answer before it gets its names.
@@ -54,6 +55,7 @@ class Search {
   const SegmentTable& table_;
   FindLimits limits_;
   Watch watch_;
+  const Movement* movement_;
   BoundQuery query_;
   Plan plan_;
   VariableCheck variables_;
@@ -65,6 +67,7 @@ class Search {
   std::vector<std::vector<TierCursor>> cursors_;  ///< likewise
   std::vector<RowId> candidates_;
   std::vector<Match> matches_;
+  FindCounts counts_;
   std::size_t part_count_ = 0;  ///< of every match: the rows of Segment::parts
   std::vector<RowId> parts_;
 };

@@ -31,13 +31,14 @@ void fields(Visit& visit, QueryCall& call) {
               .words = "--timeout",
               .range = Range{std::int64_t{1}, std::int64_t{1'000'000'000}}},
         call.timeout_ms);
-  visit(Field{.name = "explain", .help = "show how the query would be answered"}, call.explain);
+  visit(Field{.name = "explain", .help = "show how the query is answered: the plan, and how many rows it was about"},
+        call.explain);
 }
 
 struct QueryReport {
   std::vector<Segment> answers;
   std::vector<Notice> hints;        ///< of an empty answer: what the database does not know
-  std::optional<std::string> plan;  ///< instead of answers, where it was asked for
+  std::optional<std::string> plan;  ///< where it was asked for: it is shown instead of the answers
 };
 
 /// Throws QueryError, Error{cancelled} when the time is over.

@@ -1,11 +1,15 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <ostream>
 
 #include "app/calls/query_call.h"
+#include "app/calls/query_documents.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
+#include "signweave/formats/eaf.h"
 #include "signweave/query/parse.h"
 
 namespace signweave::cli {
@@ -14,10 +18,27 @@ namespace {
 struct QueryArguments {
   std::string folder;
   std::string format = "table";
+  std::filesystem::path folder_of_files;
   calls::QueryCall call;
 };
 
+/// One file for each recording.
+void write_files(const QueryArguments& options, const Database& database, const calls::QueryReport& report, Io& io) {
+  std::filesystem::create_directories(options.folder_of_files);
+  for (const calls::QueryDocument& one : calls::documents_of(database, report.answers)) {
+    std::string name = one.recording;
+    std::ranges::replace_if(
+        name, [](char c) { return c == '/' || c == '\\' || c == ':'; }, '_');
+    const std::filesystem::path file = options.folder_of_files / (name + ".eaf");
+    eaf::write(file, one.document);
+    io.out << file.string() << '\n';
+  }
+}
+
 void run_query(const QueryArguments& options, Io& io) {
+  if ((options.format == "eaf") != !options.folder_of_files.empty()) {
+    throw CLI::ValidationError("--format", "eaf writes one file a recording: name their folder with -o, and give both");
+  }
   parse(options.call.text);  // what is wrong with the query is told before anything is opened
   const Database database(options.folder, kv::Access::read_only);
   report_damage(database, io);
@@ -25,6 +46,8 @@ void run_query(const QueryArguments& options, Io& io) {
   print_notices(io, report.hints);
   if (report.plan && !io.json) {
     io.out << *report.plan;
+  } else if (options.format == "eaf") {
+    write_files(options, database, report, io);
   } else if (io.json || options.format == "json") {
     io.out << text_of(json_of(report));
   } else if (options.format == "csv") {
@@ -42,8 +65,9 @@ Run query(CLI::App& verb) {
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next != "limit") return;
     verb.add_option("--format", options->format, "of the answer")
-        ->check(CLI::IsMember({"table", "json", "csv"}))
+        ->check(CLI::IsMember({"table", "json", "csv", "eaf"}))
         ->capture_default_str();
+    verb.add_option("-o,--output", options->folder_of_files, "the folder for --format eaf");
   });
   return [options](Io& io) { run_query(*options, io); };
 }

@@ -46,6 +46,10 @@ void Database::require_writable() const {
   if (access_ != kv::Access::read_write) {
     throw Error(ErrorCode::conflict, folder_.string() + ": was opened for reading only");
   }
+  // What is known of the state before the change keeps that state in the file, where its space could be used again.
+  const std::lock_guard guard(mutex_);
+  contents_.reset();
+  segments_.reset();
 }
 
 namespace {

@@ -104,6 +104,23 @@ TEST(Movement, PhasesHaveTheirFeaturesSignsThoseOfTheirStrokesOthersWhatTheTrace
   EXPECT_EQ(at(HandMeasure::path, 0), over(track, trace.rate, trace.shoulder_width).path_length);
 }
 
+TEST(Movement, SeveralStretchesAreJoinedByPeaksSumsAndMeans) {
+  std::array<PointOver, 2> overs;
+  overs[0].peak_speed = 1;
+  overs[1].peak_speed = 3;
+  overs[0].mean_speed = 1;
+  overs[1].mean_speed = 2;
+  overs[0].path_length = 0.1f;
+  overs[1].path_length = 0.2f;
+  overs[1].end.position = {1, 0, 0};
+  const std::array<double, 2> frames = {10, 30};
+  const PointOver all = join(overs, frames, 0.4f);
+  EXPECT_EQ(all.peak_speed, 3);
+  EXPECT_FLOAT_EQ(all.mean_speed, 1.75f);
+  EXPECT_FLOAT_EQ(all.path_length, 0.3f);
+  EXPECT_FLOAT_EQ(all.displacement, 0.4f);
+}
+
 TEST(Movement, WhatLiesOutsideTheMotionOrHasNoStrokeIsNotKnown) {
   const TestMotion test(60, 3);
   const std::vector<MovementRow> rows = {annotation({5'000ms, 6'000ms}),

@@ -246,7 +246,7 @@ Times ask(const Corpus& corpus, const std::string& before, const std::string& af
   Times times;
   constexpr int kQuestions = 2'000;
   constexpr int kRounds = 3;
-  constexpr int kCalls = 8;  // reading the clock costs as much as a row
+  constexpr int kCalls = 8;                  // reading the clock costs as much as a row
   for (int i = -200; i < kQuestions; ++i) {  // the first are to warm up, and are compared too
     const std::string gloss = fmt::format("G{}", random() % corpus.glosses);
     const std::string text = fmt::format("{}\"{}\"{}", before, gloss, after);

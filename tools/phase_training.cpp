@@ -41,14 +41,14 @@ std::vector<std::size_t> nearest_moments(const PhaseFrames& frames, const std::v
   return result;
 }
 
-void add_examples(const LabelledTrack& recording, double tempo, std::vector<Example>& examples) {
+void add_examples(const LabelledTrack& recording, double tempo, std::vector<TrainingExample>& examples) {
   UpperBodyTrack track = recording.track;
   for (Seconds& time : track.times) time *= tempo;
   for (const PhaseFrames& frames : phase_features(track)) {
     const std::vector<std::size_t> moments = nearest_moments(frames, track.times);
     for (std::size_t frame = 0; frame < frames.frames; ++frame) {
       const std::vector<float>& values = frames.features[static_cast<std::size_t>(frames.leading(frame))];
-      Example& example = examples.emplace_back();
+      TrainingExample& example = examples.emplace_back();
       std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(frame * kPhaseFeatures), kPhaseFeatures,
                   example.features.begin());
       example.phase = recording.labels[moments[frame]];
@@ -56,13 +56,14 @@ void add_examples(const LabelledTrack& recording, double tempo, std::vector<Exam
   }
 }
 
-void set_scale(PhaseModel& model, std::span<const Example> examples) {
+void set_scale(PhaseModel& model, std::span<const TrainingExample> examples) {
   for (std::size_t i = 0; i < kPhaseFeatures; ++i) {
     double sum = 0;
     double squares = 0;
-    for (const Example& example : examples) sum += example.features[i];
+    for (const TrainingExample& example : examples) sum += example.features[i];
     const double mean = sum / static_cast<double>(examples.size());
-    for (const Example& example : examples) squares += (example.features[i] - mean) * (example.features[i] - mean);
+    for (const TrainingExample& example : examples)
+      squares += (example.features[i] - mean) * (example.features[i] - mean);
     model.mean[i] = static_cast<float>(mean);
     // Never so steep that rounding to 1/4096 would matter elsewhere: a feature that hardly moves says nothing.
     model.scale[i] = static_cast<float>(1 / std::max(0.01, std::sqrt(squares / static_cast<double>(examples.size()))));
@@ -86,9 +87,9 @@ void set_steps(PhaseModel& model, std::span<const LabelledTrack* const> recordin
 }
 
 /// Weights that count every phase as much as every other, whatever its share of the frames; their mean is 1.
-std::array<float, kMotionPhases> phase_weights(std::span<const Example> examples) {
+std::array<float, kMotionPhases> phase_weights(std::span<const TrainingExample> examples) {
   std::array<double, kMotionPhases> counts{};
-  for (const Example& example : examples) counts[static_cast<std::size_t>(example.phase)] += 1;
+  for (const TrainingExample& example : examples) counts[static_cast<std::size_t>(example.phase)] += 1;
   const auto present = static_cast<double>(std::ranges::count_if(counts, [](double count) { return count > 0; }));
   std::array<float, kMotionPhases> weights{};
   for (std::size_t phase = 0; phase < kMotionPhases; ++phase) {
@@ -164,7 +165,7 @@ Network first_weights(Random& random) {
   return network;
 }
 
-Network trained_network(std::span<const Example> scaled, const TrainingOptions& options, std::uint64_t seed) {
+Network trained_network(std::span<const TrainingExample> scaled, const TrainingOptions& options, std::uint64_t seed) {
   Random random(seed);
   Network network = first_weights(random);
   Adam adam;
@@ -180,7 +181,7 @@ Network trained_network(std::span<const Example> scaled, const TrainingOptions& 
       const std::size_t begin = batch * options.batch;
       const std::size_t end = std::min(begin + options.batch, scaled.size());
       for (std::size_t i = begin; i < end; ++i) {
-        const Example& example = scaled[order[i]];
+        const TrainingExample& example = scaled[order[i]];
         std::array<float, kPhaseFeatures> noisy = example.features;
         for (float& feature : noisy) feature += options.noise * random.normal();
         std::array<float, kHidden> kept;
@@ -199,14 +200,14 @@ Network trained_network(std::span<const Example> scaled, const TrainingOptions& 
 
 PhaseModel train(std::span<const LabelledTrack* const> recordings, const TrainingOptions& options) {
   assert(!recordings.empty());
-  std::vector<Example> examples;
+  std::vector<TrainingExample> examples;
   for (const LabelledTrack* recording : recordings) {
     for (const double tempo : options.tempos) add_examples(*recording, tempo, examples);
   }
   PhaseModel model;
   set_scale(model, examples);
   set_steps(model, recordings, options.step_weight);
-  for (Example& example : examples) example.features = scaled_features(model, example.features);
+  for (TrainingExample& example : examples) example.features = scaled_features(model, example.features);
   for (std::size_t i = 0; i < options.networks; ++i) {
     model.networks.push_back(trained_network(examples, options, 1 + i));
   }

@@ -22,7 +22,7 @@ struct TrainingOptions {
 };
 
 /// One frame of the leading hand, and what a person calls it. Every recording labels both hands as one.
-struct Example {
+struct TrainingExample {
   std::array<float, kPhaseFeatures> features;
   MotionPhase phase;
 };

@@ -27,8 +27,8 @@ struct Head {
   std::uint64_t changes = 0;          ///< counts commits: a reader whose number is another must look again
   std::uint64_t next_generation = 1;  ///< generations are never used twice
   std::uint32_t recordings = 0;
-  AccessMode access_mode;  ///< for motions to come
-  float tolerance = 0;     ///< for motions to come: metres, 0 keeps every bit
+  AccessMode access_mode;                                 ///< for motions to come
+  float tolerance = 0;                                    ///< for motions to come: metres, 0 keeps every bit
   DocumentStorage documents = DocumentStorage::document;  ///< for annotation to come
 };
 

@@ -87,8 +87,8 @@ class Snapshot {
 
 /// Entries of one kind.
 struct Usage {
-  std::string kind;  ///< "packets", "skeletons", "scalar tracks", "documents", "segments", "features", "traces", "weights",
-                     ///< "catalogue"; "other": not ours
+  std::string kind;  ///< "packets", "skeletons", "scalar tracks", "documents", "segments", "features", "traces",
+                     ///< "weights", "catalogue"; "other": not ours
   std::uint64_t entries = 0;
   std::uint64_t bytes = 0;  ///< of keys and values, without what the engine spends beside them
 };
@@ -185,8 +185,8 @@ class Database {
   /// catalogue.
   std::shared_ptr<const Segments> segments() const;
 
-  /// The segments that answer a query, by recording name and time; those of like(…) by distance. `counts` tells what the
-  /// search was about.
+  /// The segments that answer a query, by recording name and time; those of like(…) by distance. `counts` tells what
+  /// the search was about.
   std::vector<Segment> find(const PhaseQuery& query, const FindLimits& limits = {}, FindCounts* counts = nullptr) const;
 
   /// Frames of a recording's motion (clamped to it), reading only the packets that hold them; all joints where

@@ -78,7 +78,8 @@ class TestCorpus {
     std::vector<SegmentChunk> chunks;
     for (const Recording& each : recordings_) chunks.push_back(segments_of(each.document, each.signs));
     std::vector<SegmentTable::Source> sources;
-    for (std::size_t i = 0; i < chunks.size(); ++i) sources.push_back({recordings_[i].name, &chunks[i], recordings_[i].name == "meteo" ? "anna" : ""});
+    for (std::size_t i = 0; i < chunks.size(); ++i)
+      sources.push_back({recordings_[i].name, &chunks[i], recordings_[i].name == "meteo" ? "anna" : ""});
     return SegmentTable(sources);
   }
 

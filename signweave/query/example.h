@@ -20,12 +20,11 @@ namespace signweave {
 //
 // Most candidates are told to be too far by bounds that never exceed their distance: from first and last moment (Kim,
 // Park and Chu 2001, as Rakthanmanon et al. 2012 use it), from an envelope around the example (Keogh and Ratanamahatana
-// 2005); and warping is abandoned as soon as the rest cannot be near (Rakthanmanon et al. 2012). Lemire's second bound
-// (2009) was tried and left out: it costs about what warping costs here (docs/decisions, 158).
+// 2005); and warping is abandoned as soon as the rest cannot be near (Rakthanmanon et al. 2012).
 
 inline constexpr std::size_t kShapePoints = 32;
 inline constexpr std::size_t kShapeBand = 3;  ///< a tenth of the moments
-/// Seconds in which a velocity counts as a position: then both spread alike in signing.
+/// Seconds in which a velocity counts as a position (ours, chosen by judgement).
 inline constexpr float kVelocityTime = 0.15f;
 
 /// Position x, y, z and velocity x, y, z of one point at each moment.

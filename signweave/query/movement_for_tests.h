@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "signweave/query/movement.h"
-#include "signweave/semantic_db/segments.h"
 #include "signweave/rig/test_rig.h"
+#include "signweave/semantic_db/segments.h"
 
 namespace signweave {
 

@@ -22,9 +22,8 @@ constexpr std::size_t kMostPlaces = 64;
 constexpr int kMostVariables = 64;
 constexpr int kMostRegexes = 64;  ///< each remembers one byte per label of the database while it is answered
 
-constexpr std::array kFields = {Field::gloss, Field::phase,    Field::hand,  Field::recording,
-                                Field::tier,  Field::duration, Field::begin, Field::end,
-                                Field::unit,  Field::signer};
+constexpr std::array kFields = {Field::gloss,    Field::phase, Field::hand, Field::recording, Field::tier,
+                                Field::duration, Field::begin, Field::end,  Field::unit,      Field::signer};
 constexpr std::array kLinks = {Link::parent, Link::child,  Link::ancestor, Link::descendant, Link::overlaps,
                                Link::during, Link::starts, Link::ends,     Link::equals};
 constexpr std::array kCompares = {Compare::equal,      Compare::not_equal, Compare::matches,      Compare::less,

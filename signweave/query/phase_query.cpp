@@ -103,8 +103,8 @@ std::string to_string(const PhaseQuery& query) {
 }
 
 std::string_view word_of(Field field) noexcept {
-  constexpr std::string_view kWords[] = {"gloss",    "phase", "hand", "recording", "tier",
-                                         "duration", "begin", "end",  "movement",  "unit", "signer", "like"};
+  constexpr std::string_view kWords[] = {"gloss", "phase", "hand",     "recording", "tier",   "duration",
+                                         "begin", "end",   "movement", "unit",      "signer", "like"};
   return kWords[static_cast<std::size_t>(field)];
 }
 

@@ -131,7 +131,7 @@ std::string difference(const Database& database, const State& state) {
   if (contents->recordings.size() != state.size()) {
     return fmt::format("{} recordings, not {}", contents->recordings.size(), state.size());
   }
-  std::uint64_t records = 2;  // head and sweep list
+  std::uint64_t records = 3 + database.segments()->members().size();  // head, sweep list, segment tables and their list
   for (const auto& [name, held] : state) {
     const RecordingInfo* info = contents->find(name);
     if (info == nullptr) return name + " is missing";
@@ -145,7 +145,7 @@ std::string difference(const Database& database, const State& state) {
                                               motion.skeleton(), held.rounded ? kTolerance : 0);
     if (info->motion->mode != mode) return fmt::format("{} is stored {}", name, to_string(info->motion->mode));
     if (database.document(name).tiers != expected.annotation->document.tiers) return name + " has other words";
-    records += 1 + 3 + 1 + motion_db::packet_count(*info->motion);  // entry; 3 of the document; skeleton; packets
+    records += 1 + 4 + 1 + motion_db::packet_count(*info->motion);  // entry; 4 of the document; skeleton; packets
     constexpr std::int64_t kTrackFrames = 4'084;                    // as many values of one track fill four pages
     if (!motion.tracks().empty()) records += static_cast<std::uint64_t>((motion.frame_count() - 1) / kTrackFrames) + 1;
   }

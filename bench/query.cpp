@@ -311,11 +311,12 @@ void overlap_join(const Corpus& corpus) {
 
 void opening(const Corpus& corpus) {
   std::size_t bytes = 0;
-  for (const Segments::Member& member : corpus.database->segments()->members()) bytes += member.table.bytes().size();
+  const std::shared_ptr<const Segments> segments = corpus.database->segments();
+  for (const Segments::Member& member : segments->members()) bytes += member.table.bytes().size();
   const double each = static_cast<double>(bytes) / static_cast<double>(corpus.annotations);
   bench::print(fmt::format("{}/index_bytes_per_annotation", corpus.name), each, "B", 40, each / 40, "<= 1");
   // The yardstick: a checksum of so many bytes, which is what cannot be left out.
-  const ByteSpan first = corpus.database->segments()->members().front().table.bytes();
+  const ByteSpan first = segments->members().front().table.bytes();
   const bench::Compared compared = bench::compare(
       9,
       [&] {

@@ -199,7 +199,8 @@ int main(int count, char** arguments) {
     const std::unique_ptr<const Database> database =
         demo_database(folder.path() / "corpus.db", demo::corpus_scripts(minutes));
     double motion = 0;
-    for (const RecordingInfo& info : database->contents()->recordings) {
+    const std::shared_ptr<const Contents> contents = database->contents();
+    for (const RecordingInfo& info : contents->recordings) {
       motion += static_cast<double>(info.motion->frames) / info.motion->rate.hertz() / 60;
     }
     std::vector<Scenario> all = scenarios();

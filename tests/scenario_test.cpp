@@ -218,7 +218,8 @@ TEST(Seams, VelocityGoesOnWhereMadeFramesMeetCapturedOnes) {
   constexpr std::int64_t kNear = 10;
   const Utterance utterance = parse_utterance("VANNES MATIN PLUIE FRANCE NUAGES SOLEIL-BRILLER DEMAIN BONJOUR RENNES");
   std::map<std::string, std::array<std::vector<Eigen::Vector3f>, 2>> captured;
-  for (const RecordingInfo& info : corpus().contents()->recordings) {
+  const std::shared_ptr<const Contents> contents = corpus().contents();
+  for (const RecordingInfo& info : contents->recordings) {
     captured.emplace(info.name, wrists_of(corpus().read(info.name)));
   }
   // Those that go on with the velocity at the border as it is, the default among them; others damp it, take it from

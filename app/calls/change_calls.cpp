@@ -71,7 +71,8 @@ Relayouted run(Database& database, const RelayoutCall& call, const Listener& lis
   std::vector<std::string> names = call.recordings;
   const bool all = names.empty();
   if (all) {
-    for (const RecordingInfo& info : database.contents()->recordings) names.push_back(info.name);
+    const std::shared_ptr<const Contents> contents = database.contents();
+    for (const RecordingInfo& info : contents->recordings) names.push_back(info.name);
   } else {
     for (const std::string& name : names) database.contents()->at(name);  // a wrong name changes nothing
   }

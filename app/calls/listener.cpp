@@ -3,7 +3,8 @@
 namespace signweave::calls {
 
 void tell_damage(const Database& database, const Listener& listener) {
-  for (const std::string& fault : database.contents()->faults) listener.blame(fault);
+  const std::shared_ptr<const Contents> contents = database.contents();
+  for (const std::string& fault : contents->faults) listener.blame(fault);
 }
 
 void learn(Database& database, const Listener& listener) {

@@ -34,7 +34,8 @@ std::string fault_of(Action action) {
 
 std::vector<std::string> names_in(const Database& database) {
   std::vector<std::string> names;
-  for (const RecordingInfo& info : database.contents()->recordings) names.push_back(info.name);
+  const std::shared_ptr<const Contents> contents = database.contents();
+  for (const RecordingInfo& info : contents->recordings) names.push_back(info.name);
   return names;
 }
 
@@ -277,7 +278,8 @@ TEST_P(DatabaseTest, KilledAtAnyMomentEachRecordingIsAsItWasOrAsItWasToBecome) {
     }
     // Nothing is left of what was under way.
     std::uint64_t expected = 3 + database.segments()->members().size();  // head, sweep list, segment tables and theirs
-    for (const RecordingInfo& info : database.contents()->recordings) {
+    const std::shared_ptr<const Contents> contents = database.contents();
+    for (const RecordingInfo& info : contents->recordings) {
       expected += 1 + 4 + motion_db::packet_count(*info.motion) + 1;  // entry; 4 of the document; packets; skeleton
     }
     EXPECT_EQ(database.engine().entries, expected);

@@ -182,7 +182,8 @@ TEST_P(DatabaseFaults, TwoWritersAndManyReadersInProcessesOfTheirOwn) {
     readers.push_back(begin_child([&] {
       for (int round = 0; round < 15; ++round) {
         const auto database = opened(kv::Access::read_only);
-        for (const RecordingInfo& info : database->snapshot().contents().recordings) {
+        const Snapshot snapshot = database->snapshot();
+        for (const RecordingInfo& info : snapshot.contents().recordings) {
           const Motion motion = database->read(info.name);
           const int seed = static_cast<int>(std::lround(motion.pose(0).translations[0].x()));
           require(same_poses(motion, small_motion(500, seed)), info.name + " is not what anybody wrote");

@@ -208,9 +208,10 @@ void Search::relate(std::size_t e, std::size_t r) {
     for (const RowId other : all) {
       partner = other;
       if (!variables_.none() && !variables_.hold(rows_, partners_)) continue;
+      const std::size_t before = kept_;
       relate(e, r + 1);
-      if (!relation.marked && !marked_)
-        break;  // the first that fits; where another part is asked for, it may need others
+      // The first that leads to an answer; where another part is asked for, that may need others.
+      if (!marked_ && kept_ > before) break;
     }
   }
   partner = kNoRow;
@@ -237,6 +238,7 @@ void Search::keep() {
     }
   }
   matches_.push_back(match);
+  ++kept_;
   const std::size_t most = limits_.limit ? 2 * std::min(*limits_.limit, kMostAnswers) + 4096 : kMostAnswers;
   if (matches_.size() <= most && parts_.size() <= kMostParts) return;
   tidy();

@@ -68,6 +68,7 @@ class Search {
   std::vector<RowId> candidates_;
   std::vector<Match> matches_;
   FindCounts counts_;
+  std::size_t kept_ = 0;        ///< answers of this run, also those that were dropped since
   std::size_t part_count_ = 0;  ///< of every match: the rows of Segment::parts
   std::vector<RowId> parts_;
 };

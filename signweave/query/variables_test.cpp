@@ -79,7 +79,9 @@ TEST(Variables, GiveWhatAllLabelsGiveOneByOne) {
     const Segments segments = random_corpus(seed).table();
     for (const char* form :
          {"gloss = {0} -> gloss = {0}", "gloss = {0} ->[..300ms] @ gloss = {0}",
-          "gloss = {0} overlaps tier(\"Mouthing\") = {0}", "gloss = {0} & tier(\"Mouthing\") = {0}",
+          "gloss = {0} overlaps tier(\"Mouthing\") = {0}",
+          "gloss =~ /.*/ & hand = right overlaps tier(\"Mouthing\") = {0} overlaps gloss = {0} & hand = left",
+          "gloss = {0} & tier(\"Mouthing\") = {0}",
           "tier(\"Mouthing\") = {0} overlaps gloss = {0} & hand = left -> tier(\"Mouthing\") = {0}",
           "gloss = {0} & hand = right overlaps gloss != {0} & hand = left overlaps tier(\"Mouthing\") = {0}"}) {
       std::multiset<std::string> expected;

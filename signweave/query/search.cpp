@@ -72,6 +72,7 @@ void Search::run(const FindLimits& limits) {
   matches_.clear();
   parts_.clear();
   counts_ = {};
+  kept_ = 0;
   std::uint32_t recording = 0;
   for (const RowId row : first_rows()) {
     ++counts_.looked_at;

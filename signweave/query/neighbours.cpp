@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
-#include <ranges>
 
 namespace signweave {
 namespace {
@@ -49,8 +48,7 @@ RowId step(const SegmentTable& table, RowId row, int by) noexcept {
 }  // namespace
 
 RowId first_ending_at_or_after(const SegmentTable& table, RowRange range, Milliseconds time) noexcept {
-  const auto rows = std::views::iota(range.begin, range.end);
-  return *std::ranges::partition_point(rows, [&](RowId row) { return table.end(row) < time; });
+  return first_row(range, [&](RowId row) { return table.end(row) >= time; });
 }
 
 RowId next_row(const SegmentTable& table, RowId row) {
@@ -74,9 +72,8 @@ std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Interv
   const RowRange group = group_of(table, row);
   const Milliseconds end = table.end(row);
   const Milliseconds first = end + gap.least.value_or(0ms);
-  const auto later = std::views::iota(row + 1, group.end);
   std::vector<RowId> result;
-  for (RowId at = *std::ranges::partition_point(later, [&](RowId other) { return table.begin(other) < first; });
+  for (RowId at = first_row({row + 1, group.end}, [&](RowId other) { return table.begin(other) >= first; });
        at < group.end; ++at) {
     if (gap.most && table.begin(at) > end + *gap.most) break;
     if (same_sort(table, row, at)) result.push_back(at);

@@ -175,4 +175,19 @@ class SegmentTable {
   std::span<const RowId> child_list_;
 };
 
+/// The first row of a range for which `later` holds, where it holds for all rows after one for which it does: a binary
+/// search. The end of the range where there is none.
+template <typename Later>
+RowId first_row(SegmentTable::RowRange rows, Later&& later) {
+  while (rows.begin < rows.end) {
+    const RowId middle = rows.begin + (rows.end - rows.begin) / 2;
+    if (later(middle)) {
+      rows.end = middle;
+    } else {
+      rows.begin = middle + 1;
+    }
+  }
+  return rows.begin;
+}
+
 }  // namespace signweave

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -70,11 +69,8 @@ class Segments {
   std::string_view tier(RowId row) const noexcept;
   RowId parent(RowId row) const noexcept;
   /// The rows whose parent it is, in time order.
-  auto children(RowId row) const noexcept {
-    const Member& member = member_of(row);
-    return member.table.children(row - member.first) |
-           std::views::transform([first = member.first](RowId child) { return child + first; });
-  }
+  class Rows;
+  Rows children(RowId row) const noexcept;
   SegmentTable::RowRange recording_rows(std::uint32_t recording) const noexcept;
   /// The own rows of that tier which a row is on.
   SegmentTable::RowRange tier_rows_of(RowId row) const noexcept;
@@ -105,6 +101,37 @@ class Segments {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> recordings_;  ///< [recording] member, and its number there
   std::size_t rows_ = 0;
 };
+
+/// Rows of one table, numbered over all.
+class Segments::Rows {
+ public:
+  class Iterator {
+   public:
+    Iterator(const RowId* at, RowId first) noexcept : at_(at), first_(first) {}
+    RowId operator*() const noexcept { return *at_ + first_; }
+    Iterator& operator++() noexcept {
+      ++at_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const noexcept { return at_ == other.at_; }
+
+   private:
+    const RowId* at_;
+    RowId first_;
+  };
+  Rows(std::span<const RowId> rows, RowId first) noexcept : rows_(rows), first_(first) {}
+  Iterator begin() const noexcept { return {rows_.data(), first_}; }
+  Iterator end() const noexcept { return {rows_.data() + rows_.size(), first_}; }
+
+ private:
+  std::span<const RowId> rows_;
+  RowId first_;
+};
+
+inline Segments::Rows Segments::children(RowId row) const noexcept {
+  const Member& member = member_of(row);
+  return {member.table.children(row - member.first), member.first};
+}
 
 /// A sign row and its phases as the Sign that they were made of (without its annotation ids and signer).
 Sign sign_at(const Segments& segments, RowId row);

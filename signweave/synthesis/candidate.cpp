@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
 
 #include "signweave/core/text.h"
 #include "signweave/semantic_db/semantic_db.h"
@@ -33,12 +32,10 @@ FrameRange core_frames(TimeSpan span, const RecordingInfo& info) {
 /// The row of a sign of a recording; kNoRow where the table lacks it.
 RowId row_of(const Segments& segments, std::size_t recording, const Sign& sign) {
   const SegmentTable::RowRange range = segments.tier_rows(static_cast<std::uint32_t>(recording), sign.tier);
-  const auto rows = std::views::iota(range.begin, range.end);
-  const auto before = [&](RowId row) { return segments.span(row).begin < sign.span.begin; };
-  for (auto at = std::ranges::partition_point(rows, before); at != rows.end(); ++at) {
-    if (segments.span(*at).begin != sign.span.begin) break;
-    if (segments.kind(*at) == RowKind::sign && segments.span(*at) == sign.span && segments.text(*at) == sign.gloss) {
-      return *at;
+  const RowId first = first_row(range, [&](RowId row) { return segments.span(row).begin >= sign.span.begin; });
+  for (RowId row = first; row < range.end && segments.span(row).begin == sign.span.begin; ++row) {
+    if (segments.kind(row) == RowKind::sign && segments.span(row) == sign.span && segments.text(row) == sign.gloss) {
+      return row;
     }
   }
   return kNoRow;

@@ -1,7 +1,8 @@
 // What a query costs beside SQLite with covering indexes, on the same segments: 100 thousand and 1 million annotations,
 // replicated from the ELAN files of the shared data with generated sign and phase tiers beside them. Both sides are
 // asked the same, in turns, and their answers are compared row for row. Also: what opening costs, what the tables take,
-// and what the thousandth recording costs to import beside the tenth. `--quick`: a tenth of everything.
+// and what the thousandth recording costs to import beside the tenth (`--growth`: that alone). `--quick`: a tenth of
+// everything.
 
 #include <sqlite3.h>
 
@@ -10,9 +11,11 @@
 #include <random>
 #include <tuple>
 
+#include "bench/annotation_corpus.h"
+#include "bench/import_growth.h"
 #include "bench/measure.h"
+#include "bench/query_stop.h"
 #include "signweave/database/database.h"
-#include "signweave/formats/eaf.h"
 #include "signweave/query/find.h"
 #include "signweave/query/parse.h"
 
@@ -25,74 +28,6 @@ using Row = std::tuple<std::uint32_t, std::int64_t, std::int64_t>;  ///< recordi
 
 constexpr int kSignsOfRecording = 100;
 constexpr int kTokensOfGloss = 10;
-
-std::size_t annotations_in(const AnnotationDocument& document) {
-  std::size_t count = 0;
-  for (const Tier& tier : document.tiers) count += tier.annotations.size();
-  return count;
-}
-
-/// The documents of the shared data that hold something; a made one where there are none.
-std::vector<AnnotationDocument> documents() {
-  std::vector<AnnotationDocument> found;
-  const fs::path folder = fs::path(SIGNWEAVE_SHARED_DATA) / "eaf";
-  if (fs::is_directory(folder)) {
-    for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder)) {
-      if (file.path().extension() != ".eaf") continue;
-      try {
-        AnnotationDocument document = eaf::read(file.path()).document;
-        document.source = {};
-        document.properties.clear();
-        const std::size_t count = annotations_in(document);
-        if (count > 20 && count < 20'000) found.push_back(std::move(document));
-      } catch (const Error&) {  // some of them are broken on purpose
-      }
-    }
-  }
-  std::ranges::sort(found, {}, annotations_in);
-  if (found.empty()) {
-    fmt::print(stderr, "no shared data: generated tiers alone\n");
-    found.emplace_back();
-  }
-  return found;
-}
-
-/// Adds a tier of signs, one of their phases below it, and one of mouthings.
-void add_signs(AnnotationDocument& document, std::mt19937& random, std::size_t glosses) {
-  Tier signs;
-  signs.id = "BenchGloss";
-  Tier phases;
-  phases.id = "BenchPhase";
-  phases.parent = signs.id;
-  Tier mouthing;
-  mouthing.id = "BenchMouthing";
-  Milliseconds at{0};
-  const auto annotation = [&](Tier& tier, std::string label, TimeSpan span, std::string parent) {
-    Annotation made;
-    made.id = fmt::format("b{}{}", tier.id.back(), tier.annotations.size());
-    made.label = std::move(label);
-    made.span = span;
-    made.parent = std::move(parent);
-    tier.annotations.push_back(std::move(made));
-    return tier.annotations.back().id;
-  };
-  for (int i = 0; i < kSignsOfRecording; ++i) {
-    const TimeSpan span{at, at + Milliseconds(400 + static_cast<int>(random() % 400))};
-    const std::string gloss = fmt::format("G{}", random() % glosses);
-    const std::string sign = annotation(signs, gloss, span, "");
-    const Milliseconds third = span.duration() / 3;
-    annotation(phases, "prep", {span.begin, span.begin + third}, sign);
-    annotation(phases, "stroke", {span.begin + third, span.end - third}, sign);
-    annotation(phases, "retr", {span.end - third, span.end}, sign);
-    if (random() % 3 == 0) annotation(mouthing, gloss, {span.begin + third, span.end + Milliseconds(50)}, "");
-    at = span.end + Milliseconds(60 + static_cast<int>(random() % 200));
-  }
-  document.types.push_back({"bench", Stereotype::none, {}});
-  document.types.push_back({"bench phases", Stereotype::included_in, {}});
-  signs.type = mouthing.type = "bench";
-  phases.type = "bench phases";
-  for (Tier* tier : {&signs, &phases, &mouthing}) document.tiers.push_back(std::move(*tier));
-}
 
 void run_sql(sqlite3* db, const char* sql) {
   char* error = nullptr;
@@ -132,8 +67,6 @@ struct Corpus {
   std::size_t annotations = 0;
   std::size_t glosses = 0;
   fs::path folder;
-  double tenth = 0;       ///< seconds that the recordings around the tenth took to put
-  double thousandth = 0;  ///< and the thousandth
   std::unique_ptr<Database> database;
   sqlite3* sqlite = nullptr;
 
@@ -185,29 +118,22 @@ Corpus make(std::string name, std::size_t annotations, const std::vector<Annotat
   Database::create(corpus.folder, {});
   corpus.database = std::make_unique<Database>(corpus.folder, kv::Access::read_write);
   std::size_t per_recording = 0;
-  for (const AnnotationDocument& source : sources) per_recording += annotations_in(source);
+  for (const AnnotationDocument& source : sources) per_recording += bench::annotations_in(source);
   per_recording = per_recording / sources.size() + 4 * kSignsOfRecording + kSignsOfRecording / 3;
   corpus.glosses = std::max<std::size_t>(1, annotations / per_recording * kSignsOfRecording / kTokensOfGloss);
   std::mt19937 random(7);
-  std::vector<double> tenth, thousandth;
   for (std::size_t i = 0; corpus.annotations < annotations; ++i) {
     Recording recording;
     recording.name = fmt::format("r{:06}", i);
     AnnotationPart part;
     part.document = sources[i % sources.size()];
-    add_signs(part.document, random, corpus.glosses);
+    bench::add_signs(part.document, random, corpus.glosses, kSignsOfRecording);
     part.tiers.sign_tiers.push_back({"BenchGloss", Hand::right, ""});
     part.tiers.phase_tiers.emplace_back("BenchPhase");
-    corpus.annotations += annotations_in(part.document);
-    const std::size_t own = annotations_in(part.document);
+    corpus.annotations += bench::annotations_in(part.document);
     recording.annotation = std::move(part);
-    const double seconds = bench::seconds_of([&] { corpus.database->put(recording); });
-    const double each = seconds / static_cast<double>(own);
-    if (i >= 5 && i < 5 + 3 * sources.size()) tenth.push_back(each);
-    if (i >= 1000 && i < 1000 + 3 * sources.size()) thousandth.push_back(each);
+    corpus.database->put(recording);
   }
-  corpus.tenth = bench::median(tenth);
-  corpus.thousandth = thousandth.empty() ? 0 : bench::median(thousandth);
   corpus.database->merge();
   sqlite3_open((corpus.folder.string() + ".sqlite").c_str(), &corpus.sqlite);
   fill_sqlite(corpus);
@@ -331,9 +257,16 @@ void opening(const Corpus& corpus) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
-  const std::vector<AnnotationDocument> sources = documents();
+  bool quick = false;
+  bool growth_only = false;
+  for (int i = 1; i < argc; ++i) {
+    quick = quick || std::strcmp(argv[i], "--quick") == 0;
+    growth_only = growth_only || std::strcmp(argv[i], "--growth") == 0;
+  }
+  const std::vector<AnnotationDocument> sources = bench::documents();
   const bench::Folder folder("query");
+  bench::measure_growth(sources, folder.path(), quick);
+  if (growth_only) return 0;
   const std::size_t thousand = quick ? 100 : 1000;
   Times gloss[2], stroke[2], overlap[2];
   for (int i = 0; i < 2; ++i) {
@@ -346,10 +279,7 @@ int main(int argc, char** argv) {
     print(corpus.name + "/overlap_of_gloss", overlap[i]);
     overlap_join(corpus);
     opening(corpus);
-    if (corpus.thousandth > 0) {
-      bench::print(corpus.name + "/put/1000th", 1e6 * corpus.thousandth, "us", 1e6 * corpus.tenth,
-                   corpus.thousandth / corpus.tenth, "<= 1.5");
-    }
+    if (i == 1) bench::measure_stops(corpus.name, corpus.database->segments(), quick);
   }
   const auto grows = [](const char* name, const Times(&times)[2], const char* goal) {
     bench::print(fmt::format("1M_to_100k/{}/p50", name), 1e6 * times[1].p50(), "us", 1e6 * times[0].p50(),

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signweave/query/explain.h"
 #include "signweave/query/find.h"
 #include "signweave/query/parse.h"
-#include "signweave/query/plan.h"
 
 namespace signweave::calls {
 
@@ -56,6 +56,7 @@ json json_of(const QueryReport& report) {
     }
     json one = span_json(segment.span);
     one["recording"] = segment.recording;
+    one["tier"] = segment.tier;
     one["name"] = segment.name;
     one["parts"] = std::move(parts);
     if (segment.distance) one["distance"] = rounded(*segment.distance);
@@ -66,7 +67,7 @@ json json_of(const QueryReport& report) {
 }
 
 std::vector<std::vector<std::string>> rows_of(const QueryReport& report) {
-  std::vector<std::vector<std::string>> rows = {{"recording", "name", "begin ms", "end ms"}};
+  std::vector<std::vector<std::string>> rows = {{"recording", "tier", "name", "begin ms", "end ms"}};
   const bool ranked = !report.answers.empty() && report.answers.front().distance.has_value();
   if (ranked) rows.front().emplace_back("distance");
   std::vector<std::string> variables;
@@ -77,7 +78,7 @@ std::vector<std::vector<std::string>> rows_of(const QueryReport& report) {
   }
   for (const std::string& variable : variables) rows.front().push_back("$" + variable);
   for (const Segment& segment : report.answers) {
-    rows.push_back({segment.recording, segment.name, std::to_string(segment.span.begin.count()),
+    rows.push_back({segment.recording, segment.tier, segment.name, std::to_string(segment.span.begin.count()),
                     std::to_string(segment.span.end.count())});
     if (ranked) rows.back().push_back(fmt::format("{:.3f}", segment.distance.value_or(0)));
     for (const std::string& variable : variables) {

@@ -44,7 +44,7 @@ void run_query(const QueryArguments& options, Io& io) {
   report_damage(database, io);
   const calls::QueryReport report = calls::run(database, options.call);
   print_notices(io, report.hints);
-  if (report.plan && !io.json) {
+  if (report.plan && !io.json && options.format != "json") {
     io.out << *report.plan;
   } else if (options.format == "eaf") {
     write_files(options, database, report, io);

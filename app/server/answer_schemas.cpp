@@ -90,8 +90,8 @@ constexpr const char* kDatabaseAnswers = R"json({
 
 constexpr const char* kSearchAnswers = R"json({
   "Answers": {"oneOf": [
-    {"type": "array", "items": {"type": "object", "required": ["recording", "name", "begin_ms", "end_ms", "parts"],
-      "properties": {"recording": {"type": "string"}, "name": {"type": "string"}, "begin_ms": {"type": "integer"},
+    {"type": "array", "items": {"type": "object", "required": ["recording", "tier", "name", "begin_ms", "end_ms", "parts"],
+      "properties": {"recording": {"type": "string"}, "tier": {"type": "string"}, "name": {"type": "string"}, "begin_ms": {"type": "integer"},
         "end_ms": {"type": "integer"}, "distance": {"type": "number", "minimum": 0},
         "bindings": {"type": "object", "additionalProperties": {"type": "string"}}, "parts": {"type": "array", "items": {"type": "object",
           "required": ["name", "begin_ms", "end_ms"], "properties": {"name": {"type": "string"},

@@ -49,10 +49,11 @@ TEST(Api, QueriesAreAnsweredAsTheCommandLineDoes) {
   const json answers = json_in(response);
   ASSERT_EQ(answers.size(), 2u);
   EXPECT_EQ(answers[0]["name"], "VANNES");
+  EXPECT_EQ(answers[0]["tier"], "Gloss");
   EXPECT_EQ(answers[0]["recording"], "villes");
   EXPECT_EQ(answers, json_in(reading().send("POST", at({"query"}), {{"text", "gloss = \"VANNES\""}, {"limit", 2}})));
   const ApiResponse csv = reading().get(at({"query"}), {{"text", "gloss = \"VANNES\""}, {"format", "csv"}});
-  EXPECT_THAT(csv.body, StartsWith("recording,name,begin ms,end ms\nvilles,VANNES,"));
+  EXPECT_THAT(csv.body, StartsWith("recording,tier,name,begin ms,end ms\nvilles,Gloss,VANNES,"));
   EXPECT_EQ(csv.content_type, "text/csv; charset=utf-8");
   EXPECT_THAT(json_in(reading().get(at({"query"}), {{"text", "phase = stroke"}, {"explain", "true"}}))["plan"].dump(),
               HasSubstr("stroke"));

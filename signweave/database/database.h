@@ -170,8 +170,8 @@ class Database {
   bool measure(std::string_view name);
 
   /// Learns from the corpus as it is now what weighs how much where signs are chosen by their joins, and stores it;
-  /// false where what is stored is of this very state. Call it once after some changes: without it, whoever signs
-  /// learns again.
+  /// false where what is stored still holds: no more than a sixteenth of all changes came after it. Call it once after
+  /// some changes: without it, whoever signs learns again.
   bool learn();
 
   /// How motions are stored that are put from now on.

@@ -6,6 +6,7 @@
 #include "signweave/database/check.h"
 #include "signweave/database/import.h"
 #include "signweave/database/test_signing.h"
+#include "signweave/query/parse.h"
 #include "signweave/semantic_db/semantic_db.h"
 
 namespace signweave {
@@ -243,6 +244,42 @@ TEST(Features, ThatAreDamagedAreToldAndMeasuredAnew) {
   EXPECT_THROW(database.features("a"), Error);
   EXPECT_TRUE(database.measure("a"));
   expect_current(database, "a");
+}
+
+TEST(Features, ASearchThatIsStoppedWhileItMeasuresLeavesNothingHalfDone) {
+  Scene scene;
+  for (int i = 0; i < 3; ++i) {
+    scene.database->put(recording_of(std::string(1, static_cast<char>('a' + i)), 1 + i, {"A", "B", "C"}));
+  }
+  for (const char* text : {"phase = stroke & speed(right_hand) > 0.1 m/s", "speed(right_elbow) >= 0 m/s",
+                           "like(\"b\"@100..300)", "like(\"b\"@100..300, right_elbow, right_hand)"}) {
+    SCOPED_TRACE(text);
+    const PhaseQuery query = parse(text);
+    const std::vector<Segment> expected = scene.database->find(query);
+    ASSERT_THAT(expected, testing::SizeIs(testing::Ge(3u)));
+    int stopped = 0;
+    int answered = 0;
+    for (int i = 0; i < 200 && answered < 3; ++i) {
+      const Database database(scene.folder / "db", kv::Access::read_only);  // it knows nothing yet
+      database.contents();
+      const auto time = std::chrono::microseconds(10 << i / 8);
+      try {
+        database.find(query, {.limit = {}, .deadline = std::chrono::steady_clock::now() + time});
+        ++answered;
+      } catch (const Error& error) {
+        ASSERT_EQ(error.code(), ErrorCode::cancelled);
+        ++stopped;
+      }
+      const std::vector<Segment> found = database.find(query);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        EXPECT_EQ(found[k].row, expected[k].row);
+        EXPECT_EQ(found[k].distance, expected[k].distance);
+      }
+    }
+    EXPECT_GT(stopped, 0);
+    EXPECT_EQ(answered, 3);
+  }
 }
 
 }  // namespace

@@ -178,6 +178,11 @@ class Learner {
   Seconds mean_{0.5};                   ///< the time that a transition is given
 };
 
+/// Learning reads as many recordings as it may; what a few more say of joins is little beside that.
+bool still_hold(const semantic_db::StoredWeights& stored, std::uint64_t changes) noexcept {
+  return stored.changes <= changes && changes - stored.changes <= changes / 16;
+}
+
 }  // namespace
 
 JoinWeights learn_joins(const Snapshot& snapshot) {
@@ -252,8 +257,8 @@ JoinWeights Snapshot::join_weights() const {
   } catch (const Error& error) {
     if (error.code() != ErrorCode::corrupt) throw;
   }
-  const bool current = stored && stored->changes == catalogue::read_head(*transaction_).changes;
-  const JoinWeights weights = current ? stored->weights : learn_joins(*this);
+  const bool hold = stored && still_hold(*stored, catalogue::read_head(*transaction_).changes);
+  const JoinWeights weights = hold ? stored->weights : learn_joins(*this);
   const std::lock_guard guard(database.mutex_);
   if (database.contents_ == contents_) database.join_weights_ = weights;
   return weights;
@@ -261,14 +266,15 @@ JoinWeights Snapshot::join_weights() const {
 
 bool Database::learn() {
   require_writable();
-  const Snapshot now = snapshot();
-  const std::uint64_t changes = catalogue::read_head(*now.transaction_).changes;
-  try {
-    const std::optional<semantic_db::StoredWeights> stored = semantic_db::read_weights(*now.transaction_);
-    if (stored && stored->changes == changes) return false;
+  try {  // before the contents are read, which many a time are not needed
+    const std::unique_ptr<kv::ReadTransaction> before = store_->read();
+    const std::optional<semantic_db::StoredWeights> stored = semantic_db::read_weights(*before);
+    if (stored && still_hold(*stored, catalogue::read_head(*before).changes)) return false;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::corrupt) throw;
   }
+  const Snapshot now = snapshot();
+  const std::uint64_t changes = catalogue::read_head(*now.transaction_).changes;
   const JoinWeights weights = learn_joins(now);
   const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
   semantic_db::put_weights(*transaction, {changes, weights});

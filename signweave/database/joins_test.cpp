@@ -131,6 +131,26 @@ TEST(Weights, AreThoseOfTheCorpusAsItIsNow) {
   EXPECT_EQ(database.snapshot().join_weights(), JoinWeights{});
 }
 
+TEST(Weights, HoldUntilASixteenthOfTheChangesCameAfterThem) {
+  const Corpus corpus(3);
+  Database database = corpus.open();
+  for (int i = 0; i < 18; ++i) {
+    database.put(recording_of("r3", 3, kGlosses));
+    database.remove("r3");
+  }
+  EXPECT_TRUE(database.learn());  // after 39 changes
+  const JoinWeights three = database.snapshot().join_weights();
+  database.put(recording_of("r3", 3, kGlosses));
+  EXPECT_EQ(database.snapshot().join_weights(), three);
+  EXPECT_FALSE(database.learn());
+  database.remove("r3");
+  EXPECT_FALSE(database.learn());
+  database.put(recording_of("r3", 3, kGlosses));  // the third of 42
+  EXPECT_EQ(database.snapshot().join_weights().pairs, 4u * 6u);
+  EXPECT_TRUE(database.learn());
+  EXPECT_FALSE(database.learn());
+}
+
 TEST(Weights, ASnapshotKeepsThoseOfItsTime) {
   const Corpus corpus(3);
   Database database = corpus.open();

@@ -1,10 +1,13 @@
 #include "signweave/database/movement.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "signweave/database/catalogue.h"
 #include "signweave/database/database.h"
 #include "signweave/database/measure.h"
+#include "signweave/query/watch.h"
 #include "signweave/semantic_db/semantic_db.h"
 #include "signweave/semantic_db/trace_store.h"
 
@@ -45,27 +48,40 @@ std::shared_ptr<MovementCache::Recording> MovementCache::find(std::uint32_t reco
 
 std::shared_ptr<MovementCache::Recording> MovementCache::add(std::uint32_t recording,
                                                              std::shared_ptr<Recording> entry) {
-  std::size_t bytes = 0;
+  std::size_t bytes = sizeof(Recording);
   for (const auto& points : entry->trace->points) bytes += points.size() * sizeof(TraceSample);
   const std::lock_guard guard(mutex_);
+  make_room(bytes);
+  return recordings_.try_emplace(recording, std::move(entry)).first->second;
+}
+
+void MovementCache::grew(const Recording& entry) {
+  std::size_t bytes = 0;
+  for (const std::vector<float>& column : entry.columns) bytes += column.size() * sizeof(float);
+  const std::lock_guard guard(mutex_);
+  make_room(bytes);
+}
+
+/// The mutex must be held.
+void MovementCache::make_room(std::size_t bytes) {
   if (bytes_ + bytes > kMostBytes) {
     recordings_.clear();
     bytes_ = 0;
   }
   bytes_ += bytes;
-  return recordings_.try_emplace(recording, std::move(entry)).first->second;
 }
 
-HandTrace trace_stored(const kv::ReadTransaction& snapshot, const RecordingInfo& info) {
+HandTrace trace_stored(const kv::ReadTransaction& snapshot, const RecordingInfo& info, const Pause& pause) {
   if (!info.motion) return no_trace("there is no motion");
   try {
     if (info.document != 0) {
-      if (auto stored = semantic_db::read_trace(snapshot, info.document, info.name)) return *std::move(stored);
+      if (auto stored = semantic_db::read_trace(snapshot, info.document, info.name, pause)) return *std::move(stored);
     }
-    const motion_db::StoredMotion& stored = *info.motion;
-    const Motion motion =
-        motion_db::read(snapshot, stored, motion_db::read_skeleton(snapshot, stored), {0, stored.frames});
-    return trace_hands(motion, model_of(motion, info.rig));
+    if (info.motion->frames == 0) return no_trace("the motion has no frame");
+    // Borrowed for as long as this takes.
+    const std::shared_ptr<const kv::ReadTransaction> lent(std::shared_ptr<void>(), &snapshot);
+    const motion_db::StoredSource source(lent, std::make_shared<motion_db::KnownMotion>(snapshot, *info.motion));
+    return trace_hands(source, model_of(source, info.rig, pause), pause);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::corrupt) throw;
     return no_trace(error.what());
@@ -82,10 +98,14 @@ class StoredMovement : public Movement {
         segments_(std::move(segments)),
         cache_(std::move(cache)) {}
 
-  std::span<const float> column(Column column, std::uint32_t recording) const override {
+  /// From now on it stops where `limits` say so.
+  void begin(const FindLimits& limits) { watch_.begin(limits); }
+  void pause() const override { watch_.check(); }
+
+  ColumnValues column(Column column, std::uint32_t recording) const override {
     MovementCache::Recording& entry = at(recording);
-    std::call_once(entry.measured, [&] { measure(recording, entry); });
-    return entry.columns[place_of(column)];
+    if (!entry.measured.load(std::memory_order_acquire)) measure(recording, entry);
+    return {entry.columns[place_of(column)], entry_};
   }
   float shoulder_width(std::uint32_t recording) const override { return at(recording).trace->shoulder_width; }
   FrameClock clock(std::uint32_t recording) const override { return at(recording).info.clock; }
@@ -95,22 +115,22 @@ class StoredMovement : public Movement {
                                  FrameRange range) const override {
     const RecordingInfo& info = at(recording).info;
     if (!info.motion) return std::vector<PointTrack>(parts.size());
+    const Pause pauses = [this] { pause(); };
     if (motion_of_ != recording) {  // rows come recording by recording
-      const motion_db::StoredMotion& stored = *info.motion;
-      motion_ =
-          motion_db::read(*transaction_, stored, motion_db::read_skeleton(*transaction_, stored), {0, stored.frames});
-      model_ = model_of(motion_, info.rig);
+      motion_of_.reset();
+      source_ = std::make_unique<motion_db::StoredSource>(transaction_, database_->known(*transaction_, *info.motion));
+      model_ = model_of(*source_, info.rig, pauses);
       motion_of_ = recording;
     }
-    return track_points(motion_, model_, parts, range);
+    return track_points(*source_, model_, parts, range, pauses);
   }
 
  private:
   MovementCache::Recording& at(std::uint32_t recording) const {
     if (at_ != recording) {
-      entry_ = cache_->find(recording);
-      if (!entry_) entry_ = cache_->add(recording, read(recording));
-      kept_.push_back(entry_);  // what was lent stays valid
+      pause();
+      std::shared_ptr<MovementCache::Recording> entry = cache_->find(recording);
+      entry_ = entry ? std::move(entry) : cache_->add(recording, read(recording));
       at_ = recording;
     }
     return *entry_;
@@ -120,7 +140,7 @@ class StoredMovement : public Movement {
     auto entry = std::make_shared<MovementCache::Recording>();
     try {
       entry->info = database_->recording_in(*transaction_, segments_->recording_name(recording));
-      entry->trace = std::make_shared<const HandTrace>(trace_stored(*transaction_, entry->info));
+      entry->trace = std::make_shared<const HandTrace>(trace_stored(*transaction_, entry->info, [this] { pause(); }));
     } catch (const Error& error) {  // a damaged entry of the catalogue
       if (error.code() != ErrorCode::corrupt && error.code() != ErrorCode::not_found) throw;
       entry->trace = std::make_shared<const HandTrace>(no_trace(error.what()));
@@ -129,18 +149,29 @@ class StoredMovement : public Movement {
   }
 
   void measure(std::uint32_t recording, MovementCache::Recording& entry) const {
+    std::unique_lock lock(entry.measuring, std::defer_lock);
+    while (!lock.try_lock()) {  // another search does; this one may have to stop before it has
+      pause();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    if (entry.measured.load(std::memory_order_acquire)) return;
+    pause();
     const std::vector<MovementRow> rows = rows_of(segments_->part(recording));
     RecordingFeatures features;
     if (entry.info.document != 0 && entry.trace->samples() != 0) {
       try {
-        if (auto stored = semantic_db::read_features(*transaction_, entry.info.document, entry.info.name)) {
+        if (auto stored =
+                semantic_db::read_features(*transaction_, entry.info.document, entry.info.name, [this] { pause(); })) {
           features = *std::move(stored);
         }
       } catch (const Error& error) {
         if (error.code() != ErrorCode::corrupt) throw;  // `check` tells of it; the trace says nearly the same
       }
     }
-    entry.columns = measure_rows(rows, features, *entry.trace, entry.info.clock);
+    pause();
+    entry.columns = measure_rows(rows, features, *entry.trace, entry.info.clock, [this] { pause(); });
+    cache_->grew(entry);
+    entry.measured.store(true, std::memory_order_release);
   }
 
   const Database* database_;
@@ -149,9 +180,9 @@ class StoredMovement : public Movement {
   std::shared_ptr<MovementCache> cache_;
   mutable std::optional<std::uint32_t> at_;
   mutable std::shared_ptr<MovementCache::Recording> entry_;
-  mutable std::vector<std::shared_ptr<MovementCache::Recording>> kept_;
+  Watch watch_;
   mutable std::optional<std::uint32_t> motion_of_;
-  mutable Motion motion_;
+  mutable std::unique_ptr<motion_db::StoredSource> source_;
   mutable SignerModel model_;
 };
 
@@ -172,7 +203,8 @@ std::vector<Segment> Database::find(const PhaseQuery& query, const FindLimits& l
   const std::shared_ptr<const kv::ReadTransaction> snapshot = store_->read();
   const std::shared_ptr<const Segments> segments = stored_segments(snapshot);
   const std::unique_ptr<Movement> movement = movement_of(snapshot, segments);
-  PreparedQuery prepared(query, segments, movement.get());
+  static_cast<StoredMovement&>(*movement).begin(limits);
+  PreparedQuery prepared(query, segments, movement.get(), limits);
   std::vector<Segment> found = prepared.find(limits);
   if (counts != nullptr) *counts = prepared.counts();
   return found;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "signweave/features/from_source.h"
 #include "signweave/features/phase_features.h"
 
 // A record of features, before it is sealed:
@@ -87,6 +88,10 @@ void encode(const RecordingFeatures& features, ByteWriter& out) {
 }
 
 std::optional<RecordingFeatures> decode_features(ByteReader& in) {
+  return decode_features(in, {});
+}
+
+std::optional<RecordingFeatures> decode_features(ByteReader& in, const Pause& pause) {
   if (in.number<std::uint16_t>() != kFeatureVersion) return std::nullopt;
   RecordingFeatures features;
   features.why_not = in.text();
@@ -100,7 +105,9 @@ std::optional<RecordingFeatures> decode_features(ByteReader& in) {
   };
   number(features.shoulder_width);
   features.phases.resize(in.count(kSmallestPhase));
+  std::size_t count = 0;
   for (PhaseFeatures& phase : features.phases) {
+    if (pause && (count++ & 0xFFU) == 0) pause();
     number(phase.seconds);
     const auto bits = in.number<std::uint8_t>();
     if (bits != 0 && bits != 3 && bits != 5 && bits != 7) in.fail("bits that do not fit");

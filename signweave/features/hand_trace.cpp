@@ -104,10 +104,16 @@ std::size_t HandTrace::samples() const noexcept {
 
 PointTrack HandTrace::track(TracePoint point, FrameRange range) const {
   PointTrack result;
+  track(point, range, result);
+  return result;
+}
+
+void HandTrace::track(TracePoint point, FrameRange range, PointTrack& out) const {
+  out.clear();
   const std::vector<TraceSample>& all = (*this)[point];
-  if (all.empty()) return result;
+  if (all.empty()) return;
   assert(0 <= range.begin && range.end <= frames);
-  result.reserve(static_cast<std::size_t>(std::max<std::int64_t>(range.size(), 0)));
+  out.reserve(static_cast<std::size_t>(std::max<std::int64_t>(range.size(), 0)));
   for (std::int64_t frame = range.begin; frame < range.end; ++frame) {
     const auto low = static_cast<std::size_t>(frame / step);
     const std::int64_t at = frame - static_cast<std::int64_t>(low) * step;
@@ -121,30 +127,35 @@ PointTrack HandTrace::track(TracePoint point, FrameRange range) const {
       here.acceleration += part * (next.acceleration - here.acceleration);
       if (2 * at > gap) here.state = next.state;
     }
-    result.push_back(here);
+    out.push_back(here);
   }
-  return result;
 }
 
-HandTrace trace_hands(const Motion& motion, const SignerModel& model) {
-  HandTrace trace{.rate = motion.rate(), .frames = motion.frame_count(), .step = step_for(motion.rate())};
-  const HandMotion first = measure_hands(motion, model, {0, 1});
-  if (motion.frame_count() == 0) {
+namespace {
+
+/// Traces what `piece_of(FrameRange, use)` gives: it calls `use(motion, first)` with a motion that holds what measuring
+/// these frames looks at, and which frame its first one is.
+template <typename PieceOf>
+HandTrace trace_pieces(FrameRate rate, std::int64_t frames, const SignerModel& model, const Pause& pause,
+                       PieceOf&& piece_of) {
+  HandTrace trace{.rate = rate, .frames = frames, .step = step_for(rate)};
+  if (frames == 0) {
     trace.why_not = "the motion has no frame";
-  } else if (!first.hands[0].why_not.empty() && !first.hands[1].why_not.empty()) {
-    trace.why_not = first.hands[1].why_not;
+    return trace;
   }
+  piece_of(FrameRange{0, 1}, [&](const Motion& motion, std::int64_t) {
+    const HandMotion first = measure_hands(motion, model, {0, 1});
+    if (!first.hands[0].why_not.empty() && !first.hands[1].why_not.empty()) trace.why_not = first.hands[1].why_not;
+  });
   if (!trace.why_not.empty()) return trace;
   trace.shoulder_width = model.body->shoulder_width;
   trace.body = shape_of(*model.body);
   const std::size_t samples = samples_for(trace.frames, trace.step);
   for (std::vector<TraceSample>& points : trace.points) points.reserve(samples);
-  // Some at a time: what is measured of a frame is large.
-  constexpr std::int64_t kBlock = 2048;
-  for (std::int64_t begin = 0; begin < trace.frames; begin += kBlock) {
-    const FrameRange block{begin, std::min(begin + kBlock, trace.frames)};
-    const HandMotion hands = measure_hands(motion, model, block);
-    const std::vector<PointTrack> tips = track_points(motion, model, kTips, block);
+  const auto add = [&](const Motion& motion, std::int64_t moved, FrameRange block) {
+    const FrameRange here{block.begin - moved, block.end - moved};
+    const HandMotion hands = measure_hands(motion, model, here);
+    const std::vector<PointTrack> tips = track_points(motion, model, kTips, here);
     for (std::int64_t frame = block.begin; frame < block.end; ++frame) {
       if (frame % trace.step != 0 && frame != trace.frames - 1) continue;
       const auto at = static_cast<std::size_t>(frame - block.begin);
@@ -155,8 +166,27 @@ HandTrace trace_hands(const Motion& motion, const SignerModel& model) {
         if (!tips[side].empty()) trace.points[2 + side].push_back(sample_of(tips[side][at]));
       }
     }
-  }
+  };
+  // Some at a time: what is measured of a frame is large.
+  for_pieces({0, frames}, pause, [&](FrameRange block) {
+    piece_of(block, [&](const Motion& motion, std::int64_t first) { add(motion, first, block); });
+  });
   return trace;
+}
+
+}  // namespace
+
+HandTrace trace_hands(const Motion& motion, const SignerModel& model) {
+  return trace_pieces(motion.rate(), motion.frame_count(), model, {},
+                      [&](FrameRange, auto&& use) { use(motion, std::int64_t{0}); });
+}
+
+HandTrace trace_hands(const MotionSource& source, const SignerModel& model, const Pause& pause) {
+  Piece piece;
+  return trace_pieces(source.rate(), source.frame_count(), model, pause, [&](FrameRange frames, auto&& use) {
+    read_piece(source, frames, piece);
+    use(piece.motion, piece.first);
+  });
 }
 
 void encode(const HandTrace& trace, ByteWriter& out) {
@@ -175,7 +205,7 @@ void encode(const HandTrace& trace, ByteWriter& out) {
   for (const std::vector<TraceSample>& points : trace.points) out.raw(std::as_bytes(std::span(points)));
 }
 
-std::optional<HandTrace> decode_trace(ByteReader& in) {
+std::optional<HandTrace> decode_trace(ByteReader& in, const Pause& pause) {
   if (in.number<std::uint16_t>() != kTraceVersion) return std::nullopt;
   HandTrace trace;
   trace.why_not = in.text();
@@ -203,6 +233,7 @@ std::optional<HandTrace> decode_trace(ByteReader& in) {
   if (samples > in.left() / sizeof(TraceSample) && bits != 0) in.fail("fewer samples than frames");
   for (std::size_t i = 0; i < kTracePoints; ++i) {
     if ((bits >> i & 1U) == 0) continue;
+    if (pause) pause();
     const ByteSpan bytes = in.take(samples * sizeof(TraceSample));
     trace.points[i].resize(samples);
     if (samples > 0) std::memcpy(trace.points[i].data(), bytes.data(), bytes.size());

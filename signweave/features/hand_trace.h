@@ -9,6 +9,7 @@
 
 #include "signweave/core/bytes.h"
 #include "signweave/core/time.h"
+#include "signweave/features/from_source.h"
 #include "signweave/features/hand_motion.h"
 #include "signweave/features/point_track.h"
 #include "signweave/rig/signer_space.h"
@@ -54,6 +55,8 @@ struct HandTrace {
   /// A point over some frames, which must lie within the motion; between samples in a straight line. Empty where the
   /// rig lacks the point.
   PointTrack track(TracePoint point, FrameRange range) const;
+  /// The same into `out`, of which memory is used again.
+  void track(TracePoint point, FrameRange range, PointTrack& out) const;
 };
 
 /// Samples a second are at most these; a motion of fewer frames a second keeps each.
@@ -62,10 +65,12 @@ inline constexpr double kTraceHertz = 60;
 inline constexpr std::uint16_t kTraceVersion = 1;
 
 HandTrace trace_hands(const Motion& motion, const SignerModel& model);
+/// The same of a motion that is not in memory, read piece by piece.
+HandTrace trace_hands(const MotionSource& source, const SignerModel& model, const Pause& pause = {});
 
 /// As it is stored; the layout is drawn in hand_trace.cpp. `decode_trace` gives none where another version measured,
 /// and throws Error{corrupt} on bytes that `encode` cannot have written.
 void encode(const HandTrace& trace, ByteWriter& out);
-std::optional<HandTrace> decode_trace(ByteReader& in);
+std::optional<HandTrace> decode_trace(ByteReader& in, const Pause& pause = {});
 
 }  // namespace signweave

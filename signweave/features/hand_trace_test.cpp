@@ -109,6 +109,45 @@ TEST(HandTrace, WhatIsStoredReadsBack) {
   EXPECT_FALSE(decode_trace(later));
 }
 
+/// Throws as reading `trace` from its own bytes does.
+void read_back(const HandTrace& trace) {
+  ByteWriter out;
+  encode(trace, out);
+  ByteReader in(out.bytes(), "trace");
+  decode_trace(in);
+}
+
+TEST(HandTrace, FramesThatCannotBeAreRefused) {
+  const auto damaged = [](std::int64_t frames, std::int64_t step) {
+    return HandTrace{.rate = {25, 1}, .frames = frames, .step = step};
+  };
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  EXPECT_NO_THROW(read_back(damaged(100, 2)));
+  for (const auto& [frames, step] : {std::pair<std::int64_t, std::int64_t>{-1, 1},
+                                     {kMost, 1},
+                                     {100, 0},
+                                     {100, -2},
+                                     {100, std::int64_t{std::numeric_limits<std::int32_t>::max()} + 1}}) {
+    const HandTrace trace = damaged(frames, step);
+    EXPECT_THAT([&] { read_back(trace); },
+                testing::Throws<Error>(testing::Property(&Error::what, testing::HasSubstr("frames that cannot be"))))
+        << frames << ' ' << step;
+  }
+}
+
+TEST(HandTrace, MoreFramesThanSamplesAreRefusedBeforeTheyTakeMemory) {
+  HandTrace trace{.rate = {25, 1}, .frames = 5, .step = 1};
+  trace.points[1].resize(5);
+  EXPECT_NO_THROW(read_back(trace));
+  // Of 2^60 samples the bytes are 2^64, which is none at all in 64 bits.
+  for (const std::int64_t frames : {std::int64_t{6}, std::int64_t{1} << 60}) {
+    trace.frames = frames;
+    EXPECT_THAT([&] { read_back(trace); }, testing::Throws<Error>(testing::Property(
+                                               &Error::what, testing::HasSubstr("fewer samples than frames"))))
+        << frames;
+  }
+}
+
 RC_GTEST_PROP(HandTrace, DamagedBytesAreRefusedOrRead, (std::uint32_t seed)) {
   static const Bytes sound = [] {
     const Motion motion = moving(whole_person(), 12, 9, {25, 1});

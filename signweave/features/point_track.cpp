@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "signweave/features/point_sum.h"
 #include "signweave/features/smoothing.h"
 
 namespace signweave {
@@ -30,27 +31,9 @@ PointFrame point_of(const HandFrame& hand) noexcept {
 
 PointOver over(std::span<const PointFrame> frames, FrameRate rate, float shoulder_width) noexcept {
   assert(!frames.empty());
-  PointOver result{.begin = frames.front(), .end = frames.back()};
-  double path = 0;
-  double speeds = 0;
-  double accelerations = 0;
-  double before = 0;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const float speed = frames[i].velocity.norm();
-    result.peak_speed = std::max(result.peak_speed, speed);
-    result.peak_acceleration = std::max(result.peak_acceleration, frames[i].acceleration);
-    result.contact = result.contact | frames[i].state.contact;
-    speeds += static_cast<double>(speed);
-    accelerations += static_cast<double>(frames[i].acceleration);
-    if (i > 0) path += 0.5 * (static_cast<double>(speed) + before);
-    before = static_cast<double>(speed);
-  }
-  const auto count = static_cast<double>(frames.size());
-  result.mean_speed = static_cast<float>(speeds / count);
-  result.mean_acceleration = static_cast<float>(accelerations / count);
-  result.path_length = static_cast<float>(path * rate.frame_time().count());
-  result.displacement = (frames.back().position - frames.front().position).norm() * shoulder_width;
-  return result;
+  PointSum sum;
+  for (const PointFrame& frame : frames) sum.add(frame);
+  return sum.over(rate, shoulder_width);
 }
 
 std::vector<PointTrack> track_points(const Motion& motion, const SignerModel& model, std::span<const Part> parts,

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "signweave/query/corpus_for_tests.h"
+#include "signweave/query/explain.h"
 #include "signweave/query/find.h"
+#include "signweave/query/movement_check.h"
 #include "signweave/query/movement_for_tests.h"
 #include "signweave/query/parse.h"
-#include "signweave/query/plan.h"
 #include "signweave/query/queries_for_tests.h"
 #include "signweave/query/rank.h"
 
@@ -137,19 +138,6 @@ TEST(Movement, WhatAnExampleLacksIsSaid) {
   EXPECT_THAT(fault("like(\"meteo\"@1..200, left_knee)", movement.get()),
               testing::HasSubstr("'left_knee' is not known"));
   EXPECT_THAT(fault("like(\"meteo\"@1..200)", nullptr), testing::HasSubstr("there is no motion"));
-}
-
-TEST(Documentation, WhatItCallsNotYetIsRefused) {
-  const std::vector<std::string> queries = documented("query-later");
-  ASSERT_GE(queries.size(), 1U);
-  for (const std::string& text : queries) {
-    try {
-      parse(text);
-      ADD_FAILURE() << text;
-    } catch (const QueryError& error) {
-      EXPECT_EQ(error.code(), ErrorCode::unsupported) << text;
-    }
-  }
 }
 
 }  // namespace

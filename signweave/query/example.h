@@ -47,6 +47,13 @@ class TraceStretch {
   /// The trace must have the points.
   TraceStretch(const HandTrace& trace, FrameRange frames) noexcept;
 
+  /// Position, velocity, and two zeros.
+  using Lanes = std::array<float, PointShape::kAxes + 2>;
+
+ private:
+  friend class NearestSearch;
+  friend bool resample(const HandTrace& trace, TracePoint point, FrameRange frames, PointShape& out) noexcept;
+
   /// Between which samples a moment lies.
   struct Place {
     std::size_t low = 0;
@@ -54,16 +61,15 @@ class TraceStretch {
     float part = 0;  ///< of the way from one to the other
   };
   Place place(std::size_t moment) const noexcept;
-  /// Position, velocity, and two zeros. False where one of the numbers is none.
-  using Lanes = std::array<float, PointShape::kAxes + 2>;
+  /// False where one of the numbers is none.
   bool read(TracePoint point, const Place& at, Lanes& out) const noexcept;
 
- private:
   const HandTrace* trace_;
   std::size_t first_;        ///< the sample at or before the first frame
   std::size_t left_;         ///< samples behind it
   std::size_t whole_steps_;  ///< to the last sample that is a whole step behind the one before
-  float begin_, step_, per_step_, per_last_step_, scale_, velocity_;
+  float begin_, step_, per_step_, per_last_step_, scale_;
+  Lanes units_;  ///< what a number of a sample counts
 };
 
 /// A point of a trace, which must have it, over some frames (at least one, within the motion). False where a number of
@@ -112,6 +118,11 @@ class NearestSearch {
   }
   /// Above this no candidate is wanted any more; as sums of squares.
   float limit() const noexcept;
+  /// Whether points of a trace, at these moments in turn, lie outside the example's envelope by more than `most`.
+  bool outside_by_fours(const TraceStretch& stretch, std::span<const TracePoint> points,
+                        const std::array<std::uint8_t, kShapePoints>& moments, float most) const noexcept;
+  bool outside_by_eights(const TraceStretch& stretch, std::span<const TracePoint> points,
+                         const std::array<std::uint8_t, kShapePoints>& moments, float most) const noexcept;
   /// What the candidate adds at least outside the example's envelope, into `rest_` from each moment on.
   float outside(const Shape& candidate);
 

@@ -1,6 +1,8 @@
 #include "signweave/query/find.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "signweave/query/rank.h"
 #include "signweave/query/search.h"
@@ -14,9 +16,56 @@ struct PreparedQuery::State {
   const Movement* movement = nullptr;
   std::optional<std::size_t> ranked;  ///< the place that like(…) orders
 
+  void run(const FindLimits& limits, bool parts = true);
+  template <typename Use>
+  void for_matches(const FindLimits& limits, Use&& use);
+  std::vector<Segment> segments_found(const FindLimits& limits);
   /// All that it is to choose from, and the nearest of them.
   std::vector<Segment> nearest(const FindLimits& limits);
 };
+
+void PreparedQuery::State::run(const FindLimits& limits, bool parts) {
+  for (const std::unique_ptr<Search>& search : searches) search->run(limits, parts);
+}
+
+/// Calls `use(search, match)` for what the last run found, by recording, until the limit. No two tables share one.
+template <typename Use>
+void PreparedQuery::State::for_matches(const FindLimits& limits, Use&& use) {
+  struct Run {
+    std::uint32_t recording;
+    Search* search;
+    std::span<const Search::Match> matches;
+  };
+  std::size_t left = limits.limit.value_or(std::numeric_limits<std::size_t>::max());
+  std::vector<Run> runs;
+  for (const std::unique_ptr<Search>& search : searches) {
+    std::span<const Search::Match> all = search->matches();
+    if (searches.size() == 1) runs.push_back({0, search.get(), std::exchange(all, {})});
+    while (!all.empty()) {
+      const auto end = std::ranges::upper_bound(all, all.front().recording, {}, &Search::Match::recording);
+      const auto count = static_cast<std::size_t>(end - all.begin());
+      runs.push_back({search->member().numbers[all.front().recording], search.get(), all.first(count)});
+      all = all.subspan(count);
+    }
+  }
+  std::ranges::sort(runs, {}, &Run::recording);
+  for (const Run& run : runs) {
+    for (const Search::Match& match : run.matches) {
+      if (left-- == 0) return;
+      use(*run.search, match);
+    }
+  }
+}
+
+std::vector<Segment> PreparedQuery::State::segments_found(const FindLimits& limits) {
+  run(limits);
+  std::vector<Segment> result;
+  std::size_t count = 0;
+  for (const std::unique_ptr<Search>& search : searches) count += search->matches().size();
+  result.reserve(std::min(count, limits.limit.value_or(count)));
+  for_matches(limits, [&](Search& search, const Search::Match& match) { result.push_back(search.segment_of(match)); });
+  return result;
+}
 
 std::vector<Segment> PreparedQuery::State::nearest(const FindLimits& limits) {
   Watch watch;
@@ -24,14 +73,8 @@ std::vector<Segment> PreparedQuery::State::nearest(const FindLimits& limits) {
   RankedExample example(example_at(query, *ranked), *segments, movement);
   FindLimits unlimited = limits;
   unlimited.limit.reset();
-  std::vector<Segment> all;
-  for (const std::unique_ptr<Search>& search : searches) {
-    search->run(unlimited);
-    search->append(all);
-  }
-  if (searches.size() > 1) std::ranges::stable_sort(all, {}, &Segment::recording);
-  std::size_t part = 0;
-  for (std::size_t place = 0; place < *ranked; ++place) part += 1 + query.elements[place].relations.size();
+  std::vector<Segment> all = segments_found(unlimited);
+  const std::size_t part = part_of_place(query, *ranked);
   NearestSearch search(example.shape(), std::max<std::size_t>(1, limits.limit.value_or(kNearest)));
   for (std::size_t i = 0; i < all.size(); ++i) {
     watch.tick();
@@ -48,14 +91,15 @@ std::vector<Segment> PreparedQuery::State::nearest(const FindLimits& limits) {
   return result;
 }
 
-PreparedQuery::PreparedQuery(PhaseQuery query, std::shared_ptr<const Segments> segments, const Movement* movement)
+PreparedQuery::PreparedQuery(PhaseQuery query, std::shared_ptr<const Segments> segments, const Movement* movement,
+                             const FindLimits& limits)
     : state_(std::make_unique<State>()) {
   state_->query = std::move(query);
   state_->segments = std::move(segments);
   state_->movement = movement;
   state_->ranked = ranked_place(state_->query);
   for (const Segments::Member& member : state_->segments->members()) {
-    state_->searches.push_back(std::make_unique<Search>(state_->query, member, movement));
+    state_->searches.push_back(std::make_unique<Search>(state_->query, member, movement, limits));
   }
 }
 
@@ -73,17 +117,7 @@ FindCounts PreparedQuery::counts() const noexcept {
 }
 
 std::vector<Segment> PreparedQuery::find(const FindLimits& limits) {
-  if (state_->ranked) return state_->nearest(limits);
-  std::vector<Segment> result;
-  for (const std::unique_ptr<Search>& search : state_->searches) {
-    search->run(limits);
-    search->append(result);
-  }
-  if (state_->searches.size() > 1) {  // each in order, each of other recordings
-    std::ranges::stable_sort(result, {}, &Segment::recording);
-    if (limits.limit && result.size() > *limits.limit) result.resize(*limits.limit);
-  }
-  return result;
+  return state_->ranked ? state_->nearest(limits) : state_->segments_found(limits);
 }
 
 void PreparedQuery::find(std::vector<FoundRow>& rows, const FindLimits& limits) {
@@ -92,27 +126,15 @@ void PreparedQuery::find(std::vector<FoundRow>& rows, const FindLimits& limits) 
     for (const Segment& segment : state_->nearest(limits)) rows.push_back({segment.row, segment.span});
     return;
   }
-  const Segments& segments = *state_->segments;
-  bool ordered = true;
-  for (const std::unique_ptr<Search>& search : state_->searches) {
-    search->run(limits);
-    const std::size_t before = rows.size();
-    search->append(rows);
-    if (before == 0 || before == rows.size()) continue;
-    ordered = ordered && segments.recording(rows[before - 1].row) < segments.recording(rows[before].row);
-  }
-  if (state_->searches.size() > 1) {
-    if (!ordered) {
-      std::ranges::stable_sort(rows, {}, [&](const FoundRow& one) { return segments.recording(one.row); });
-    }
-    if (limits.limit && rows.size() > *limits.limit) rows.resize(*limits.limit);
-  }
+  state_->run(limits, false);
+  state_->for_matches(limits,
+                      [&](const Search& search, const Search::Match& match) { rows.push_back(search.row_of(match)); });
 }
 
 std::vector<Segment> find(const PhaseQuery& query, const Segments& segments, const FindLimits& limits,
                           const Movement* movement) {
   // What is borrowed outlives the query.
-  return PreparedQuery(query, std::shared_ptr<const Segments>(std::shared_ptr<void>(), &segments), movement)
+  return PreparedQuery(query, std::shared_ptr<const Segments>(std::shared_ptr<void>(), &segments), movement, limits)
       .find(limits);
 }
 

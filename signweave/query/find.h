@@ -27,14 +27,16 @@ struct SegmentPart {
 /// One answer (the paper, section 4.2: "each segment a name as well as starting and ending time stamps").
 struct Segment {
   std::string recording;
+  std::string
+      tier;  ///< that it lies on; of an inferred stroke or a unit that of its signs; of a sequence of its first place
   /// In match form: the gloss of a sign; of a phase its sign's gloss and what it is, "VANNES stroke" (a label that no
   /// mapping knows stands as it is); the label of another annotation; of a sequence the names of its places with
   /// blanks.
   std::string name;
   TimeSpan span{};     ///< of a sequence: from the begin of its first place to the end of its last
   RowId row = kNoRow;  ///< of a sequence: its first place
-  /// Every place in order, each followed by its partners in relations; empty for a query of one place without
-  /// relations.
+  /// Every place in order, each followed by its partners in relations (those of groups that end there last; of a
+  /// partner that is a sequence its own parts); empty for a query of one place without relations.
   std::vector<SegmentPart> parts;
   std::vector<std::pair<std::string, std::string>> bindings;  ///< variables without `$`, and their values in match form
   std::optional<float> distance = {};  ///< from the example of like(…), shoulder widths (query/example.h)
@@ -56,8 +58,9 @@ struct FoundRow {
 /// A query made ready for some segments, to be asked again and again. For one thread at a time.
 class PreparedQuery {
  public:
-  /// Borrows the movement; without it nothing is known of movement.
-  PreparedQuery(PhaseQuery query, std::shared_ptr<const Segments> segments, const Movement* movement = nullptr);
+  /// Borrows the movement; without it nothing is known of movement. Throws Error{cancelled} where `limits` say so.
+  PreparedQuery(PhaseQuery query, std::shared_ptr<const Segments> segments, const Movement* movement = nullptr,
+                const FindLimits& limits = {});
   ~PreparedQuery();
   PreparedQuery(PreparedQuery&&) noexcept;
   PreparedQuery& operator=(PreparedQuery&&) noexcept;

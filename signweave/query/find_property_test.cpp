@@ -73,14 +73,14 @@ class Oracle {
   explicit Oracle(const SegmentTable& table) : table_(table) {}
 
   std::set<std::vector<RowId>> answers(const PhaseQuery& query) {
-    marked_ = false;
-    for (const Element& element : query.elements) {
-      marked_ = marked_ || element.term.marked;
-      for (const Relation& relation : element.relations) marked_ = marked_ || relation.term.marked;
-    }
     std::set<std::vector<RowId>> result;
-    std::vector<RowId> places;
-    search(query, places, result);
+    for (const Found& found : all(query)) {
+      if (is_marked(query)) {
+        result.insert(found.marked.begin(), found.marked.end());
+      } else {
+        result.insert(found.places);
+      }
+    }
     return result;
   }
 
@@ -91,7 +91,22 @@ class Oracle {
   };
   using Alternative = std::vector<Literal>;
 
-  void search(const PhaseQuery& query, std::vector<RowId>& places, std::set<std::vector<RowId>>& result) {
+  /// A way to fill the places of a query, and what it marks then.
+  struct Found {
+    std::vector<RowId> places;
+    std::set<std::vector<RowId>> marked;
+  };
+
+  const std::vector<Found>& all(const PhaseQuery& query) const {
+    const auto known = found_.find(&query);
+    if (known != found_.end()) return known->second;
+    std::vector<Found> result;
+    std::vector<RowId> places;
+    search(query, places, result);
+    return found_[&query] = std::move(result);
+  }
+
+  void search(const PhaseQuery& query, std::vector<RowId>& places, std::vector<Found>& result) const {
     if (places.size() == query.elements.size()) return keep(query, places, result);
     for (RowId row = 0; row < table_.size(); ++row) {
       if (table_.kind(row) == RowKind::unit) continue;  // nothing here asks for them
@@ -103,22 +118,64 @@ class Oracle {
     }
   }
 
-  void keep(const PhaseQuery& query, const std::vector<RowId>& places, std::set<std::vector<RowId>>& result) {
-    std::set<RowId> marked;
+  TimeSpan span_of(const std::vector<RowId>& rows) const {
+    return {row(rows.front()).span.begin, row(rows.back()).span.end};
+  }
+
+  void keep(const PhaseQuery& query, const std::vector<RowId>& places, std::vector<Found>& result) const {
+    Found found{places, {}};
     for (std::size_t i = 0; i < places.size(); ++i) {
-      if (query.elements[i].term.marked) marked.insert(places[i]);
-      for (const Relation& relation : query.elements[i].relations) {
-        bool found = false;
-        for (RowId other = 0; other < table_.size(); ++other) {
-          if (!stand_in(places[i], relation.link, other) || !answers(relation.term.expression, other, false)) continue;
-          found = true;
-          if (relation.term.marked) marked.insert(other);
+      const Element& element = query.elements[i];
+      if (element.term.marked) found.marked.insert({places[i]});
+      for (const Relation& relation : element.relations) {
+        if (!has_partner({places[i]}, relation, found.marked)) return;
+      }
+      for (const Group& group : element.groups) {
+        const auto last = places.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+        const std::vector<RowId> whole(last - static_cast<std::ptrdiff_t>(group.places), last);
+        const TimeSpan span = span_of(whole);
+        for (const Condition& condition : group.conditions) {
+          const bool begin = condition.field == Field::begin;
+          const Milliseconds time = begin                           ? span.begin
+                                    : condition.field == Field::end ? span.end
+                                                                    : span.end - span.begin;
+          if (!compare(time, condition)) return;
         }
-        if (!found) return;
+        if (group.marked) found.marked.insert(whole);
+        for (const Relation& relation : group.relations) {
+          if (!has_partner(whole, relation, found.marked)) return;
+        }
       }
     }
-    if (!marked_) result.insert(places);
-    for (const RowId row : marked) result.insert({row});
+    result.push_back(std::move(found));
+  }
+
+  bool has_partner(const std::vector<RowId>& of, const Relation& relation, std::set<std::vector<RowId>>& marked) const {
+    if (!relation.sequence.empty()) return has_sequence(of, relation.link, relation.sequence.front(), marked);
+    bool any = false;
+    for (RowId other = 0; other < table_.size(); ++other) {
+      if (std::find(of.begin(), of.end(), other) != of.end() || row(other).recording != row(of.front()).recording)
+        continue;
+      if (!spans_stand_in(span_of(of), relation.link, row(other).span)) continue;
+      if (!answers(relation.term.expression, other, false)) continue;
+      any = true;
+      if (relation.term.marked) marked.insert({other});
+    }
+    return any;
+  }
+
+  bool has_sequence(const std::vector<RowId>& of, Link link, const PhaseQuery& sequence,
+                    std::set<std::vector<RowId>>& marked) const {
+    bool any = false;
+    const auto apart = [&](RowId other) { return std::find(of.begin(), of.end(), other) == of.end(); };
+    for (const Found& other : all(sequence)) {
+      if (row(other.places.front()).recording != row(of.front()).recording) continue;
+      if (!std::all_of(other.places.begin(), other.places.end(), apart)) continue;
+      if (!spans_stand_in(span_of(of), link, span_of(other.places))) continue;
+      any = true;
+      marked.insert(other.marked.begin(), other.marked.end());
+    }
+    return any;
   }
 
   SegmentRow row(RowId id) const { return table_.row(id); }
@@ -150,9 +207,10 @@ class Oracle {
   }
 
   bool stand_in(RowId a, Link link, RowId b) const {
-    if (a == b || row(a).recording != row(b).recording) return false;
-    const TimeSpan one = row(a).span;
-    const TimeSpan other = row(b).span;
+    return a != b && row(a).recording == row(b).recording && spans_stand_in(row(a).span, link, row(b).span);
+  }
+
+  static bool spans_stand_in(TimeSpan one, Link link, TimeSpan other) {
     switch (link) {
       case Link::overlaps:
         return std::max(one.begin, other.begin) < std::min(one.end, other.end) ||
@@ -261,6 +319,10 @@ class Oracle {
       case Expression::Kind::link:
         break;
     }
+    if (!expression.sequence.empty()) {
+      std::set<std::vector<RowId>> marked;
+      return has_sequence({id}, expression.link, expression.sequence.front(), marked);
+    }
     const Expression& inner = expression.operands[0];
     for (RowId other = 0; other < table_.size(); ++other) {
       bool fits = false;
@@ -341,22 +403,15 @@ class Oracle {
   }
 
   const SegmentTable& table_;
-  bool marked_ = false;
+  mutable std::map<const PhaseQuery*, std::vector<Found>> found_;
 };
 
 std::vector<RowId> key_of(const Segment& segment, const PhaseQuery& query) {
-  bool marked = false;
-  for (const Element& element : query.elements) {
-    marked = marked || element.term.marked;
-    for (const Relation& relation : element.relations) marked = marked || relation.term.marked;
-  }
-  if (marked || query.elements.size() == 1) return {segment.row};
+  if (segment.parts.empty()) return {segment.row};
+  std::vector<std::size_t> parts = marked_parts(query);
+  for (std::size_t i = 0; i < query.elements.size() && !is_marked(query); ++i) parts.push_back(part_of_place(query, i));
   std::vector<RowId> result;
-  std::size_t part = 0;
-  for (const Element& element : query.elements) {
-    result.push_back(segment.parts[part].row);
-    part += 1 + element.relations.size();
-  }
+  for (const std::size_t part : parts) result.push_back(segment.parts[part].row);
   return result;
 }
 
@@ -391,15 +446,23 @@ TEST(FindProperty, RandomQueriesHaveAnswersOftenEnoughToMeanSomething) {
   std::mt19937 random(1);
   int answered = 0;
   int sequences = 0;
-  for (int i = 0; i < 2'000; ++i) {
+  int groups = 0;
+  int partners = 0;
+  for (int i = 0; i < 4'000; ++i) {
     const SegmentTable table = random_table(random);
     const PhaseQuery query = parse(to_string(random_query(random)));
     if (find(query, table, {.limit = 1, .deadline = {}}).empty()) continue;
     ++answered;
     sequences += query.elements.size() > 1 ? 1 : 0;
+    for (const Element& element : query.elements) {
+      groups += element.groups.empty() ? 0 : 1;
+      partners += !element.relations.empty() && !element.relations[0].sequence.empty() ? 1 : 0;
+    }
   }
-  EXPECT_GT(answered, 600);
-  EXPECT_GT(sequences, 100);
+  EXPECT_GT(answered, 1'200);
+  EXPECT_GT(sequences, 200);
+  EXPECT_GT(groups, 25);
+  EXPECT_GT(partners, 25);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "signweave/query/corpus_for_tests.h"
+#include "signweave/query/explain.h"
 #include "signweave/query/parse.h"
-#include "signweave/query/plan.h"
 
 namespace signweave {
 namespace {
@@ -204,6 +204,52 @@ TEST(Find, AMarkMakesOnePartTheAnswer) {
       << "each answer once, however many partners it has";
 }
 
+TEST(Find, AGroupIsOneSegment) {
+  const std::vector<Segment> found =
+      find(parse("(gloss = MATIN -> gloss = NUAGES) overlaps tier(\"Mouthing\") = \"matin\""), weather());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(shown(found[0]), "meteo MATIN NUAGES 500..2000");
+  ASSERT_EQ(found[0].parts.size(), 3U);
+  EXPECT_EQ(found[0].parts[2].name, "matin");
+  EXPECT_THAT(answers("(gloss = MATIN -> gloss = NUAGES) & duration > 1500ms"), IsEmpty());
+  EXPECT_THAT(answers("(gloss = MATIN -> gloss = NUAGES) & duration = 1500ms"),
+              ElementsAre("meteo MATIN NUAGES 500..2000"));
+  EXPECT_THAT(answers("gloss = MATIN overlaps (gloss = MATIN -> gloss = NUAGES)"), IsEmpty())
+      << "no annotation is on both sides";
+}
+
+TEST(Find, AMarkInAPartnerMakesThatTheAnswer) {
+  EXPECT_THAT(answers("tier(\"Mouthing\") = \"matin\" overlaps (gloss = MATIN -> @ gloss = NUAGES)"),
+              ElementsAre("meteo NUAGES 1000..2000"));
+  EXPECT_THAT(answers("tier(\"Mouthing\") = \"matin\" overlaps @ (gloss = MATIN -> gloss = NUAGES)"),
+              ElementsAre("meteo MATIN NUAGES 500..2000"));
+}
+
+TEST(Find, VariablesReachIntoPartnersThatAreSequences) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Gloss").tier("Phase").tier("Mouth");
+  corpus.sign("Gloss", "A", {0ms, 10ms});
+  corpus.sign("Gloss", "B", {20ms, 30ms});
+  corpus.sign("Gloss", "A", {40ms, 50ms});
+  corpus.annotation_on("Mouth", "A", {0ms, 3ms});
+  corpus.annotation_on("Mouth", "B", {4ms, 25ms});
+  corpus.annotation_on("Mouth", "A", {26ms, 60ms});
+  const SegmentTable table = corpus.table();
+  const auto bound = [&](const char* text) {
+    std::vector<std::string> result;
+    for (const Segment& segment : find(parse(text), table)) {
+      std::string line = shown(segment);
+      for (const auto& [name, value] : segment.bindings) line += ' ' + name + '=' + value;
+      result.push_back(line);
+    }
+    return result;
+  };
+  EXPECT_THAT(bound("gloss = $X overlaps (tier(\"Mouth\") = $Y -> tier(\"Mouth\") = $X)"),
+              ElementsAre("r A 0..10 X=A Y=B", "r B 20..30 X=B Y=A", "r A 40..50 X=A Y=B"));
+  EXPECT_THAT(bound("gloss = $X overlaps (@ tier(\"Mouth\") = $X -> tier(\"Mouth\") != $X)"),
+              ElementsAre("r A 0..3 X=A", "r B 4..25 X=B"));
+}
+
 TEST(Find, ALimitGivesTheFirstAnswers) {
   EXPECT_THAT(answers("gloss =~ /.*/", {.limit = 3, .deadline = {}}),
               ElementsAre("cities VANNES 100..900", "cities BREST 1000..1500", "meteo MATIN 500..1000"));
@@ -233,10 +279,84 @@ TEST(Find, ADeadlineStopsAQueryThatWouldNeverEnd) {
       parse("gloss = A ->[0s..] gloss = A ->[0s..] gloss = A ->[0s..] gloss = A ->[0s..] gloss = B");
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_THROW(
-      find(parse("gloss = A ->[0s..] gloss = A ->[0s..] gloss = A"), table, {.limit = 1, .deadline = begin + 50ms}),
+      find(parse("gloss = A ->[0s..] gloss = A ->[0s..] @ gloss = A"), table, {.limit = 1, .deadline = begin + 50ms}),
       Error);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 10s);
   EXPECT_THAT(find(query, table), IsEmpty()) << "it starts from the rarest place";
+}
+
+TEST(Find, ALimitStopsAQueryThatWouldNeverEnd) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Gloss").tier("Phase");
+  for (int i = 0; i < 2'000; ++i) corpus.sign("Gloss", "A", {Milliseconds(10 * i), Milliseconds(10 * i + 10)});
+  const SegmentTable table = corpus.table();
+  const PhaseQuery query = parse("gloss = A ->[0s..] gloss = A ->[0s..] gloss = A ->[0s..] gloss = A");  // 7e11
+  const std::vector<Segment> found = find(query, table, {.limit = 100, .deadline = {}});
+  ASSERT_EQ(found.size(), 100U);
+  EXPECT_EQ(found.front().span, (TimeSpan{0ms, 40ms}));
+  EXPECT_EQ(found.back().span.begin, 0ms);
+}
+
+TEST(Find, MoreAnswersThanMayBeKeptAreAnError) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Gloss").tier("Phase");
+  for (int i = 0; i < 1'000; ++i) corpus.sign("Gloss", "A", {Milliseconds(10 * i), Milliseconds(10 * i + 10)});
+  const SegmentTable table = corpus.table();
+  const PhaseQuery query = parse("gloss = A ->[0s..] gloss = A ->[0s..] gloss = A");  // 166 million
+  try {
+    find(query, table);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::bad_input);
+    EXPECT_THAT(error.what(), HasSubstr("more than 5000000 answers, or 10000000 parts of them"));
+  }
+  EXPECT_EQ(find(query, table, {.limit = 1, .deadline = {}}).size(), 1U);
+}
+
+TEST(Find, ASearchThatWasBrokenOffLeavesNothingBehind) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Gloss").tier("Phase");
+  for (int i = 0; i < 4'000; ++i) {
+    corpus.sign("Gloss", i < 2 ? "B" : "A", {Milliseconds(10 * i), Milliseconds(10 * i + 10)});
+  }
+  PreparedQuery query(parse("gloss = $X ->[0s..] gloss = $X"), std::make_shared<const Segments>(corpus.table()));
+  EXPECT_THROW(query.find(), Error);  // at one of the A, of which there are too many pairs
+  const std::vector<Segment> found = query.find({.limit = 1, .deadline = {}});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().name, "B B");
+}
+
+TEST(Find, OfSeveralWaysToAnAnswerTheFirstInTimeIsTold) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Left").tier("Right").tier("Phase").tier("M");
+  corpus.sign("Left", "LATE", {1'500ms, 2'000ms});
+  corpus.sign("Right", "EARLY", {1'000ms, 1'400ms});
+  corpus.annotation_on("M", "m", {900ms, 2'100ms});
+  const std::vector<Segment> found = find(parse("gloss =~ /.*/ overlaps @ tier(\"M\") = m"), corpus.table());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().tier, "M");
+  ASSERT_EQ(found.front().parts.size(), 2U);
+  EXPECT_EQ(found.front().parts.front().name, "EARLY");
+}
+
+TEST(Find, TellsOnWhichTierAnAnswerLies) {
+  const auto tier_of = [](std::string_view text) { return find(parse(text), weather()).front().tier; };
+  EXPECT_EQ(tier_of("gloss = VANNES"), "Gloss");
+  EXPECT_EQ(tier_of("gloss = VANNES & phase = stroke"), "Phase");
+  EXPECT_EQ(tier_of("tier(\"Mouthing\") = \"matin\""), "Mouthing");
+  EXPECT_EQ(tier_of("unit"), "Gloss");
+  EXPECT_EQ(tier_of("gloss = MATIN -> gloss = NUAGES"), "Gloss");
+}
+
+TEST(Find, ALongUnitIsNamedAfterItsFirstSigns) {
+  TestCorpus corpus;
+  corpus.recording("r").tier("Gloss").tier("Phase");
+  for (int i = 0; i < 70; ++i) corpus.sign("Gloss", "A", {Milliseconds(10 * i), Milliseconds(10 * i + 10)});
+  const std::vector<Segment> found = find(parse("unit"), corpus.table());
+  ASSERT_EQ(found.size(), 1U);
+  std::string name;
+  for (int i = 0; i < 64; ++i) name += "A ";
+  EXPECT_EQ(found.front().name, name + "…");
 }
 
 TEST(Find, AnEmptyTableAnswersNothing) {
@@ -271,6 +391,18 @@ TEST(Explain, SaysWhichIndexIsUsed) {
   EXPECT_THAT(explained("duration > 300ms"), HasSubstr("all rows"));
   EXPECT_THAT(explained("parent(gloss = BREST) & duration > 1ms"), HasSubstr("the children of the gloss index"));
   EXPECT_THAT(explained("gloss =~ /.*/ -> gloss = BREST"), HasSubstr("1. look up about 1 rows: the gloss index"));
+  EXPECT_EQ(
+      explained("(gloss = MATIN -> gloss = NUAGES) & duration < 2s overlaps (gloss = VANNES -> gloss = BREST)"),
+      "(gloss = \"MATIN\" -> gloss = \"NUAGES\") & duration < 2000ms overlaps (gloss = \"VANNES\" -> gloss = "
+      "\"BREST\")\n"
+      "1. look up about 2 rows: the gloss index (gloss = \"MATIN\")\n"
+      "2. keep those with gloss = \"MATIN\"\n"
+      "3. the row directly after: keep those with gloss = \"NUAGES\"\n"
+      "4. keep those where (gloss = \"MATIN\" -> gloss = \"NUAGES\") has duration < 2000ms\n"
+      "5. find the partner: (gloss = \"MATIN\" -> gloss = \"NUAGES\") overlaps what is found in its recording so:\n"
+      "6.    look up about 1 rows: the gloss index (gloss = \"BREST\")\n"
+      "7.    keep those with gloss = \"BREST\"\n"
+      "8.    the row directly before: keep those with gloss = \"VANNES\"\n");
   EXPECT_THAT(explained("duration > 1ms overlaps tier(\"Mouthing\") = \"pluie\""), HasSubstr("the label index"));
 }
 

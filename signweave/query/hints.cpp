@@ -9,6 +9,10 @@
 namespace signweave {
 namespace {
 
+// A query may have thousands of conditions; nobody reads more than a few hints.
+constexpr std::size_t kMostHints = 8;
+constexpr int kMostConditions = 64;
+
 class Hinter {
  public:
   explicit Hinter(const Segments& segments) : segments_(segments) {}
@@ -16,12 +20,17 @@ class Hinter {
   void look_at(const Expression& expression) {
     if (expression.kind == Expression::Kind::condition) look_at(expression.condition);
     for (const Expression& operand : expression.operands) look_at(operand);
+    for (const PhaseQuery& sequence : expression.sequence) look_at(sequence);
+  }
+  void look_at(const PhaseQuery& query) {
+    for_parts(query, [&](const Term& term) { look_at(term.expression); });
   }
 
   std::vector<Notice> take() { return std::move(notices_); }
 
  private:
   void look_at(const Condition& condition) {
+    if (notices_.size() >= kMostHints || ++looked_at_ > kMostConditions) return;
     if (std::holds_alternative<QueryVariable>(condition.value)) return;
     if (condition.field == Field::gloss) {
       if (glosses_.empty()) glosses_ = segments_.glosses();
@@ -59,6 +68,7 @@ class Hinter {
 
   const Segments& segments_;
   std::vector<std::string> glosses_;
+  int looked_at_ = 0;
   std::vector<Notice> notices_;
 };
 
@@ -66,10 +76,7 @@ class Hinter {
 
 std::vector<Notice> hints(const PhaseQuery& query, const Segments& segments) {
   Hinter hinter(segments);
-  for (const Element& element : query.elements) {
-    hinter.look_at(element.term.expression);
-    for (const Relation& relation : element.relations) hinter.look_at(relation.term.expression);
-  }
+  hinter.look_at(query);
   return hinter.take();
 }
 

@@ -150,6 +150,14 @@ void QueryLexer::fail(std::size_t offset, const std::string& what, ErrorCode cod
                    caret_under(rest.substr(0, rest.find('\n')), offset - line_begin));
 }
 
+std::string QueryLexer::place_of(std::size_t offset) const {
+  const std::string_view before = text_.substr(0, offset);
+  const std::size_t line_begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
+  const std::size_t column = 1 + letters(before.substr(line_begin));
+  if (line_begin == 0) return fmt::format("column {}", column);
+  return fmt::format("line {}, column {}", 1 + std::count(before.begin(), before.end(), '\n'), column);
+}
+
 void QueryLexer::skip_blanks() noexcept {
   at_ = std::min(text_.find_first_not_of(kBlanks, at_), text_.size());
 }

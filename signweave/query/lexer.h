@@ -47,6 +47,8 @@ class QueryLexer {
   static std::string shown(const QueryToken& token);
 
   [[noreturn]] void fail(std::size_t offset, const std::string& what, ErrorCode code = ErrorCode::bad_input) const;
+  /// "column 3", "line 2, column 3": counted in characters.
+  std::string place_of(std::size_t offset) const;
   /// Where a view into the text begins.
   std::size_t offset_of(std::string_view part) const noexcept {
     return static_cast<std::size_t>(part.data() - text_.data());

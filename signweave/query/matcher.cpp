@@ -5,6 +5,7 @@
 #include "signweave/core/text.h"
 #include "signweave/query/neighbours.h"
 #include "signweave/query/regex.h"
+#include "signweave/query/search.h"
 
 namespace signweave {
 namespace {
@@ -94,15 +95,23 @@ bool compares(Milliseconds time, Compare compare, Milliseconds value) noexcept {
 
 }  // namespace
 
-Matcher::Matcher(const Expression& expression, const SegmentTable& table, Watch& watch, const MovingTable& moving,
+bool holds(const Condition& condition, TimeSpan span) noexcept {
+  const Milliseconds time = condition.field == Field::begin ? span.begin
+                            : condition.field == Field::end ? span.end
+                                                            : span.duration();
+  return compares(time, condition.compare, std::get<Milliseconds>(condition.value));
+}
+
+Matcher::Matcher(const Expression& expression, const Segments::Member& member, const Movement* movement, Watch& watch,
                  Plain plain)
-    : table_(&table),
+    : member_(&member),
+      table_(&member.table),
+      movement_(movement),
       watch_(&watch),
-      moving_(moving),
       plain_(plain),
       tier_names_(tiers_named(expression)),
       scopes_(scopes_of(expression, tier_names_)) {
-  for (const std::string& name : tier_names_) tiers_.push_back(tiers_called(name, table));
+  for (const std::string& name : tier_names_) tiers_.push_back(tiers_called(name, *table_));
   root_ = bind(expression);
 }
 
@@ -114,7 +123,11 @@ BoundExpression Matcher::bind(const Expression& expression) {
     result.condition = bind(expression.condition);
   } else if (expression.kind == Expression::Kind::link) {
     const Plain plain = expression.link <= Link::descendant ? Plain::any : Plain::sign;
-    result.linked = std::make_unique<Matcher>(expression.operands.front(), *table_, *watch_, moving_, plain);
+    if (!expression.sequence.empty()) {
+      result.sequence = std::make_shared<Search>(expression.sequence.front(), *member_, movement_, *watch_, false);
+    } else {
+      result.linked = std::make_unique<Matcher>(expression.operands.front(), *member_, movement_, *watch_, plain);
+    }
   } else {
     result.top = top_scope(expression, tier_names_);
     for (const Expression& operand : expression.operands) result.operands.push_back(bind(operand));
@@ -141,6 +154,7 @@ BoundCondition Matcher::bind(const Condition& condition) {
         break;
       }
       if (const Regex* regex = std::get_if<Regex>(&condition.value)) {
+        watch_->check();
         result.regex = compile(*regex);
         result.known.resize(table_->text_count());
       } else {
@@ -166,7 +180,7 @@ BoundCondition Matcher::bind(const Condition& condition) {
       result.time = std::get<Milliseconds>(condition.value);
       break;
     case Field::movement:
-      result.movement = std::make_unique<MovementCheck>(condition, moving_.movement);
+      result.movement = std::make_unique<MovementCheck>(condition, movement_);
       break;
     case Field::like:
       break;
@@ -174,15 +188,11 @@ BoundCondition Matcher::bind(const Condition& condition) {
   return result;
 }
 
-bool Matcher::fits(BoundCondition& condition, std::uint32_t label) {
-  if (condition.variable) return true;  // VariableCheck looks at all of them together
-  if (!condition.regex) return (condition.label == label) == (condition.compare == Compare::equal);
-  std::uint8_t& known = condition.known[label];
-  if (known == 0) {
-    watch_->tick();
-    known = RE2::FullMatch(table_->text_at(label), *condition.regex) ? 2 : 1;
-  }
-  return known == 2;
+bool Matcher::try_label(BoundCondition& condition, std::uint32_t label) {
+  watch_->tick();
+  const bool fits = RE2::FullMatch(table_->text_at(label), *condition.regex);
+  condition.known[label] = fits ? kFits : 1;
+  return fits;
 }
 
 bool Matcher::accepts(RowId row) {
@@ -239,7 +249,9 @@ Scopes Matcher::holds(BoundExpression& expression, RowId row) {
       return holds(expression.operands.front(), row).empty() ? expression.top : Scopes::none();
     case Expression::Kind::link: {
       const Scopes scope = expression.link <= Link::descendant ? Scopes::linked() : Scopes::plain();
-      return holds_for_linked(expression.link, *expression.linked, row) ? scope : Scopes::none();
+      const bool found = expression.sequence ? holds_for_sequence(expression.link, *expression.sequence, row)
+                                             : holds_for_linked(expression.link, *expression.linked, row);
+      return found ? scope : Scopes::none();
     }
     case Expression::Kind::any: {
       Scopes result = Scopes::none();
@@ -296,9 +308,9 @@ bool Matcher::holds(BoundCondition& condition, RowId row) {
 }
 
 bool Matcher::holds_moving(MovementCheck& check, RowId row) {
-  if (moving_.movement == nullptr) return false;
+  if (movement_ == nullptr) return false;
   const std::uint32_t recording = table_->recording(row);
-  const std::uint32_t number = (*moving_.numbers)[recording];
+  const std::uint32_t number = member_->numbers[recording];
   if (number == SegmentTable::kNone) return false;
   const RowKind kind = table_->kind(row);
   const Hand hand = table_->hand(row);
@@ -368,6 +380,15 @@ bool Matcher::holds_for_linked(Link link, Matcher& linked, RowId row) {
   bool found = false;
   for_rows_around(*table_, table_->recording(row), span, [&](RowId other) {
     found = other != row && related(span, link, table_->span(other)) && linked.accepts(other);
+    return !found;
+  });
+  return found;
+}
+
+bool Matcher::holds_for_sequence(Link link, Search& sequence, RowId row) {
+  bool found = false;
+  sequence.for_related(table_->recording(row), table_->span(row), link, [&](const Search::Match& match) {
+    found = !sequence.has_place(match, row);
     return !found;
   });
   return found;

@@ -12,7 +12,7 @@
 #include "signweave/query/phase_query.h"
 #include "signweave/query/scopes.h"
 #include "signweave/query/watch.h"
-#include "signweave/semantic_db/segment_table.h"
+#include "signweave/semantic_db/segments.h"
 
 namespace signweave {
 
@@ -35,6 +35,10 @@ struct BoundCondition {
 };
 
 class Matcher;
+class Search;
+
+/// Whether a span fulfils a condition on duration, begin or end.
+bool holds(const Condition& condition, TimeSpan span) noexcept;
 
 /// An expression made ready for one table.
 struct BoundExpression {
@@ -42,18 +46,19 @@ struct BoundExpression {
   BoundCondition condition;
   Scopes top = Scopes::none();  ///< of a negation
   Link link = Link::parent;
-  std::unique_ptr<Matcher> linked;  ///< of a link
+  std::unique_ptr<Matcher> linked;   ///< of a link
+  std::shared_ptr<Search> sequence;  ///< of a link to one
   std::vector<BoundExpression> operands;
 };
 
 /// Tells for each row of a table whether an expression holds for it. Regular expressions are tried once per distinct
-/// label. Borrows expression, table and watch, which must outlive it. For one thread.
+/// label. Borrows all that it is made of, which must outlive it. For one thread.
 class Matcher {
  public:
   /// What a row must be where the expression speaks of times and recordings only.
   enum class Plain { sign, any };
 
-  Matcher(const Expression& expression, const SegmentTable& table, Watch& watch, const MovingTable& moving = {},
+  Matcher(const Expression& expression, const Segments::Member& member, const Movement* movement, Watch& watch,
           Plain plain = Plain::sign);
 
   /// Whether the expression holds for the row, and the row is of the sort that the expression ranges over.
@@ -62,15 +67,27 @@ class Matcher {
   Scopes scopes() const noexcept { return scopes_; }
   BoundExpression& root() noexcept { return root_; }
   const SegmentTable& table() const noexcept { return *table_; }
-  const MovingTable& moving() const noexcept { return moving_; }
   /// For each tier that the expression names, in order, the tiers of the table with that name.
   const std::vector<std::vector<std::uint32_t>>& tiers() const noexcept { return tiers_; }
   /// The tiers on which all rows that it may accept lie as annotations; none where others may be accepted too.
   std::optional<std::vector<std::uint32_t>> only_tiers() const;
+  /// The same as `accepts` for a row that lies as an annotation on one of `only_tiers()`.
+  bool accepts_on_tier(RowId row) {
+    if (root_.kind != Expression::Kind::condition || root_.condition.field != Field::tier) return accepts(row);
+    return fits(root_.condition, table_->label(row));
+  }
   /// Whether a label fits a gloss or tier condition.
-  bool fits(BoundCondition& condition, std::uint32_t label);
+  bool fits(BoundCondition& condition, std::uint32_t label) {
+    if (condition.variable) return true;  // VariableCheck looks at all of them together
+    if (!condition.regex) return (condition.label == label) == (condition.compare == Compare::equal);
+    const std::uint8_t known = condition.known[label];
+    return known == 0 ? try_label(condition, label) : known == kFits;
+  }
 
  private:
+  static constexpr std::uint8_t kFits = 2;
+
+  bool try_label(BoundCondition& condition, std::uint32_t label);
   BoundExpression bind(const Expression& expression);
   BoundCondition bind(const Condition& condition);
   Scopes holds(BoundExpression& expression, RowId row);
@@ -78,11 +95,13 @@ class Matcher {
   bool holds_on_tier(BoundCondition& condition, RowId row);
   bool holds_moving(MovementCheck& check, RowId row);
   bool holds_for_linked(Link link, Matcher& linked, RowId row);
+  bool holds_for_sequence(Link link, Search& sequence, RowId row);
   Scopes scopes_of_row(RowId row) const noexcept;
 
+  const Segments::Member* member_;
   const SegmentTable* table_;
+  const Movement* movement_;
   Watch* watch_;
-  MovingTable moving_;
   Plain plain_;
   std::vector<std::string> tier_names_;
   std::vector<std::vector<std::uint32_t>> tiers_;

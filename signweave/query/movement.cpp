@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "signweave/features/point_sum.h"
+
 namespace signweave {
 namespace {
 
@@ -28,30 +30,47 @@ PointFrame point_of(const HandAt& at) noexcept {
                     .fingers = facing_of(at.fingers)}};
 }
 
+/// The least of two, or what is no number.
+float lesser(float a, float b) noexcept {
+  return std::isnan(a) || std::isnan(b) ? kNotKnown : std::min(a, b);
+}
+
 bool is_finite(const PointOver& over) noexcept {
   return std::isfinite(over.path_length) && std::isfinite(over.mean_acceleration) && over.begin.position.allFinite() &&
          over.end.position.allFinite();
 }
 
-Stretch from_trace(const HandTrace& trace, FrameRange frames) {
+Stretch from_trace(const HandTrace& trace, FrameRange frames, const Pause& pause) {
   Stretch result;
   if (frames.empty() || trace.samples() == 0) return result;
   result.frames = static_cast<double>(frames.size());
   std::array<PointTrack, 2> tracks;
-  for (const Side side : kSides) {
-    const auto i = static_cast<std::size_t>(side);
-    tracks[i] = trace.track(palm_on(side), frames);
-    if (tracks[i].empty()) continue;
-    const PointOver measured = over(tracks[i], trace.rate, trace.shoulder_width);
-    if (is_finite(measured)) result.hands[i] = measured;
-  }
-  if (!result.hands[0] || !result.hands[1]) return result;
-  result.distance = least_distance(tracks[0], tracks[1], trace.shoulder_width);
+  std::array<PointSum, 2> sums;
   const auto apart = [&](const PointFrame& a, const PointFrame& b) {
     return (a.position - b.position).norm() * trace.shoulder_width;
   };
-  result.begin_distance = apart(tracks[0].front(), tracks[1].front());
-  result.end_distance = apart(tracks[0].back(), tracks[1].back());
+  float least = std::numeric_limits<float>::infinity();
+  for_pieces(frames, pause, [&](FrameRange piece) {
+    for (const Side side : kSides) {
+      const auto i = static_cast<std::size_t>(side);
+      trace.track(palm_on(side), piece, tracks[i]);
+      for (const PointFrame& frame : tracks[i]) sums[i].add(frame);
+    }
+    if (tracks[0].empty() || tracks[1].empty()) return;
+    least = lesser(least, least_distance(tracks[0], tracks[1], trace.shoulder_width));
+    if (piece.begin == frames.begin) result.begin_distance = apart(tracks[0].front(), tracks[1].front());
+    result.end_distance = apart(tracks[0].back(), tracks[1].back());
+  });
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (tracks[i].empty()) continue;
+    const PointOver measured = sums[i].over(trace.rate, trace.shoulder_width);
+    if (is_finite(measured)) result.hands[i] = measured;
+  }
+  if (result.hands[0] && result.hands[1]) {
+    result.distance = least;
+  } else {
+    result.begin_distance = result.end_distance = kNotKnown;
+  }
   return result;
 }
 
@@ -230,7 +249,7 @@ PointOver join(std::span<const PointOver> overs, std::span<const double> frames,
 }
 
 MovementColumns measure_rows(std::span<const MovementRow> rows, const RecordingFeatures& features,
-                             const HandTrace& trace, const FrameClock& clock) {
+                             const HandTrace& trace, const FrameClock& clock, const Pause& pause) {
   MovementColumns columns;
   for (std::vector<float>& column : columns) column.assign(rows.size(), kNotKnown);
   struct Stroke {
@@ -239,9 +258,13 @@ MovementColumns measure_rows(std::span<const MovementRow> rows, const RecordingF
   };
   std::vector<std::vector<Stroke>> strokes(rows.size());
   std::size_t phase = 0;
+  std::size_t calls = 0;
+  const Pause pauses = [&] {  // rows are short mostly
+    if (pause && (calls++ & 0xFU) == 0) pause();
+  };
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (rows[row].kind == RowKind::sign) continue;
-    const Stretch traced = from_trace(trace, measured_frames(rows[row].span, clock, trace.frames));
+    const Stretch traced = from_trace(trace, measured_frames(rows[row].span, clock, trace.frames), pauses);
     if (rows[row].kind == RowKind::annotation) {
       write(traced, trace.body, row, columns);
       continue;
@@ -256,6 +279,7 @@ MovementColumns measure_rows(std::span<const MovementRow> rows, const RecordingF
   }
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (rows[row].kind != RowKind::sign) continue;
+    pauses();
     std::ranges::stable_sort(strokes[row], {}, &Stroke::begin);
     std::vector<Stretch> stretches;
     for (const Stroke& stroke : strokes[row]) stretches.push_back(stroke.stretch);

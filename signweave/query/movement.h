@@ -83,7 +83,13 @@ using MovementColumns = std::array<std::vector<float>, kMovementColumns>;
 /// have it over their strokes; every other row has it from the trace. Numbers of a sign are known where those of each
 /// of its strokes are. A row that the motion holds in part has those of that part, as phases have.
 MovementColumns measure_rows(std::span<const MovementRow> rows, const RecordingFeatures& features,
-                             const HandTrace& trace, const FrameClock& clock);
+                             const HandTrace& trace, const FrameClock& clock, const Pause& pause = {});
+
+/// The numbers of a column, and what keeps them in memory.
+struct ColumnValues {
+  std::span<const float> values;
+  std::shared_ptr<const void> owner;
+};
 
 /// The movement of what the segments of a database list. Recordings are numbered as in Segments, rows within their
 /// recording, as its table has them. For one thread.
@@ -92,8 +98,8 @@ class Movement {
   virtual ~Movement() = default;
 
   /// One number for each row of a recording, kNotKnown where nothing is known of it; or empty: nothing is stored, ask
-  /// for the trace. Valid as long as this object.
-  virtual std::span<const float> column(Column column, std::uint32_t recording) const = 0;
+  /// for the trace.
+  virtual ColumnValues column(Column column, std::uint32_t recording) const = 0;
   /// Metres; 0 where it is not known.
   virtual float shoulder_width(std::uint32_t recording) const = 0;
   virtual FrameClock clock(std::uint32_t recording) const = 0;
@@ -102,6 +108,8 @@ class Movement {
   /// Points of the body over some frames of a recording, as `track_points` gives them, computed from the motion.
   virtual std::vector<PointTrack> points(std::uint32_t recording, std::span<const Part> parts,
                                          FrameRange range) const = 0;
+  /// Called now and then by what works on movement for more than a few milliseconds. May throw Error{cancelled}.
+  virtual void pause() const {}
 };
 
 /// One of the measures of a hand, or of a point in its place; `body` tells the zones.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "signweave/features/point_sum.h"
+
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
@@ -115,12 +117,13 @@ MovementCheck::MovementCheck(const Condition& condition, const Movement* movemen
 
 void MovementCheck::load(std::uint32_t recording) {
   if (recording_ == recording) return;
-  recording_ = recording;
+  recording_.reset();  // where it is stopped below, nothing of it is at hand
   for (Way& way : ways_) {
     const bool palms = way.point.kind == Point::Kind::palm && (!way.other || way.other->kind == Point::Kind::palm);
     if (palms) way.column = movement_->column({way.measure, way.point.side}, recording);
   }
   if (std::holds_alternative<Amount>(condition_->value)) bounds_ = bounds(recording);
+  recording_ = recording;
 }
 
 MovementCheck::Bounds MovementCheck::bounds(std::uint32_t recording) const {
@@ -180,8 +183,8 @@ bool MovementCheck::holds(const MovingRow& row, const Stretches& stretches) {
     const bool wrong =
         !row.any_hand && ((way.own && way.point.side != row.hand) || (way.other_own && way.other->side != row.hand));
     if (wrong) continue;
-    if (!way.column.empty()) {
-      if (fits(way.column[row.row])) return true;
+    if (!way.column.values.empty()) {
+      if (fits(way.column.values[row.row])) return true;
       continue;
     }
     if (!looked_at) looked_at = stretches();
@@ -190,47 +193,61 @@ bool MovementCheck::holds(const MovingRow& row, const Stretches& stretches) {
   return false;
 }
 
-PointTrack MovementCheck::track(const Point& point, std::uint32_t recording, const HandTrace& trace,
-                                FrameRange frames) const {
-  if (point.kind == Point::Kind::palm) return trace.track(palm_on(point.side), frames);
+void MovementCheck::track(const Point& point, std::uint32_t recording, const HandTrace& trace, FrameRange frames,
+                          PointTrack& out) const {
+  if (point.kind == Point::Kind::palm) return trace.track(palm_on(point.side), frames, out);
   for (const Side side : kSides) {
     if (point.part != finger_part(side, Finger::index, FingerPoint::tip)) continue;
-    return trace.track(side == Side::left ? TracePoint::left_index : TracePoint::right_index, frames);
+    return trace.track(side == Side::left ? TracePoint::left_index : TracePoint::right_index, frames, out);
   }
   std::vector<PointTrack> tracks = movement_->points(recording, std::span(&point.part, 1), frames);
-  return tracks.empty() ? PointTrack() : std::move(tracks.front());
+  out = tracks.empty() ? PointTrack() : std::move(tracks.front());
 }
 
 float MovementCheck::from_frames(const Way& way, std::uint32_t recording, std::span<const TimeSpan> stretches) const {
   const std::shared_ptr<const HandTrace> trace = movement_->hands(recording);
-  if (trace->samples() == 0) return kNotKnown;
+  if (trace->samples() == 0 || stretches.empty()) return kNotKnown;
   const FrameClock clock = movement_->clock(recording);
+  const auto apart = [&](const PointFrame& a, const PointFrame& b) {
+    return (a.position - b.position).norm() * trace->shoulder_width;
+  };
   std::vector<PointOver> overs;
   std::vector<double> weights;
+  PointTrack points;
+  PointTrack others;
   float least = kInfinity;
   float first = kNotKnown;
   float last = kNotKnown;
+  bool known = true;
   for (const TimeSpan span : stretches) {
     const FrameRange frames = measured_frames(span, clock, trace->frames);
-    const PointTrack points = frames.empty() ? PointTrack() : track(way.point, recording, *trace, frames);
-    if (points.empty()) return kNotKnown;
-    if (!way.other) {
-      overs.push_back(over(points, trace->rate, trace->shoulder_width));
-      weights.push_back(static_cast<double>(points.size()));
-      continue;
-    }
-    const PointTrack others = track(*way.other, recording, *trace, frames);
-    if (others.size() != points.size()) return kNotKnown;
-    const auto apart = [&](const PointFrame& a, const PointFrame& b) {
-      return (a.position - b.position).norm() * trace->shoulder_width;
-    };
-    const float near = least_distance(points, others, trace->shoulder_width);
-    if (std::isnan(near)) return kNotKnown;
-    if (least == kInfinity) first = apart(points.front(), others.front());
-    last = apart(points.back(), others.back());
-    least = std::min(least, near);
+    if (frames.empty()) return kNotKnown;
+    PointSum sum;
+    for_pieces(
+        frames, [this] { movement_->pause(); },
+        [&](FrameRange piece) {
+          if (!known) return;
+          track(way.point, recording, *trace, piece, points);
+          known = !points.empty();
+          if (!known) return;
+          if (!way.other) {
+            for (const PointFrame& point : points) sum.add(point);
+            return;
+          }
+          track(*way.other, recording, *trace, piece, others);
+          const float near =
+              others.size() == points.size() ? least_distance(points, others, trace->shoulder_width) : kNotKnown;
+          known = !std::isnan(near);
+          if (!known) return;
+          if (least == kInfinity) first = apart(points.front(), others.front());
+          last = apart(points.back(), others.back());
+          least = std::min(least, near);
+        });
+    if (!known) return kNotKnown;
+    if (way.other) continue;
+    overs.push_back(sum.over(trace->rate, trace->shoulder_width));
+    weights.push_back(static_cast<double>(frames.size()));
   }
-  if (stretches.empty()) return kNotKnown;
   if (way.measure == HandMeasure::begin_distance) return first;
   if (way.measure == HandMeasure::end_distance) return last;
   if (way.measure == HandMeasure::distance) return least;
@@ -238,23 +255,59 @@ float MovementCheck::from_frames(const Way& way, std::uint32_t recording, std::s
   return std::isfinite(all.path_length) ? measure_of(all, way.measure, trace->body) : kNotKnown;
 }
 
+#if defined(__SSE2__)
+namespace {
+
+/// Which of four numbers are no less than `low` and no more than `high`; a bound that is infinite is not looked at.
+template <bool kLow, bool kHigh>
+__m128 within(const float* values, __m128 low, __m128 high) noexcept {
+  const __m128 four = _mm_loadu_ps(values);
+  if constexpr (!kLow) return _mm_cmple_ps(four, high);
+  if constexpr (!kHigh) return _mm_cmple_ps(low, four);
+  return _mm_and_ps(_mm_cmple_ps(low, four), _mm_cmple_ps(four, high));
+}
+
+/// Appends `first` + the places of what lies within, of the first multiple of 64 numbers; gives how many those are.
+template <bool kLow, bool kHigh>
+std::size_t append_blocks(std::span<const float> column, float low_bound, float high_bound, RowId first,
+                          std::vector<RowId>& rows) {
+  constexpr std::size_t kBlock = 64;
+  const __m128 low = _mm_set1_ps(low_bound);
+  const __m128 high = _mm_set1_ps(high_bound);
+  std::size_t i = 0;
+  for (; i + kBlock <= column.size(); i += kBlock) {
+    // Of most blocks nothing fits: that is told first, with one branch.
+    const float* values = column.data() + i;
+    __m128 any[4];
+    for (std::size_t k = 0; k < 4; ++k) any[k] = within<kLow, kHigh>(values + 4 * k, low, high);
+    for (std::size_t k = 4; k < kBlock / 4; ++k) {
+      any[k % 4] = _mm_or_ps(any[k % 4], within<kLow, kHigh>(values + 4 * k, low, high));
+    }
+    if (_mm_movemask_ps(_mm_or_ps(_mm_or_ps(any[0], any[1]), _mm_or_ps(any[2], any[3]))) == 0) continue;
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < kBlock / 4; ++k) {
+      const auto four = static_cast<unsigned>(_mm_movemask_ps(within<kLow, kHigh>(values + 4 * k, low, high)));
+      bits |= std::uint64_t{four} << 4 * k;
+    }
+    std::size_t end = rows.size();
+    rows.resize(end + static_cast<std::size_t>(std::popcount(bits)));
+    for (; bits != 0; bits &= bits - 1) {
+      rows[end++] = first + static_cast<RowId>(i) + static_cast<RowId>(std::countr_zero(bits));
+    }
+  }
+  return i;
+}
+
+}  // namespace
+#endif
+
 void MovementCheck::append_within(std::span<const float> column, Bounds bounds, RowId first, std::vector<RowId>& rows) {
   std::size_t i = 0;
 #if defined(__SSE2__)
-  // Sixteen at a time: where none of them fits, which is usual, nothing more is done.
-  const __m128 low = _mm_set1_ps(bounds.low);
-  const __m128 high = _mm_set1_ps(bounds.high);
-  for (; i + 16 <= column.size(); i += 16) {
-    unsigned mask = 0;
-    for (unsigned k = 0; k < 4; ++k) {
-      const __m128 values = _mm_loadu_ps(&column[i + 4 * k]);
-      const __m128 within = _mm_and_ps(_mm_cmple_ps(low, values), _mm_cmple_ps(values, high));
-      mask |= static_cast<unsigned>(_mm_movemask_ps(within)) << 4 * k;
-    }
-    for (; mask != 0; mask &= mask - 1) {
-      rows.push_back(first + static_cast<RowId>(i) + static_cast<RowId>(std::countr_zero(mask)));
-    }
-  }
+  const auto append = bounds.high == kInfinity   ? append_blocks<true, false>
+                      : bounds.low == -kInfinity ? append_blocks<false, true>
+                                                 : append_blocks<true, true>;
+  i = append(column, bounds.low, bounds.high, first, rows);
 #endif
   for (; i < column.size(); ++i) {
     if (bounds.hold(column[i])) rows.push_back(first + static_cast<RowId>(i));
@@ -269,15 +322,15 @@ bool MovementCheck::scannable() const noexcept {
 bool MovementCheck::scan(std::uint32_t recording, RowId first, std::vector<RowId>& rows) {
   if (ways_.empty()) return true;
   load(recording);
-  if (std::ranges::any_of(ways_, [](const Way& way) { return way.column.empty(); })) return false;
+  if (std::ranges::any_of(ways_, [](const Way& way) { return way.column.values.empty(); })) return false;
   const std::size_t before = rows.size();
   for (const Way& way : ways_) {
     if (!by_state_ && std::holds_alternative<Amount>(condition_->value)) {
-      append_within(way.column, bounds_, first, rows);
+      append_within(way.column.values, bounds_, first, rows);
       continue;
     }
-    for (std::size_t i = 0; i < way.column.size(); ++i) {
-      if (fits(way.column[i])) rows.push_back(first + static_cast<RowId>(i));
+    for (std::size_t i = 0; i < way.column.values.size(); ++i) {
+      if (fits(way.column.values[i])) rows.push_back(first + static_cast<RowId>(i));
     }
   }
   if (ways_.size() < 2) return true;

@@ -30,7 +30,7 @@ class MovementCheck {
   MovementCheck(const Condition& condition, const Movement* movement);
 
   /// False also where what is asked for is not known. `stretches` is called where something is not stored. Throws
-  /// Error{corrupt} where a trace or motion is damaged.
+  /// Error{corrupt} where a trace or motion is damaged, and what Movement::pause throws.
   bool holds(const MovingRow& row, const Stretches& stretches);
 
   /// Whether what it asks for may be stored: it is about hands.
@@ -46,7 +46,7 @@ class MovementCheck {
     bool own = false;        ///< `point` is there for `hand`: of a row of one hand it must be that
     bool other_own = false;  ///< the same of `other`
     HandMeasure measure = HandMeasure::speed;
-    std::span<const float> column = {};  ///< of `recording_`; empty: from frames
+    ColumnValues column = {};  ///< of `recording_`; empty: from frames
   };
   /// Both included; no number lies within where low is above high, and what is no number nowhere.
   struct Bounds {
@@ -59,7 +59,8 @@ class MovementCheck {
   bool fits(float value) const;
   Bounds bounds(std::uint32_t recording) const;
   float from_frames(const Way& way, std::uint32_t recording, std::span<const TimeSpan> stretches) const;
-  PointTrack track(const Point& point, std::uint32_t recording, const HandTrace& trace, FrameRange frames) const;
+  void track(const Point& point, std::uint32_t recording, const HandTrace& trace, FrameRange frames,
+             PointTrack& out) const;
 
   const Movement* movement_;
   const Condition* condition_;

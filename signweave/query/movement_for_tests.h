@@ -39,9 +39,9 @@ class TestMovement : public Movement {
   /// One number of one row of the first recording.
   float& at(Column column, RowId row) { return recordings_.front().columns[place_of(column)][row]; }
 
-  std::span<const float> column(Column column, std::uint32_t recording) const override {
+  ColumnValues column(Column column, std::uint32_t recording) const override {
     if (from_ == From::frames) return {};
-    return recordings_[recording].columns[place_of(column)];
+    return {recordings_[recording].columns[place_of(column)], nullptr};
   }
   float shoulder_width(std::uint32_t recording) const override { return recordings_[recording].trace->shoulder_width; }
   FrameClock clock(std::uint32_t recording) const override { return recordings_[recording].motion.clock; }

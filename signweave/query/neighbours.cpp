@@ -1,7 +1,6 @@
 #include "signweave/query/neighbours.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdlib>
 
 namespace signweave {
@@ -95,28 +94,6 @@ std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Inter
     if (end <= last && (!gap.most || end >= begin - *gap.most) && same_sort(table, row, at)) result.push_back(at);
   }
   return result;
-}
-
-bool related(TimeSpan one, Link link, TimeSpan other) noexcept {
-  switch (link) {
-    case Link::overlaps:
-      return one.overlaps(other);
-    case Link::during:
-      return other.contains(one);
-    case Link::starts:
-      return one.begin == other.begin;
-    case Link::ends:
-      return one.end == other.end;
-    case Link::equals:
-      return one == other;
-    case Link::parent:
-    case Link::child:
-    case Link::ancestor:
-    case Link::descendant:
-      break;
-  }
-  assert(false && "not a relation of time");
-  return false;
 }
 
 }  // namespace signweave

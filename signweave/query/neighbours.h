@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 #include <vector>
 
@@ -51,7 +52,27 @@ inline RowId first_ending_at_or_after(const SegmentTable& table, const SegmentTa
 }
 
 /// Whether two spans stand in a relation (`Link::overlaps` and the ones after it).
-bool related(TimeSpan one, Link link, TimeSpan other) noexcept;
+inline bool related(TimeSpan one, Link link, TimeSpan other) noexcept {
+  switch (link) {
+    case Link::overlaps:
+      return one.overlaps(other);
+    case Link::during:
+      return other.contains(one);
+    case Link::starts:
+      return one.begin == other.begin;
+    case Link::ends:
+      return one.end == other.end;
+    case Link::equals:
+      return one == other;
+    case Link::parent:
+    case Link::child:
+    case Link::ancestor:
+    case Link::descendant:
+      break;
+  }
+  assert(false && "not a relation of time");
+  return false;
+}
 
 /// Calls `use(row)` for the rows of one range of a tier that share time or a bound with `span`. Stops where `use`
 /// returns false, and then returns false.

@@ -4,13 +4,16 @@
 #include <re2/re2.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
+#include <utility>
 
 #include "signweave/core/text.h"
 #include "signweave/query/lexer.h"
 #include "signweave/query/parse_movement.h"
+#include "signweave/query/parse_time.h"
 #include "signweave/query/regex.h"
 #include "signweave/query/scopes.h"
+#include "signweave/query/words.h"
 
 namespace signweave {
 namespace {
@@ -19,31 +22,9 @@ using Kind = QueryToken::Kind;
 
 constexpr int kDeepest = 200;
 constexpr std::size_t kMostPlaces = 64;
+constexpr int kMostSequences = 16;
 constexpr int kMostVariables = 64;
 constexpr int kMostRegexes = 64;  ///< each remembers one byte per label of the database while it is answered
-
-constexpr std::array kFields = {Field::gloss,    Field::phase, Field::hand, Field::recording, Field::tier,
-                                Field::duration, Field::begin, Field::end,  Field::unit,      Field::signer};
-constexpr std::array kLinks = {Link::parent, Link::child,  Link::ancestor, Link::descendant, Link::overlaps,
-                               Link::during, Link::starts, Link::ends,     Link::equals};
-constexpr std::array kCompares = {Compare::equal,      Compare::not_equal, Compare::matches,      Compare::less,
-                                  Compare::less_equal, Compare::greater,   Compare::greater_equal};
-constexpr std::array kPhaseKinds = {PhaseKind::preparation, PhaseKind::stroke, PhaseKind::retraction, PhaseKind::hold,
-                                    PhaseKind::other};
-constexpr std::array kHands = {Hand::both, Hand::right, Hand::left};
-
-template <typename Values>
-auto value_of(const Values& values, std::string_view word) {
-  const auto at = std::find_if(values.begin(), values.end(), [&](auto value) { return word_of(value) == word; });
-  return at == values.end() ? std::nullopt : std::optional(*at);
-}
-
-template <typename Values>
-std::vector<std::string> words_of(const Values& values) {
-  std::vector<std::string> result;
-  for (const auto value : values) result.emplace_back(word_of(value));
-  return result;
-}
 
 bool is_time(Field field) noexcept {
   return field >= Field::duration && field <= Field::end;
@@ -53,23 +34,20 @@ bool is_relation(Link link) noexcept {
   return link >= Link::overlaps;
 }
 
-/// How many like(…) are joined by `&` alone.
-int outermost_examples(const Expression& expression) noexcept {
-  if (expression.kind == Expression::Kind::condition) return expression.condition.field == Field::like ? 1 : 0;
-  if (expression.kind != Expression::Kind::all) return 0;
-  int result = 0;
-  for (const Expression& operand : expression.operands) result += outermost_examples(operand);
-  return result;
+bool is_example(const Condition& condition) noexcept {
+  return condition.field == Field::like;
 }
 
-/// How many conditions on variables are joined by `&` alone.
-int outermost_variables(const Expression& expression) noexcept {
-  if (expression.kind == Expression::Kind::condition) {
-    return std::holds_alternative<QueryVariable>(expression.condition.value) ? 1 : 0;
-  }
+bool has_variable(const Condition& condition) noexcept {
+  return std::holds_alternative<QueryVariable>(condition.value);
+}
+
+/// How many such conditions are joined by `&` alone.
+int outermost(const Expression& expression, bool (*such)(const Condition&) noexcept) noexcept {
+  if (expression.kind == Expression::Kind::condition) return such(expression.condition) ? 1 : 0;
   if (expression.kind != Expression::Kind::all) return 0;
   int result = 0;
-  for (const Expression& operand : expression.operands) result += outermost_variables(operand);
+  for (const Expression& operand : expression.operands) result += outermost(operand, such);
   return result;
 }
 
@@ -81,55 +59,100 @@ class Parser {
     if (in_.peek().kind == Kind::end) {
       in_.fail(in_.peek().begin, "the query is empty; write a condition such as gloss = \"VANNES\"");
     }
-    PhaseQuery result;
-    std::size_t last = in_.peek().begin;
-    result.elements.push_back(element());
-    while (in_.next_is("->")) {
-      const std::size_t arrow = in_.take().begin;
-      result.gaps.push_back(in_.next_is("[") ? gap() : Interval());
-      last = in_.peek().begin;
-      result.elements.push_back(element());
-      check_neighbours(result.elements[result.elements.size() - 2], result.elements.back(), arrow);
-      if (result.elements.size() > kMostPlaces) {
-        in_.fail(last, fmt::format("a sequence of more than {} places; ask for a shorter one", kMostPlaces));
-      }
-    }
+    PhaseQuery result = sequence();
     expect_end();
     return result;
   }
 
  private:
-  Element element() {
-    Element result{term(), {}};
-    while (in_.peek().kind == Kind::word) {
-      const std::optional<Link> link = value_of(kLinks, in_.peek().text);
-      if (!link || !is_relation(*link)) break;
-      in_.take();
-      result.relations.push_back({*link, term()});
-      if (ranked_in_term_) in_.fail(example_, "like(…) orders what is before a relation; move it there");
-      if (result.relations.size() > kMostPlaces) {
-        in_.fail(in_.peek().begin, fmt::format("more than {} relations of one segment; ask in parts", kMostPlaces));
+  PhaseQuery sequence() {
+    PhaseQuery result = element();
+    while (in_.next_is("->")) {
+      const std::size_t arrow = in_.take().begin;
+      result.gaps.push_back(in_.next_is("[") ? parse_gap(in_) : Interval());
+      const std::size_t last = in_.peek().begin;
+      PhaseQuery next = element();
+      check_neighbours(result.elements.back(), next.elements.front(), arrow);
+      std::ranges::move(next.elements, std::back_inserter(result.elements));
+      std::ranges::move(next.gaps, std::back_inserter(result.gaps));
+      if (result.elements.size() > kMostPlaces) {
+        in_.fail(last, fmt::format("a sequence of more than {} places; ask for a shorter one", kMostPlaces));
       }
     }
     return result;
   }
 
-  Term term() {
-    Term result;
-    const std::size_t begin = in_.peek().begin;
-    if (in_.accept("@")) {
-      if (marked_) in_.fail(begin, "a second @; mark one part only as the answer");
-      marked_ = result.marked = true;
+  /// A part, and its relations.
+  PhaseQuery element() {
+    Part result = part();
+    Element& last = result.query.elements.back();
+    while (const std::optional<Link> link = next_relation()) {
+      in_.take();
+      const int before = examples_;
+      Part partner = part();
+      if (examples_ > before) in_.fail(example_, "like(…) orders what is before a relation; move it there");
+      if (result.group && !result.own) last.groups.push_back({.places = result.query.elements.size()});
+      result.own = true;
+      std::vector<Relation>& relations = result.group ? last.groups.back().relations : last.relations;
+      relations.push_back({*link, {}, {}});
+      if (is_term(partner.query)) {
+        relations.back().term = std::move(partner.query.elements.front().term);
+      } else {
+        relations.back().sequence.push_back(std::move(partner.query));
+        count_sequence();
+      }
+      if (relations.size() > kMostPlaces) {
+        in_.fail(in_.peek().begin, fmt::format("more than {} relations of one segment; ask in parts", kMostPlaces));
+      }
     }
-    const int before = examples_;
-    const int variables_before = variables_;
-    result.expression = expression();
-    if (outermost_variables(result.expression) != variables_ - variables_before) {
+    return std::move(result.query);
+  }
+
+  std::optional<Link> next_relation() const {
+    if (in_.peek().kind != Kind::word) return std::nullopt;
+    const std::optional<Link> link = value_of(kLinks, in_.peek().text);
+    return link && is_relation(*link) ? link : std::nullopt;
+  }
+
+  static bool is_term(const PhaseQuery& query) noexcept {
+    const Element& first = query.elements.front();
+    return query.elements.size() == 1 && first.relations.empty() && first.groups.empty();
+  }
+
+  /// No more than an expression.
+  static bool is_plain(const PhaseQuery& query) noexcept {
+    return is_term(query) && !query.elements.front().term.marked;
+  }
+  /// What stands between arrows and relations.
+  struct Part {
+    PhaseQuery query;
+    bool group = false;  ///< a sequence or relation in parentheses
+    bool own = false;    ///< the last of its groups is that
+  };
+
+  Part part() {
+    const std::size_t begin = in_.peek().begin;
+    const bool marked = in_.accept("@");
+    if (marked) mark(begin);
+    const int examples = examples_;
+    const int variables = variables_;
+    std::optional<Expression> first;
+    if (in_.next_is("(")) {
+      Part result{parenthesised(), true, false};
+      if (!is_plain(result.query)) {
+        finish_group(result, marked);
+        return result;
+      }
+      first = std::move(result.query.elements.front().term.expression);
+    }
+    Part result;
+    result.query.elements.push_back({{expression(std::move(first)), marked}, {}});
+    const Expression& whole = result.query.elements.front().term.expression;
+    if (outermost(whole, has_variable) != variables_ - variables) {
       in_.fail(variable_, "a variable is joined to the conditions of a place with & only, outside of |, ! and links");
     }
-    check_tiers(result.expression, begin);
-    ranked_in_term_ = examples_ > before;
-    if (outermost_examples(result.expression) != examples_ - before) {
+    check_tiers(whole, begin);
+    if (outermost(whole, is_example) != examples_ - examples) {
       in_.fail(example_,
                "like(…) is no condition, it orders the answers; join it to the conditions of a place with &, "
                "outside of |, ! and links");
@@ -137,35 +160,44 @@ class Parser {
     return result;
   }
 
-  Interval gap() {
-    const std::string_view inside = in_.bracketed();
-    const std::size_t dots = inside.find("..");
-    if (dots == std::string_view::npos) {
-      in_.fail(in_.offset_of(inside), "a gap has two bounds, one of them may be left out; write ->[..500ms]");
-    }
-    const auto bound = [&](std::string_view part) -> std::optional<Milliseconds> {
-      const std::string_view word = trimmed(part);
-      if (word.empty()) return std::nullopt;
-      const Milliseconds result = time(word, in_.offset_of(word));
-      if (result < 0ms)
-        in_.fail(in_.offset_of(word), "a gap is never negative; use overlaps for segments that overlap");
-      return result;
-    };
-    const Interval result{bound(inside.substr(0, dots)), bound(inside.substr(dots + 2))};
-    if (result.direct()) {
-      in_.fail(in_.offset_of(inside), "a gap without bounds; write -> for neighbours, ->[0ms..] for any later segment");
-    }
-    if (result.least && result.most && *result.least > *result.most) {
-      in_.fail(in_.offset_of(inside), "the gap's first bound is above its second; swap them");
-    }
-    return result;
+  void mark(std::size_t at) {
+    if (marked_) in_.fail(at, "a second @; mark one part only as the answer");
+    marked_ = true;
   }
 
-  Expression expression() { return joined(Expression::Kind::any, "|"); }
+  /// "& duration > 1s" after a sequence in parentheses.
+  void finish_group(Part& part, bool marked) {
+    Group group{.places = part.query.elements.size(), .marked = marked};
+    while (in_.next_is("&") || in_.next_is("|")) {
+      const std::size_t at = in_.peek().begin;
+      const bool both = in_.take().text == "&";
+      const QueryToken word = in_.peek();
+      const std::optional<Field> field = word.kind == Kind::word ? value_of(kFields, word.text) : std::nullopt;
+      if (!both || !field || !is_time(*field)) {
+        in_.fail(at,
+                 "a sequence or relation in parentheses is one segment, which only & duration, begin and end go on "
+                 "about; write other conditions inside, and alternatives as queries of their own");
+      }
+      in_.take();
+      if (in_.next_is("("))
+        in_.fail(word.begin, "movement of a whole sequence; ask for it of one of its places, inside");
+      group.conditions.push_back(condition(*field));
+    }
+    part.own = marked || !group.conditions.empty();
+    if (part.own) part.query.elements.back().groups.push_back(std::move(group));
+  }
+
+  /// `first`: what has been read of it already.
+  Expression expression(std::optional<Expression> first = std::nullopt) {
+    return joined(Expression::Kind::any, "|", first);
+  }
 
   /// Operands of `|`, which are operands of `&`, which are single.
-  Expression joined(Expression::Kind kind, std::string_view symbol) {
-    const auto operand = [&] { return kind == Expression::Kind::any ? joined(Expression::Kind::all, "&") : single(); };
+  Expression joined(Expression::Kind kind, std::string_view symbol, std::optional<Expression>& read) {
+    const auto operand = [&] {
+      if (kind == Expression::Kind::any) return joined(Expression::Kind::all, "&", read);
+      return read ? *std::exchange(read, std::nullopt) : single();
+    };
     Expression first = operand();
     if (!in_.next_is(symbol)) return first;
     Expression result;
@@ -177,14 +209,19 @@ class Parser {
 
   Expression single() {
     const QueryToken& next = in_.peek();
-    if (++depth_ > kDeepest)
-      in_.fail(next.begin, fmt::format("more than {} levels of nesting; ask in parts", kDeepest));
+    if (in_.next_is("(")) {
+      const std::size_t begin = next.begin;
+      PhaseQuery inside = parenthesised();
+      if (is_plain(inside)) return std::move(inside.elements.front().term.expression);
+      in_.fail(begin,
+               "a sequence or relation in parentheses is one segment and no condition; it stands first in its part, "
+               "or as overlaps(…), during(…), starts(…), ends(…), equals(…)");
+    }
+    Nesting nesting(*this, next.begin);
     Expression result;
     if (in_.accept("!")) {
       result.kind = Expression::Kind::negation;
       result.operands.push_back(single());
-    } else if (in_.next_is("(")) {
-      result = parenthesised();
     } else if (next.kind == Kind::word) {
       result = word();
     } else if (in_.next_is("@")) {
@@ -195,27 +232,31 @@ class Parser {
       in_.fail(next.begin, fmt::format("expected a condition, found {}; write one such as gloss = \"VANNES\"",
                                        QueryLexer::shown(next)));
     }
-    --depth_;
     return result;
   }
 
-  Expression parenthesised() {
+  PhaseQuery parenthesised() {
     const std::size_t begin = in_.take().begin;
-    const bool marked = in_.next_is("@");
-    if (!marked) {
-      Expression result = expression();
-      if (in_.accept(")")) return result;
-      const QueryToken& next = in_.peek();
-      const std::optional<Link> link = next.kind == Kind::word ? value_of(kLinks, next.text) : std::nullopt;
-      if (!in_.next_is("->") && !(link && is_relation(*link))) {
-        in_.expect(")", fmt::format("close the parenthesis of column {}, or join conditions with & or |", begin + 1));
+    Nesting nesting(*this, begin);
+    PhaseQuery result = sequence();
+    in_.expect(")", fmt::format("close the parenthesis of {}, or join conditions with & or |", in_.place_of(begin)));
+    return result;
+  }
+
+  class Nesting {
+   public:
+    Nesting(Parser& parser, std::size_t at) : depth_(parser.depth_) {
+      if (++depth_ > kDeepest) {
+        parser.in_.fail(at, fmt::format("more than {} levels of nesting; ask in parts", kDeepest));
       }
     }
-    in_.fail(begin,
-             "a sequence or relation in parentheses is not supported yet; write it without them (relations bind before "
-             "->), or as a condition: overlaps(…)",
-             ErrorCode::unsupported);
-  }
+    ~Nesting() { --depth_; }
+    Nesting(const Nesting&) = delete;
+    Nesting& operator=(const Nesting&) = delete;
+
+   private:
+    int& depth_;
+  };
 
   Expression word() {
     const QueryToken name = in_.take();
@@ -225,7 +266,7 @@ class Parser {
       result.kind = Expression::Kind::link;
       result.link = *link;
       in_.expect("(", fmt::format("write a condition in parentheses: {}(gloss = \"VANNES\")", name.text));
-      result.operands.push_back(inside_link());
+      inside_link(result);
       return result;
     }
     const std::optional<Field> field = value_of(kFields, name.text);
@@ -247,12 +288,25 @@ class Parser {
     return parse_example(in_, name);
   }
 
-  Expression inside_link() {
+  void inside_link(Expression& link) {
     const std::size_t begin = in_.peek().begin;
-    Expression result = expression();
+    const bool marked = marked_;
+    PhaseQuery inside = sequence();
     in_.expect(")", "close the parenthesis, or join conditions with & or |");
-    check_tiers(result, begin);
-    return result;
+    if (marked_ != marked) in_.fail(begin, "an @ inside of a condition; it marks a part of what is asked for");
+    if (is_plain(inside)) {
+      link.operands.push_back(std::move(inside.elements.front().term.expression));
+    } else if (is_relation(link.link)) {
+      link.sequence.push_back(std::move(inside));
+      count_sequence();
+    } else {
+      in_.fail(begin, "a sequence or relation has no parent and no children; ask for them of one of its places");
+    }
+  }
+
+  void count_sequence() {
+    if (++sequences_ <= kMostSequences) return;
+    in_.fail(in_.peek().begin, fmt::format("more than {} sequences in relations; ask in parts", kMostSequences));
   }
 
   void check_tiers(const Expression& expression, std::size_t begin) {
@@ -318,7 +372,7 @@ class Parser {
     }
     in_.take();
     if (is_time(condition.field)) {
-      condition.value = time(token);
+      condition.value = parse_time(in_, token);
     } else if (condition.field == Field::phase) {
       condition.value = named(kPhaseKinds, token, "phase");
     } else if (condition.field == Field::hand) {
@@ -353,41 +407,6 @@ class Parser {
     return result;
   }
 
-  /// "300ms", "1.5s", or number and unit as two words.
-  Milliseconds time(const QueryToken& token) {
-    std::string word = token.text;
-    const bool number = token.kind == Kind::word && word.find_first_not_of("+-.0123456789") == std::string::npos;
-    if (number && in_.peek().kind == Kind::word && (in_.peek().text == "ms" || in_.peek().text == "s")) {
-      word += in_.take().text;
-    }
-    return time(word, token.begin);
-  }
-
-  Milliseconds time(std::string_view word, std::size_t offset) {
-    const bool milliseconds = word.ends_with("ms");
-    std::string_view digits = word.substr(0, word.size() - (milliseconds ? 2 : word.ends_with("s") ? 1 : 0));
-    const std::size_t unit = word.size() - digits.size();
-    digits = trimmed(digits);
-    const bool negative = digits.starts_with('-');
-    if (negative) digits.remove_prefix(1);
-    const std::string_view whole = digits.substr(0, digits.find('.'));
-    std::string part(digits.substr(std::min(whole.size() + 1, digits.size())));
-    const bool point = whole.size() < digits.size();
-    if (whole.empty() || (std::string(whole) + part).find_first_not_of("0123456789") != std::string::npos ||
-        point == part.empty()) {
-      in_.fail(offset, fmt::format("'{}' is no time; write one such as 300ms or 1.5s", printable(word)));
-    }
-    if (unit == 0) in_.fail(offset, fmt::format("the time {} lacks a unit; write {}ms or {}s", word, word, word));
-    while (part.ends_with('0')) part.pop_back();
-    const std::size_t decimals = milliseconds ? 0 : 3;
-    if (part.size() > decimals) in_.fail(offset, "times are whole milliseconds; round this one");
-    part.resize(decimals, '0');
-    const std::string all = std::string(whole) + part;
-    if (all.size() > 15) in_.fail(offset, "a time of more than 15 digits; write a smaller one");
-    const std::int64_t count = std::stoll(all);
-    return Milliseconds(negative ? -count : count);
-  }
-
   /// A sign and a phase lie on different tiers and so are never neighbours: say it rather than answer nothing.
   void check_neighbours(const Element& before, const Element& after, std::size_t arrow) {
     const auto only_phases = [](const Element& element) {
@@ -407,10 +426,6 @@ class Parser {
   }
 
   [[noreturn]] void refuse_word(const QueryToken& name) {
-    if (name.text == "signer") {
-      in_.fail(name.begin, "conditions on the signer are not supported yet; use recording = \"…\"",
-               ErrorCode::unsupported);
-    }
     std::vector<std::string> known = words_of(kFields);
     for (const Link link : kLinks) known.emplace_back(word_of(link));
     for (std::string& word : movement_words()) {
@@ -457,11 +472,11 @@ class Parser {
   QueryLexer in_;
   int depth_ = 0;
   int regexes_ = 0;
+  int sequences_ = 0;
   int examples_ = 0;
   int variables_ = 0;
-  std::size_t variable_ = 0;     ///< where the last one stands
-  std::size_t example_ = 0;      ///< where the last like(…) begins
-  bool ranked_in_term_ = false;  ///< the last term has one
+  std::size_t variable_ = 0;  ///< where the last one stands
+  std::size_t example_ = 0;   ///< where the last like(…) begins
   bool marked_ = false;
 };
 

@@ -149,17 +149,59 @@ TEST(Parse, AFaultIsOneLineWithItsColumn) {
   }
 }
 
-TEST(Parse, WhatTheLanguageWillHaveIsRefusedAsNotYetSupported) {
-  for (const char* text : {
-           "(gloss = A -> gloss = B) overlaps gloss = C",
-           "(gloss = A -> gloss = B) | gloss = C",
-           "gloss = A -> (@ gloss = B)",
-           "!(gloss = A overlaps gloss = B)",
-       }) {
-    const QueryError error = fault_in(text);
-    EXPECT_EQ(error.code(), ErrorCode::unsupported) << text << '\n' << error.what();
-    EXPECT_THAT(error.what(), HasSubstr("not supported yet")) << text;
+TEST(Parse, SequencesAndRelationsInParenthesesAreSegments) {
+  struct Row {
+    const char* text;
+    const char* normal;
+  };
+  const Row rows[] = {
+      {"(gloss = A -> gloss = B) overlaps gloss = C", "(gloss = \"A\" -> gloss = \"B\") overlaps gloss = \"C\""},
+      {"gloss = A -> (@ gloss = B)", "gloss = \"A\" -> @ gloss = \"B\""},
+      {"gloss = A -> ((gloss = B ->[..1s] gloss = C))", "gloss = \"A\" -> gloss = \"B\" ->[..1000ms] gloss = \"C\""},
+      {"(gloss = A overlaps gloss = B) -> gloss = C", "gloss = \"A\" overlaps gloss = \"B\" -> gloss = \"C\""},
+      {"(gloss = A overlaps gloss = B) starts gloss = C",
+       "(gloss = \"A\" overlaps gloss = \"B\") starts gloss = \"C\""},
+      {"@(gloss = A -> gloss = B) & duration > 1s & begin < 2s",
+       "@ (gloss = \"A\" -> gloss = \"B\") & duration > 1000ms & begin < 2000ms"},
+      {"gloss = A during (gloss = B -> gloss = C) & end > 1s -> gloss = D",
+       "gloss = \"A\" during (gloss = \"B\" -> gloss = \"C\") & end > 1000ms -> gloss = \"D\""},
+      {"gloss = A during ((gloss = B -> gloss = C) overlaps phase = hold)",
+       "gloss = \"A\" during ((gloss = \"B\" -> gloss = \"C\") overlaps phase = hold)"},
+      {"((gloss = A -> gloss = B) & duration > 1s -> gloss = C) & duration < 9s",
+       "((gloss = \"A\" -> gloss = \"B\") & duration > 1000ms -> gloss = \"C\") & duration < 9000ms"},
+      {"!overlaps(gloss = A -> gloss = B) & gloss = C", "!overlaps(gloss = \"A\" -> gloss = \"B\") & gloss = \"C\""},
+  };
+  for (const Row& row : rows) {
+    const PhaseQuery query = parse(row.text);
+    EXPECT_EQ(to_string(query), row.normal);
+    EXPECT_EQ(parse(row.normal), query) << row.normal;
   }
+}
+
+TEST(Parse, WhatIsNoConditionIsRefusedAsOne) {
+  struct Row {
+    const char* text;
+    const char* what;
+  };
+  const Row rows[] = {
+      {"(gloss = A -> gloss = B) | gloss = C", "only & duration, begin and end"},
+      {"(gloss = A -> gloss = B) & gloss = C", "only & duration, begin and end"},
+      {"(gloss = A -> gloss = B) & begin(hand).x > 1", "movement of a whole sequence"},
+      {"gloss = C & (gloss = A -> gloss = B)", "one segment and no condition"},
+      {"!(gloss = A overlaps gloss = B)", "one segment and no condition"},
+      {"child(gloss = A -> gloss = B)", "has no parent and no children"},
+      {"overlaps(gloss = A -> @ gloss = B)", "an @ inside of a condition"},
+      {"@ (gloss = A -> @ gloss = B)", "a second @"},
+      {"overlaps(gloss = A -> gloss = $X) & gloss = $X", "a variable is joined"},
+      {"gloss = A overlaps (gloss = B & like(\"r\"@1..2) -> gloss = C)", "like(…) orders what is before a relation"},
+      {"(gloss = A -> gloss = B", "close the parenthesis of column 1"},
+      {"gloss = A -> (phase = hold -> phase = stroke)", "a sequence of a sign and a phase"},
+  };
+  for (const Row& row : rows) EXPECT_THAT(fault_in(row.text).what(), HasSubstr(row.what)) << row.text;
+  std::string many = "gloss = A";
+  for (int i = 0; i < 17; ++i) many += " & overlaps(gloss = B -> gloss = C)";
+  EXPECT_THAT(fault_in(many).what(), HasSubstr("more than 16 sequences in relations"));
+  EXPECT_THAT(fault_in("gloss = \xC3\x89 &\n (gloss = B").what(), HasSubstr("the parenthesis of line 2, column 2"));
 }
 
 TEST(Parse, TheCaretStandsUnderTheFault) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 
 #include "signweave/query/lexer.h"
@@ -37,6 +38,24 @@ std::string joined(const Expression& expression, std::string_view between) {
 
 std::string to_string(const Term& term) {
   return (term.marked ? "@ " : "") + to_string(term.expression);
+}
+
+/// Whether the query is in parentheses as it stands: one group over all of it, which stands in no relation.
+bool is_closed(const PhaseQuery& query) noexcept {
+  const std::vector<Group>& groups = query.elements.back().groups;
+  return !groups.empty() && groups.back().places == query.elements.size() && groups.back().relations.empty();
+}
+
+void append(const std::vector<Relation>& relations, std::string& text) {
+  for (const Relation& relation : relations) {
+    text += fmt::format(" {} ", word_of(relation.link));
+    if (relation.sequence.empty()) {
+      text += to_string(relation.term);
+    } else {
+      const PhaseQuery& partner = relation.sequence.front();
+      text += is_closed(partner) ? to_string(partner) : '(' + to_string(partner) + ')';
+    }
+  }
 }
 
 }  // namespace
@@ -76,7 +95,9 @@ std::string to_string(const Expression& expression) {
     case Expression::Kind::negation:
       return '!' + in_parentheses(expression.operands.front());
     case Expression::Kind::link:
-      return fmt::format("{}({})", word_of(expression.link), to_string(expression.operands.front()));
+      return fmt::format("{}({})", word_of(expression.link),
+                         expression.sequence.empty() ? to_string(expression.operands.front())
+                                                     : to_string(expression.sequence.front()));
   }
   assert(false);
   return {};
@@ -91,15 +112,92 @@ std::string to_string(const Interval& gap) {
 }
 
 std::string to_string(const PhaseQuery& query) {
+  const std::size_t count = query.elements.size();
+  std::vector<std::string> opened(count);  // what stands before a place
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const Group& group : query.elements[i].groups) {
+      std::string& before = opened[i + 1 - group.places];
+      before = (group.marked ? "@ (" : "(") + before;
+    }
+  }
   std::string result;
-  for (std::size_t i = 0; i < query.elements.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Element& element = query.elements[i];
     if (i > 0) result += ' ' + to_string(query.gaps[i - 1]) + ' ';
-    result += to_string(query.elements[i].term);
-    for (const Relation& relation : query.elements[i].relations) {
-      result += fmt::format(" {} {}", word_of(relation.link), to_string(relation.term));
+    result += opened[i] + to_string(element.term);
+    append(element.relations, result);
+    for (const Group& group : element.groups) {
+      result += ')';
+      for (const Condition& condition : group.conditions) result += " & " + to_string(condition);
+      append(group.relations, result);
     }
   }
   return result;
+}
+
+std::size_t part_count(const Relation& relation) noexcept {
+  return relation.sequence.empty() ? 1 : part_count(relation.sequence.front());
+}
+
+std::size_t part_count(const PhaseQuery& query) noexcept {
+  return part_of_place(query, query.elements.size());
+}
+
+std::size_t part_of_place(const PhaseQuery& query, std::size_t place) noexcept {
+  std::size_t result = 0;
+  const auto add = [&](const std::vector<Relation>& relations) {
+    for (const Relation& relation : relations) result += part_count(relation);
+  };
+  for (std::size_t i = 0; i < place; ++i) {
+    ++result;
+    add(query.elements[i].relations);
+    for (const Group& group : query.elements[i].groups) add(group.relations);
+  }
+  return result;
+}
+
+std::vector<std::size_t> marked_parts(const PhaseQuery& query) {
+  std::vector<std::size_t> result;
+  std::size_t part = 0;
+  const auto partners = [&](const std::vector<Relation>& relations) {
+    for (const Relation& relation : relations) {
+      if (relation.sequence.empty()) {
+        if (relation.term.marked) result = {part};
+      } else if (is_marked(relation)) {
+        result = marked_parts(relation.sequence.front());
+        for (std::size_t& one : result) one += part;
+      }
+      part += part_count(relation);
+    }
+  };
+  for (std::size_t place = 0; place < query.elements.size(); ++place) {
+    const Element& element = query.elements[place];
+    if (element.term.marked) result = {part};
+    ++part;
+    partners(element.relations);
+    for (const Group& group : element.groups) {
+      if (group.marked) {
+        result.clear();
+        for (std::size_t of = place + 1 - group.places; of <= place; ++of) result.push_back(part_of_place(query, of));
+      }
+      partners(group.relations);
+    }
+  }
+  return result;
+}
+
+bool is_marked(const Relation& relation) noexcept {
+  return relation.sequence.empty() ? relation.term.marked : is_marked(relation.sequence.front());
+}
+
+bool is_marked(const PhaseQuery& query) noexcept {
+  const auto marked = [](const auto& relation) { return is_marked(relation); };
+  return std::ranges::any_of(query.elements, [&](const Element& element) {
+    return element.term.marked || std::ranges::any_of(element.relations, marked) ||
+           std::ranges::any_of(element.groups, [&](const Group& group) {
+             return group.marked || std::ranges::any_of(group.relations, marked);
+           });
+  });
 }
 
 std::string_view word_of(Field field) noexcept {

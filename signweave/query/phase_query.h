@@ -76,6 +76,8 @@ enum class Link {
   equals,      ///< same begin and end
 };
 
+struct PhaseQuery;
+
 /// A condition on one segment, composed.
 struct Expression {
   enum class Kind {
@@ -83,12 +85,13 @@ struct Expression {
     all,        ///< two or more operands, `&`
     any,        ///< two or more operands, `|`
     negation,   ///< one operand, `!`
-    link,       ///< one operand: `link`(operand)
+    link,       ///< one operand: `link`(operand); or none, and a sequence, where the link is a relation in time
   };
   Kind kind = Kind::condition;
   Condition condition;
   Link link = Link::parent;
   std::vector<Expression> operands;
+  std::vector<PhaseQuery> sequence;  ///< at most one
   friend bool operator==(const Expression&, const Expression&) = default;
 };
 
@@ -99,17 +102,28 @@ struct Term {
   friend bool operator==(const Term&, const Term&) = default;
 };
 
-/// LINK TERM after an element, by time: overlaps, during, starts, ends or equals.
+/// LINK PARTNER after a segment, by time: overlaps, during, starts, ends or equals.
 struct Relation {
   Link link = Link::overlaps;
-  Term term;
+  Term term;                         ///< the partner
+  std::vector<PhaseQuery> sequence;  ///< at most one: the partner is that, as a whole, and `term` means nothing
   friend bool operator==(const Relation&, const Relation&) = default;
+};
+
+/// "(A -> B)": places of a sequence taken as one segment, from the begin of the first to the end of the last.
+struct Group {
+  std::size_t places = 1;                  ///< so many, up to the element that it is of
+  bool marked = false;                     ///< `@`: this segment is the answer
+  std::vector<Condition> conditions = {};  ///< on duration, begin and end of the whole
+  std::vector<Relation> relations = {};    ///< of the whole
+  friend bool operator==(const Group&, const Group&) = default;
 };
 
 /// One place of a sequence: a segment and what it must stand in relation to.
 struct Element {
   Term term;
   std::vector<Relation> relations;
+  std::vector<Group> groups = {};  ///< those that end here, the inner ones first
   friend bool operator==(const Element&, const Element&) = default;
 };
 
@@ -123,12 +137,44 @@ struct Interval {
   friend bool operator==(const Interval&, const Interval&) = default;
 };
 
-/// A whole query: one element, or a sequence of them. At most one term is marked.
+/// A whole query: one element, or a sequence of them. At most one term or group is marked, those of partners among
+/// them. Sequences within a sequence are not there: (A -> B) -> C is A -> B -> C.
 struct PhaseQuery {
   std::vector<Element> elements;  ///< at least one
   std::vector<Interval> gaps;     ///< one fewer
   friend bool operator==(const PhaseQuery&, const PhaseQuery&) = default;
 };
+
+/// A segment that takes part in an answer, as Segment::parts (find.h) lists them: every place, each followed by its
+/// partners in relations, then those of the groups that end there; in place of a partner that is a sequence its parts.
+std::size_t part_count(const PhaseQuery& query) noexcept;
+std::size_t part_count(const Relation& relation) noexcept;
+/// Where the parts of a place begin.
+std::size_t part_of_place(const PhaseQuery& query, std::size_t place) noexcept;
+/// The parts of what is marked: several where a group is; none where nothing is.
+std::vector<std::size_t> marked_parts(const PhaseQuery& query);
+/// Whether the query or something in it is marked.
+bool is_marked(const PhaseQuery& query) noexcept;
+bool is_marked(const Relation& relation) noexcept;
+
+/// Calls `use(term)` for each part, in order.
+template <typename Use>
+void for_parts(const PhaseQuery& query, Use&& use) {
+  const auto partners = [&](const std::vector<Relation>& relations) {
+    for (const Relation& relation : relations) {
+      if (relation.sequence.empty()) {
+        use(relation.term);
+      } else {
+        for_parts(relation.sequence.front(), use);
+      }
+    }
+  };
+  for (const Element& element : query.elements) {
+    use(element.term);
+    partners(element.relations);
+    for (const Group& group : element.groups) partners(group.relations);
+  }
+}
 
 /// The query as text that parses to an equal tree.
 std::string to_string(const PhaseQuery& query);

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
-#include "signweave/query/rank.h"
+#include "signweave/query/search.h"
 
 namespace signweave {
 namespace {
@@ -177,6 +178,7 @@ class AccessFinder {
           if (rows != nullptr) add(rows->own(), access);
         }
       }
+      access.of_tier = true;
       access.through.emplace_back("all annotations of the tier");
       return access;
     }
@@ -218,28 +220,41 @@ std::size_t rows_of(std::span<const Access> accesses) noexcept {
   return result;
 }
 
-std::string follow(const PhaseQuery& query, std::size_t from, std::size_t to) {
-  const Interval& gap = query.gaps[std::min(from, to)];
-  const std::string_view where = to > from ? "after" : "before";
-  const std::string how = gap.direct() ? fmt::format("the row directly {}", where)
-                                       : fmt::format("the rows {} within {}", where, to_string(gap));
-  return fmt::format("{}: keep those with {}", how, to_string(query.elements[to].term.expression));
-}
-
 }  // namespace
 
-BoundQuery bind(const PhaseQuery& query, const SegmentTable& table, Watch& watch, const MovingTable& moving) {
+BoundQuery bind(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, Watch& watch,
+                bool all) {
   BoundQuery result;
   result.gaps = query.gaps;
+  std::size_t part = 0;
+  const auto add = [&](const std::vector<Relation>& relations, std::size_t places) {
+    std::vector<BoundQuery::BoundRelation>& bound = result.elements.back().relations;
+    for (const Relation& relation : relations) {
+      bound.push_back({.link = relation.link, .places = places, .marked = is_marked(relation), .part = part});
+      part += part_count(relation);
+      if (relation.sequence.empty()) {
+        bound.back().matcher.emplace(relation.term.expression, member, movement, watch);
+        bound.back().tiers = bound.back().matcher->only_tiers();
+      } else {
+        const PhaseQuery& partner = relation.sequence.front();
+        bound.back().sequence = std::make_shared<Search>(partner, member, movement, watch, all);
+      }
+    }
+  };
   for (const Element& element : query.elements) {
-    result.elements.push_back({Matcher(element.term.expression, table, watch, moving), element.term.marked, {}});
-    for (const Relation& relation : element.relations) {
-      result.elements.back().relations.push_back(
-          {relation.link, Matcher(relation.term.expression, table, watch, moving), relation.term.marked, {}});
-      BoundQuery::BoundRelation& bound = result.elements.back().relations.back();
-      bound.tiers = bound.matcher.only_tiers();
+    result.places.push_back(part);
+    result.elements.push_back({.matcher = Matcher(element.term.expression, member, movement, watch), .part = part++});
+    add(element.relations, 1);
+    for (const Group& group : element.groups) {
+      for (const Condition& condition : group.conditions) {
+        result.elements.back().wholes.push_back({group.places, &condition});
+      }
+      add(group.relations, group.places);
     }
   }
+  result.answer = marked_parts(query);
+  result.marked = !result.answer.empty();
+  if (!result.marked) result.answer = result.places;
   return result;
 }
 
@@ -250,15 +265,21 @@ Plan plan(BoundQuery& query) {
   const auto offer = [&](Plan offered) {
     if (!best || offered.rows < best->rows) best = std::move(offered);
   };
+  const auto all_of_tiers = [](Matcher& matcher, std::span<const Access> accesses) {
+    return matcher.only_tiers() && std::ranges::all_of(accesses, &Access::of_tier);
+  };
   for (std::size_t e = 0; e < query.elements.size(); ++e) {
     BoundQuery::BoundElement& element = query.elements[e];
     std::vector<Access> accesses = accesses_of(element.matcher);
     const std::size_t rows = rows_of(accesses);
-    offer({e, std::nullopt, std::move(accesses), rows, is_exact(element.matcher.root())});
+    const bool on_tier = all_of_tiers(element.matcher, accesses);
+    offer({e, std::nullopt, std::move(accesses), rows, is_exact(element.matcher.root()), on_tier});
     for (std::size_t r = 0; r < element.relations.size(); ++r) {
-      std::vector<Access> around = accesses_of(element.relations[r].matcher);
+      BoundQuery::BoundRelation& relation = element.relations[r];
+      if (relation.sequence || relation.places > 1) continue;
+      std::vector<Access> around = accesses_of(*relation.matcher);
       const std::size_t partners = rows_of(around);
-      offer({e, r, std::move(around), partners * kAround, false});
+      offer({e, r, std::move(around), partners * kAround, false, false});
     }
   }
   return std::move(*best);
@@ -276,70 +297,66 @@ std::optional<std::span<const RowId>> one_list(std::span<const Access> accesses)
   return found;
 }
 
-void candidates(std::span<const Access> accesses, const SegmentTable& table, const MovingTable& moving,
+void candidates(std::span<const Access> accesses, const SegmentTable& table, const MovingTable& moving, Watch& watch,
                 std::vector<RowId>& result) {
   result.clear();
-  result.reserve(rows_of(accesses));
+  const auto add = [&](RowId row) {
+    watch.tick();
+    result.push_back(row);
+  };
   for (const Access& access : accesses) {
-    for (const std::span<const RowId> list : access.lists) result.insert(result.end(), list.begin(), list.end());
+    for (const std::span<const RowId> list : access.lists) std::ranges::for_each(list, add);
     for (const std::span<const RowId> list : access.parents) {
       for (const RowId parent : list) {
+        watch.tick();
         const std::span<const RowId> children = table.children(parent);
         result.insert(result.end(), children.begin(), children.end());
       }
     }
     for (const SegmentTable::RowRange range : access.ranges) {
-      for (RowId row = range.begin; row < range.end; ++row) result.push_back(row);
+      for (RowId row = range.begin; row < range.end; ++row) add(row);
     }
     for (MovementCheck* scan : access.scans) {
       if (moving.movement == nullptr) continue;
       for (std::uint32_t recording = 0; recording < table.recording_count(); ++recording) {
+        watch.check();
         const std::uint32_t number = (*moving.numbers)[recording];
         const SegmentTable::RowRange rows = table.recording_rows(recording);
         if (number == SegmentTable::kNone || scan->scan(number, rows.begin, result)) continue;
-        for (RowId row = rows.begin; row < rows.end; ++row) result.push_back(row);  // nothing is stored of it
+        for (RowId row = rows.begin; row < rows.end; ++row) add(row);  // nothing is stored of it
       }
     }
   }
-  if (!std::is_sorted(result.begin(), result.end())) std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sort_rows(result, table.size(), watch);
 }
 
-std::string explain(const PhaseQuery& query, const Segments& segments) {
-  const SegmentTable none;
-  const auto largest =
-      std::ranges::max_element(segments.members(), {}, [](const auto& one) { return one.table.size(); });
-  const SegmentTable& table = segments.members().empty() ? none : largest->table;
-  Watch watch{FindLimits()};
-  BoundQuery bound = bind(query, table, watch);
-  const Plan chosen = plan(bound);
-  std::vector<std::string> steps;
-  for (const Access& access : chosen.accesses) {
-    if (access.through.empty()) continue;
-    steps.push_back(fmt::format("look up about {} rows: {}", access.rows, fmt::join(access.through, " and ")));
+void sort_rows(std::vector<RowId>& rows, RowId table_size, Watch& watch) {
+  bool ascending = true;
+  for (std::size_t i = 1; i < rows.size() && ascending; ++i) {
+    watch.tick();
+    ascending = rows[i - 1] < rows[i];
   }
-  const Element& start = query.elements[chosen.element];
-  if (chosen.relation) {
-    const Relation& relation = start.relations[*chosen.relation];
-    steps.push_back(fmt::format("keep those with {}", to_string(relation.term.expression)));
-    steps.push_back("take the rows around each of them");
-  }
-  steps.push_back(fmt::format("keep those with {}", to_string(start.term.expression)));
-  for (std::size_t e = chosen.element + 1; e < query.elements.size(); ++e) steps.push_back(follow(query, e - 1, e));
-  for (std::size_t e = chosen.element; e > 0; --e) steps.push_back(follow(query, e, e - 1));
-  for (const Element& element : query.elements) {
-    for (const Relation& relation : element.relations) {
-      steps.push_back(fmt::format("find the partner: {} {} {}", to_string(element.term.expression),
-                                  word_of(relation.link), to_string(relation.term.expression)));
+  if (ascending) return;
+  if (rows.size() > table_size / 64) {  // then ticking them off on a list of all is faster
+    std::vector<std::uint64_t> there(table_size / 64 + 1);
+    for (const RowId row : rows) {
+      watch.tick();
+      there[row / 64] |= std::uint64_t{1} << row % 64;
     }
+    rows.clear();
+    for (std::size_t word = 0; word < there.size(); ++word) {
+      watch.tick();
+      for (std::uint64_t left = there[word]; left != 0; left &= left - 1) {
+        rows.push_back(static_cast<RowId>(64 * word) + static_cast<RowId>(std::countr_zero(left)));
+      }
+    }
+    return;
   }
-  if (const std::optional<std::size_t> place = ranked_place(query)) {
-    steps.push_back(fmt::format("order by the distance from {}: the nearest of them, {} without a limit",
-                                to_string(example_at(query, *place)), kNearest));
-  }
-  std::string result = to_string(query) + '\n';
-  for (std::size_t i = 0; i < steps.size(); ++i) result += fmt::format("{}. {}\n", i + 1, steps[i]);
-  return result;
+  std::ranges::sort(rows, [&](RowId a, RowId b) {
+    watch.tick();
+    return a < b;
+  });
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 }
 
 }  // namespace signweave

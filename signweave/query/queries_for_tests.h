@@ -26,15 +26,13 @@ class RandomQueries {
     for (unsigned i = 0; i < places; ++i) {
       Element element{{expression(2), false}, {}};
       if (places > 1) element.term.expression = of_kind(kind);
-      if (one_in(4)) element.relations.push_back({static_cast<Link>(4 + below(5)), {expression(1), false}});
+      if (one_in(4)) element.relations.push_back(relation());
       result.elements.push_back(element);
       if (i > 0) result.gaps.push_back(gap());
     }
     if (movement_ && one_in(4)) rank(result.elements[below(places)].term.expression);
-    if (one_in(3)) {
-      Element& element = result.elements[below(places)];
-      (element.relations.empty() || one_in(2) ? element.term : element.relations[0].term).marked = true;
-    }
+    if (one_in(3)) add_group(result);
+    if (one_in(3)) mark(result);
     return result;
   }
 
@@ -99,6 +97,54 @@ class RandomQueries {
   }
 
  private:
+  /// Two places; at times with a condition on the whole, or something beside one of them.
+  PhaseQuery pair() {
+    const unsigned kind = below(4);
+    PhaseQuery result;
+    for (unsigned i = 0; i < 2; ++i) result.elements.push_back({{of_kind(kind), false}, {}});
+    result.gaps.push_back(gap());
+    if (one_in(4)) result.elements[below(2)].relations.push_back({static_cast<Link>(4 + below(5)), {gloss(), false}});
+    if (one_in(3)) result.elements[1].groups.push_back({.places = 2, .conditions = {time()}});
+    return result;
+  }
+
+  Relation relation() {
+    Relation result{static_cast<Link>(4 + below(5)), {}, {}};
+    if (one_in(3)) {
+      result.sequence.push_back(pair());
+    } else {
+      result.term.expression = expression(1);
+    }
+    return result;
+  }
+
+  void add_group(PhaseQuery& query) {
+    const std::size_t last = below(static_cast<unsigned>(query.elements.size()));
+    Element& element = query.elements[last];
+    Group group{.places = 1 + below(static_cast<unsigned>(last) + 1)};
+    if (group.places == 1 && element.relations.empty()) return;
+    if (one_in(2)) group.conditions.push_back(time());
+    if (group.conditions.empty() || one_in(2)) group.relations.push_back(relation());
+    element.groups.push_back(std::move(group));
+  }
+
+  void mark(PhaseQuery& query) {
+    Element& element = query.elements[below(static_cast<unsigned>(query.elements.size()))];
+    if (!element.groups.empty() && one_in(2)) {
+      Group& group = element.groups.back();
+      if (!group.relations.empty() && one_in(2)) return mark(group.relations.front());
+      group.marked = true;
+      return;
+    }
+    if (!element.relations.empty() && one_in(2)) return mark(element.relations.front());
+    element.term.marked = true;
+  }
+
+  void mark(Relation& relation) {
+    if (!relation.sequence.empty()) return mark(relation.sequence.front());
+    relation.term.marked = true;
+  }
+
   Point point(bool sided) {
     const unsigned choice = below(4);
     if (choice == 0 && !sided) return Point::own_hand();
@@ -154,7 +200,11 @@ class RandomQueries {
     } else if (choice == 4) {
       result.kind = Expression::Kind::link;
       result.link = static_cast<Link>(below(9));
-      result.operands = {expression(depth - 1)};
+      if (result.link >= Link::overlaps && one_in(3)) {
+        result.sequence.push_back(pair());
+      } else {
+        result.operands = {expression(depth - 1)};
+      }
     } else {
       result.kind = choice == 1 ? Expression::Kind::all : Expression::Kind::any;
       for (unsigned i = 0; i < 2 + below(2); ++i) result.operands.push_back(expression(depth - 1));
@@ -235,12 +285,18 @@ class RandomQueries {
       default:
         break;
     }
+    condition = time();
+    return result;
+  }
+
+  Condition time() {
+    Condition condition;
     condition.field = static_cast<Field>(static_cast<int>(Field::duration) + static_cast<int>(below(3)));
     constexpr Compare kCompares[] = {Compare::equal,      Compare::not_equal, Compare::less,
                                      Compare::less_equal, Compare::greater,   Compare::greater_equal};
     condition.compare = kCompares[below(6)];
     condition.value = Milliseconds(condition.field == Field::duration ? below(6) : below(40));
-    return result;
+    return condition;
   }
 
   std::mt19937& random_;

@@ -96,6 +96,7 @@ RankedExample::RankedExample(const Example& example, const Segments& segments, c
 
 void RankedExample::load(std::uint32_t recording) {
   if (recording_ == recording) return;
+  movement_->pause();
   recording_ = recording;
   trace_ = movement_->hands(recording);
   clock_ = movement_->clock(recording);

@@ -1,5 +1,7 @@
 #include "signweave/query/regex.h"
 
+#include <cstdint>
+
 #include "signweave/core/text.h"
 
 namespace signweave {
@@ -7,6 +9,7 @@ namespace signweave {
 std::unique_ptr<RE2> compile(const Regex& regex) {
   RE2::Options options;
   options.set_log_errors(false);
+  options.set_max_mem(std::int64_t{1} << 20);  // a pattern that would take more takes long to read, too
   options.set_case_sensitive(!regex.ignore_case);
   // match_form() also trims, which would change what the pattern means.
   const std::string_view inner = trimmed(regex.pattern);

@@ -1,34 +1,29 @@
 #include "signweave/query/variables.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "signweave/core/text.h"
 #include "signweave/query/neighbours.h"
 
 namespace signweave {
 
-VariableCheck::VariableCheck(const PhaseQuery& query, const SegmentTable& table) : table_(&table) {
-  for (std::size_t place = 0; place < query.elements.size(); ++place) {
-    const Element& element = query.elements[place];
-    look_at(element.term.expression, place, std::nullopt);
-    for (std::size_t r = 0; r < element.relations.size(); ++r) look_at(element.relations[r].term.expression, place, r);
-  }
+VariableCheck::VariableCheck(const PhaseQuery& query, const SegmentTable& table, Watch& watch)
+    : table_(&table), watch_(&watch) {
+  std::size_t part = 0;
+  for_parts(query, [&](const Term& term) { look_at(term.expression, part++); });
 }
 
-void VariableCheck::look_at(const Expression& expression, std::size_t place, std::optional<std::size_t> relation) {
+void VariableCheck::look_at(const Expression& expression, std::size_t part) {
   if (expression.kind == Expression::Kind::all) {
-    for (const Expression& operand : expression.operands) look_at(operand, place, relation);
+    for (const Expression& operand : expression.operands) look_at(operand, part);
     return;
   }
   if (expression.kind != Expression::Kind::condition) return;
   const Condition& condition = expression.condition;
   const QueryVariable* name = std::get_if<QueryVariable>(&condition.value);
   if (name == nullptr) return;
-  Use use{.place = place,
-          .relation = relation,
-          .field = condition.field,
-          .tiers = {},
-          .equal = condition.compare == Compare::equal};
+  Use use{.part = part, .field = condition.field, .tiers = {}, .equal = condition.compare == Compare::equal};
   if (condition.field == Field::tier) {
     for (std::uint32_t tier = 0; tier < table_->tier_count(); ++tier) {
       if (match_form(table_->tier_at(tier)) == match_form(condition.tier)) use.tiers.push_back(tier);
@@ -57,26 +52,26 @@ void VariableCheck::labels_of(const Use& use, RowId row, std::vector<std::uint32
     const SegmentTable::TierRows* rows = table_->tier_rows(own.recording, tier);
     if (rows == nullptr) continue;
     for_rows_around(*table_, *rows, rows->own(), span, [&](RowId other) {
+      watch_->tick();
       if (span.overlaps(table_->span(other))) labels.push_back(table_->label(other));
       return true;
     });
   }
+  std::ranges::sort(labels);
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
 }
 
-bool VariableCheck::value_of(const Variable& variable, const std::vector<RowId>& rows,
-                             const std::vector<std::vector<RowId>>& partners, std::uint32_t& value) const {
+bool VariableCheck::value_of(const Variable& variable, std::span<const RowId> parts, std::uint32_t& value) const {
   std::optional<std::vector<std::uint32_t>> possible;
   std::vector<std::uint32_t> labels;
-  const auto row_of = [&](const Use& use) {
-    return use.relation ? partners[use.place][*use.relation] : rows[use.place];
-  };
+  const auto row_of = [&](const Use& use) { return parts[use.part]; };
   for (const Use& use : variable.uses) {
     if (!use.equal || row_of(use) == kNoRow) continue;
     labels_of(use, row_of(use), labels);
     if (!possible) {
       possible = labels;
     } else {
-      std::erase_if(*possible, [&](std::uint32_t one) { return std::ranges::find(labels, one) == labels.end(); });
+      std::erase_if(*possible, [&](std::uint32_t one) { return !std::ranges::binary_search(labels, one); });
     }
     if (possible->empty()) return false;
   }
@@ -95,18 +90,16 @@ bool VariableCheck::value_of(const Variable& variable, const std::vector<RowId>&
   return true;
 }
 
-bool VariableCheck::hold(const std::vector<RowId>& rows, const std::vector<std::vector<RowId>>& partners) const {
+bool VariableCheck::hold(std::span<const RowId> parts) const {
   std::uint32_t value = 0;
-  return std::ranges::all_of(variables_,
-                             [&](const Variable& variable) { return value_of(variable, rows, partners, value); });
+  return std::ranges::all_of(variables_, [&](const Variable& variable) { return value_of(variable, parts, value); });
 }
 
-std::vector<std::pair<std::string, std::string>> VariableCheck::values(
-    const std::vector<RowId>& rows, const std::vector<std::vector<RowId>>& partners) const {
+std::vector<std::pair<std::string, std::string>> VariableCheck::values(std::span<const RowId> parts) const {
   std::vector<std::pair<std::string, std::string>> result;
   for (const Variable& variable : variables_) {
     std::uint32_t value = 0;
-    if (!value_of(variable, rows, partners, value) || value == SegmentTable::kNone) continue;
+    if (!value_of(variable, parts, value) || value == SegmentTable::kNone) continue;
     result.emplace_back(variable.name, table_->text_at(value));
   }
   return result;

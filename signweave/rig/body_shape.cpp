@@ -27,15 +27,12 @@ float size_of(const BodyShape& shape) {
 }  // namespace
 
 BodyShape shape_of(const Motion& motion) {
-  constexpr std::int64_t kMost = 16;
   const Skeleton& skeleton = motion.skeleton();
   const std::int64_t frames = motion.frame_count();
-  const std::int64_t count = std::min(frames, kMost);
+  const std::int64_t count = std::min(frames, kShapeFrames);
   BodyShape shape;
   for (std::int64_t i = 0; i < count; ++i) {
-    // The middle one of an even number is the later, as for a motion's middle frame.
-    const std::int64_t frame = count < kMost ? i : i * frames / count;
-    shape.poses.push_back(to_model_space(skeleton, motion.pose(frame)));
+    shape.poses.push_back(to_model_space(skeleton, motion.pose(shape_frame(i, frames))));
   }
   shape.middle = static_cast<std::size_t>(count / 2);
   const std::size_t joints = skeleton.joint_count();

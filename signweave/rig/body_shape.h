@@ -28,6 +28,14 @@ struct BodyShape {
   }
 };
 
+/// Frames that `shape_of` looks at, at most, spread evenly.
+inline constexpr std::int64_t kShapeFrames = 16;
+/// The `i`th of them, of a motion of so many.
+constexpr std::int64_t shape_frame(std::int64_t i, std::int64_t frames) noexcept {
+  // The middle one of an even number is the later, as for a motion's middle frame.
+  return frames < kShapeFrames ? i : i * frames / kShapeFrames;
+}
+
 /// Of a motion of at least one frame. Reads a few frames, however long the motion.
 BodyShape shape_of(const Motion& motion);
 

@@ -11,10 +11,6 @@
 namespace signweave {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kHead = 2 * sizeof(std::uint32_t) + sizeof(TableCounts) + sizeof(std::uint32_t);
-static_assert(kHead % 8 == 0);
-
 /// Appends lists, each from a multiple of 8 on.
 class ListWriter {
  public:
@@ -57,8 +53,6 @@ struct LabelLists {
   std::vector<RowId> rows;
   std::array<std::vector<std::uint32_t>, 3> of_kinds;
 };
-
-constexpr std::size_t kListedKinds = 3;
 
 LabelLists label_lists(const TableLists& lists) {
   const auto kind = [&](RowId row) -> std::size_t { return lists.flags[row] & 3U; };
@@ -166,8 +160,8 @@ Bytes TableBytes::write(const TableLists& lists) {
   counts.rows = checked(lists.spans.size());
   counts.children = checked(children.rows.size());
 
-  std::vector<std::uint32_t> head = {kVersion, wide ? 1U : 0U};
-  head.resize(kHead / sizeof(std::uint32_t));
+  std::vector<std::uint32_t> head = {kTableVersion, wide ? 1U : 0U};
+  head.resize(kTableHead / sizeof(std::uint32_t));
   std::memcpy(head.data() + 2, &counts, sizeof counts);
   ListWriter out;
   out.list(head);
@@ -206,138 +200,6 @@ Bytes TableBytes::write(const TableLists& lists) {
   out.list(children.begins);
   out.list(children.rows);
   return out.take();
-}
-
-/// Takes list after list, and looks whether what is in it may be used as it is.
-class TableBytes::Reader {
- public:
-  Reader(ByteSpan bytes, const std::string& where) : in_(bytes, where) {}
-
-  template <typename T>
-  std::span<const T> list(std::size_t count) {
-    const std::size_t size = count * sizeof(T);
-    const ByteSpan taken = in_.take((size + 7) / 8 * 8);
-    return {reinterpret_cast<const T*>(taken.data()), count};
-  }
-
-  SegmentTable::Texts texts(std::uint32_t count, std::uint32_t bytes) {
-    SegmentTable::Texts made;
-    made.begins = list<std::uint32_t>(std::size_t{count} + 1);
-    made.characters = list<char>(bytes).data();
-    require_ascending(made.begins, bytes, "texts");
-    return made;
-  }
-
-  /// From 0 to `last`.
-  void require_ascending(std::span<const std::uint32_t> values, std::uint32_t last, const char* what) {
-    bool good = values.front() == 0 && values.back() == last;
-    for (std::size_t i = 1; i < values.size(); ++i) good &= values[i - 1] <= values[i];
-    if (!good) in_.fail(fmt::format("{} out of order", what));
-  }
-
-  void require_below(std::span<const std::uint32_t> values, std::uint32_t bound, const char* what) {
-    std::uint32_t most = 0;
-    for (const std::uint32_t value : values) most = std::max(most, value);
-    if (!values.empty() && most >= bound) in_.fail(fmt::format("{} that are none", what));
-  }
-
-  /// The same, or kNone.
-  void require_below_or_none(std::span<const std::uint32_t> values, std::uint32_t bound, const char* what) {
-    std::uint32_t most = 0;
-    for (const std::uint32_t value : values) most = std::max(most, value + 1);
-    if (!values.empty() && most > bound) in_.fail(fmt::format("{} that are none", what));
-  }
-
-  void finish() { in_.finish(); }
-  [[noreturn]] void fail(const std::string& what) const { in_.fail(what); }
-
- private:
-  ByteReader in_;
-};
-
-SegmentTable TableBytes::open(ByteSpan bytes, std::shared_ptr<const void> owner, const std::string& where) {
-  if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) {
-    auto copy = std::make_shared<const Bytes>(bytes.begin(), bytes.end());
-    bytes = *copy;
-    owner = std::move(copy);
-  }
-  Reader in(bytes, where);
-  const std::span<const std::uint32_t> head = in.list<std::uint32_t>(kHead / sizeof(std::uint32_t));
-  if (head[0] > kVersion) {
-    throw Error(ErrorCode::unsupported, fmt::format("{}: of version {}: this program reads up to {}; use a newer one",
-                                                    where, head[0], kVersion));
-  }
-  TableCounts counts{};
-  std::memcpy(&counts, head.data() + 2, sizeof counts);
-  const bool wide = head[1] == 1;
-  if (head[0] == 0 || head[1] > 1 || counts.rows == kNoRow) in.fail("a head that is none");
-
-  SegmentTable table;
-  table.owner_ = std::move(owner);
-  table.bytes_ = bytes;
-  table.size_ = counts.rows;
-  table.texts_ = in.texts(counts.texts, counts.text_bytes);
-  table.tiers_ = in.texts(counts.tiers, counts.tier_bytes);
-  table.recordings_ = in.texts(counts.recordings, counts.recording_bytes);
-  table.recording_tiers_ = in.list<std::uint32_t>(std::size_t{counts.recordings} + 1);
-  table.recording_begins_ = in.list<std::uint32_t>(std::size_t{counts.recordings} + 1);
-  table.places_ = in.list<SegmentTable::TierRows>(counts.places);
-  table.labels_of_texts_ = in.list<std::uint32_t>(counts.texts);
-  table.text_slots_ = in.list<std::uint32_t>(counts.slots);
-  table.rows_of_labels_ = in.list<std::uint32_t>(std::size_t{counts.texts} + 1);
-  table.by_label_ = in.list<RowId>(counts.rows - std::min(counts.units, counts.rows));
-  for (std::size_t k = 0; k < kListedKinds; ++k) {
-    table.labels_of_kinds_[k] = in.list<std::uint32_t>(counts.labels_of_kinds[k]);
-    in.require_below(table.labels_of_kinds_[k], counts.texts, "labels");
-  }
-  for (std::size_t k = 0; k < counts.phases.size(); ++k) {
-    table.by_phase_[k] = in.list<RowId>(counts.phases[k]);
-    in.require_below(table.by_phase_[k], counts.rows, "phases");
-  }
-  table.units_ = in.list<RowId>(counts.units);
-  if (wide) {
-    table.wide_ = in.list<std::int64_t>(2 * std::size_t{counts.rows});
-  } else {
-    table.begins_ = in.list<std::int32_t>(counts.rows);
-    table.ends_ = in.list<std::int32_t>(counts.rows);
-  }
-  table.texts_of_rows_ = in.list<std::uint32_t>(counts.rows);
-  table.parents_ = in.list<RowId>(counts.rows);
-  table.places_of_rows_ = in.list<std::uint32_t>(counts.rows);
-  table.flags_ = in.list<std::uint16_t>(counts.rows);
-  table.child_begins_ = in.list<std::uint32_t>(std::size_t{counts.rows} + 1);
-  table.child_list_ = in.list<RowId>(counts.children);
-  in.finish();
-
-  in.require_ascending(table.recording_tiers_, counts.places, "tiers");
-  in.require_ascending(table.recording_begins_, counts.rows, "recordings");
-  for (const SegmentTable::TierRows& rows : table.places_) {
-    if (rows.recording >= counts.recordings || rows.tier >= counts.tiers || rows.signer >= counts.texts ||
-        rows.begin > rows.own_end || rows.own_end > rows.extra_end || rows.extra_end > rows.unit_end ||
-        rows.unit_end > counts.rows) {
-      in.fail("a tier that is none");
-    }
-  }
-  in.require_below(table.labels_of_texts_, counts.texts, "labels");
-  if (!std::has_single_bit(counts.slots) || counts.slots <= counts.texts) in.fail("no table of texts");
-  in.require_below_or_none(table.text_slots_, counts.texts, "texts");
-  in.require_ascending(table.rows_of_labels_, static_cast<std::uint32_t>(table.by_label_.size()), "labels");
-  in.require_below(table.by_label_, counts.rows, "rows");
-  in.require_below(table.units_, counts.rows, "units");
-  in.require_below(table.texts_of_rows_, counts.texts, "texts");
-  in.require_below_or_none(table.parents_, counts.rows, "parents");
-  in.require_below(table.places_of_rows_, counts.places, "tiers");
-  in.require_ascending(table.child_begins_, counts.children, "children");
-  in.require_below(table.child_list_, counts.rows, "children");
-  // The kinds are two bits; phases go to 4, hands to 2, and a phase has its sign.
-  unsigned bad = 0;
-  for (RowId row = 0; row < counts.rows; ++row) {
-    const unsigned flags = table.flags_[row];
-    bad |= flags >> 9 | static_cast<unsigned>((flags >> 2 & 7U) > 4) | static_cast<unsigned>((flags >> 5 & 3U) == 3) |
-           static_cast<unsigned>((flags & 3U) == 2 && table.parents_[row] == kNoRow);
-  }
-  if (bad != 0) in.fail("rows of a kind that does not exist");
-  return table;
 }
 
 }  // namespace signweave

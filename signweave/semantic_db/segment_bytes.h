@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "signweave/core/running_checksum.h"
 #include "signweave/semantic_db/segment_table.h"
 
 namespace signweave {
@@ -39,6 +40,12 @@ struct TableCounts {
 };
 static_assert(sizeof(TableCounts) == 19 * sizeof(std::uint32_t));
 
+inline constexpr std::uint32_t kTableVersion = 1;
+inline constexpr std::size_t kTableHead = 2 * sizeof(std::uint32_t) + sizeof(TableCounts) + sizeof(std::uint32_t);
+static_assert(kTableHead % 8 == 0);
+/// Annotations, signs and phases; units have no labels.
+inline constexpr std::size_t kListedKinds = 3;
+
 /// What a table is made of, before its indexes are.
 struct TableLists {
   std::vector<std::string> texts, tiers, recordings;
@@ -61,9 +68,14 @@ class TableBytes {
   static Bytes write(const TableLists& lists);
   /// As SegmentTable::open.
   static SegmentTable open(ByteSpan bytes, std::shared_ptr<const void> owner, const std::string& where);
+  /// Of a sealed record (kv/sealed.h). Throws Error{corrupt} also where the checksum does not fit, and says that before
+  /// anything else that is wrong.
+  static SegmentTable open_sealed(ByteSpan record, std::shared_ptr<const void> owner, const std::string& where);
 
  private:
   class Reader;
+  static SegmentTable open_adding(ByteSpan bytes, std::shared_ptr<const void> owner, const std::string& where,
+                                  RunningChecksum* sum);
 };
 
 }  // namespace signweave

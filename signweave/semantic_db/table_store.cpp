@@ -5,6 +5,7 @@
 
 #include "signweave/kv/sealed.h"
 #include "signweave/semantic_db/keys.h"
+#include "signweave/semantic_db/segment_bytes.h"
 
 namespace signweave::semantic_db {
 namespace {
@@ -87,7 +88,7 @@ SegmentTable read_table(const kv::ReadTransaction& snapshot, std::uint64_t gener
   const auto record = snapshot.get(key_of('I', generation), *copied);
   if (!record) ByteReader({}, kWhereTable).fail("it is missing");
   const bool lent = copied->empty() || record->data() != copied->data();
-  return SegmentTable::open(kv::unsealed(*record, kWhereTable), lent ? owner : copied, kWhereTable);
+  return TableBytes::open_sealed(*record, lent ? owner : copied, kWhereTable);
 }
 
 /// A recording was there before `generation`. One tombstone of a name is enough: the youngest.

@@ -16,12 +16,23 @@ void erase_trace(kv::WriteTransaction& transaction, std::uint64_t generation) {
 }
 
 std::optional<HandTrace> read_trace(const kv::ReadTransaction& snapshot, std::uint64_t generation,
-                                    const std::string& where) {
+                                    const std::string& where, const Pause& pause) {
   const auto record = snapshot.get(key_of('T', generation));
   if (!record) return std::nullopt;
   const std::string what = where + ": trace of the hands";
   ByteReader reader(kv::unsealed(*record, what), what);
-  return decode_trace(reader);
+  if (pause) pause();
+  return decode_trace(reader, pause);
+}
+
+std::optional<RecordingFeatures> read_features(const kv::ReadTransaction& snapshot, std::uint64_t generation,
+                                               const std::string& where, const Pause& pause) {
+  const auto record = snapshot.get(key_of('F', generation));
+  if (!record) return std::nullopt;
+  const std::string what = where + ": features";
+  ByteReader reader(kv::unsealed(*record, what), what);
+  if (pause) pause();
+  return decode_features(reader, pause);
 }
 
 }  // namespace signweave::semantic_db

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "signweave/query/phase_query.h"
+#include "signweave/semantic_db/segments.h"
+
+namespace signweave {
+
+/// The plan for a query in words, one step a line: for `query --explain`.
+std::string explain(const PhaseQuery& query, const Segments& segments);
+
+}  // namespace signweave

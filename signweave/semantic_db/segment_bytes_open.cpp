@@ -1,0 +1,221 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "signweave/kv/sealed.h"
+#include "signweave/semantic_db/segment_bytes.h"
+
+// Bytes of a table are looked at before they are used: no number in them leads outside.
+
+namespace signweave {
+namespace {
+
+/// All numbers are below `bound`; with `or_none`, or kNone. No loop ends early, so that the compiler can take several
+/// numbers at once.
+struct Below {
+  std::uint32_t bound = 0;
+  const char* what = "";
+  bool or_none = false;
+
+  const char* operator()(std::span<const std::uint32_t> values, std::size_t) const {
+    std::uint32_t bad = 0;
+    if (or_none) {
+      for (const std::uint32_t value : values) bad |= static_cast<std::uint32_t>(value + 1 > bound);
+    } else {
+      for (const std::uint32_t value : values) bad |= static_cast<std::uint32_t>(value >= bound);
+    }
+    return bad == 0 ? nullptr : what;
+  }
+};
+
+/// The numbers go from 0 to `last` and never down. Blocks must come in order.
+struct Ascending {
+  std::uint32_t last = 0;
+  const char* what = "";
+  std::size_t count = 0;  ///< of all blocks
+  std::uint32_t before = 0;
+
+  const char* operator()(std::span<const std::uint32_t> values, std::size_t at) {
+    std::uint32_t bad = 0;
+    for (std::size_t i = 1; i < values.size(); ++i) bad |= static_cast<std::uint32_t>(values[i - 1] > values[i]);
+    bad |= static_cast<std::uint32_t>(values.front() < before || (at == 0 && values.front() != 0) ||
+                                      (at + values.size() == count && values.back() != last));
+    before = values.back();
+    return bad == 0 ? nullptr : what;
+  }
+};
+
+/// The kinds are two bits; phases go to 4, hands to 2, and a phase has its sign.
+struct Flags {
+  std::span<const RowId> parents;
+
+  const char* operator()(std::span<const std::uint16_t> values, std::size_t at) const {
+    constexpr std::size_t kStep = 4096;
+    std::array<std::uint16_t, kStep> alone;  // [row] 1: no parent. As wide as the flags, which keeps both loops fast
+    std::uint16_t bad = 0;
+    for (std::size_t first = 0; first < values.size(); first += kStep) {
+      const std::size_t count = std::min(kStep, values.size() - first);
+      const RowId* const parent = parents.data() + at + first;
+      for (std::size_t i = 0; i < count; ++i) alone[i] = static_cast<std::uint16_t>(parent[i] == kNoRow ? 1 : 0);
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::uint16_t flags = values[first + i];
+        const int beyond = flags >> 9;
+        const int phase_beyond = flags >> 4 & (flags >> 3 | flags >> 2) & 1;  // 5, 6 or 7
+        const int hand_beyond = flags >> 6 & flags >> 5 & 1;                  // 3
+        const int stray = flags >> 1 & ~flags & alone[i];                     // kind 2, a phase
+        bad = static_cast<std::uint16_t>(bad | beyond | phase_beyond | hand_beyond | stray);
+      }
+    }
+    return bad == 0 ? nullptr : "rows of a kind that does not exist";
+  }
+};
+
+/// What no check is needed for: any number will do.
+struct Anything {
+  template <typename T>
+  const char* operator()(std::span<const T>, std::size_t) const {
+    return nullptr;
+  }
+};
+
+}  // namespace
+
+/// Takes list after list, and looks whether what is in it may be used as it is. Memory is gone through once: of each
+/// block the checksum is taken, and while it is in the cache its numbers are looked at.
+class TableBytes::Reader {
+ public:
+  Reader(ByteSpan bytes, const std::string& where, RunningChecksum* sum) : in_(bytes, where), sum_(sum) {}
+
+  /// check(values, place of the first among all) of every block tells what is wrong with it, or null.
+  template <typename T, typename Check>
+  std::span<const T> list(std::size_t count, Check check) {
+    const ByteSpan taken = in_.take((count * sizeof(T) + 7) / 8 * 8);
+    const std::span<const T> all(reinterpret_cast<const T*>(taken.data()), count);
+    constexpr std::size_t kBlock = std::size_t{64} << 10;
+    for (std::size_t at = 0; at < taken.size(); at += kBlock) {
+      const ByteSpan block = taken.subspan(at, std::min(kBlock, taken.size() - at));
+      if (sum_ != nullptr) sum_->add(block);
+      const std::size_t first = at / sizeof(T);
+      if (const char* const wrong = check(all.subspan(first, std::min(kBlock / sizeof(T), count - first)), first)) {
+        in_.fail(wrong);
+      }
+    }
+    return all;
+  }
+
+  std::span<const std::uint32_t> below(std::size_t count, std::uint32_t bound, const char* what) {
+    return list<std::uint32_t>(count, Below{.bound = bound, .what = what});
+  }
+  /// The same, or kNone.
+  std::span<const std::uint32_t> below_or_none(std::size_t count, std::uint32_t bound, const char* what) {
+    return list<std::uint32_t>(count, Below{.bound = bound, .what = what, .or_none = true});
+  }
+  /// From 0 to `last`; one more than `count`.
+  std::span<const std::uint32_t> ascending(std::size_t count, std::uint32_t last, const char* what) {
+    return list<std::uint32_t>(count + 1, Ascending{.last = last, .what = what, .count = count + 1});
+  }
+
+  SegmentTable::Texts texts(std::uint32_t count, std::uint32_t bytes) {
+    SegmentTable::Texts made;
+    made.begins = ascending(count, bytes, "texts out of order");
+    made.characters = list<char>(bytes, Anything{}).data();
+    return made;
+  }
+
+  void finish() { in_.finish(); }
+  [[noreturn]] void fail(const std::string& what) const { in_.fail(what); }
+
+ private:
+  ByteReader in_;
+  RunningChecksum* sum_;
+};
+
+SegmentTable TableBytes::open(ByteSpan bytes, std::shared_ptr<const void> owner, const std::string& where) {
+  return open_adding(bytes, std::move(owner), where, nullptr);
+}
+
+SegmentTable TableBytes::open_sealed(ByteSpan record, std::shared_ptr<const void> owner, const std::string& where) {
+  try {
+    ByteReader in(record, where);
+    const auto expected = in.number<std::uint64_t>();
+    RunningChecksum sum;
+    SegmentTable table = open_adding(in.take(in.left()), std::move(owner), where, &sum);
+    if (sum.value() != expected) in.fail("its checksum does not fit");
+    return table;
+  } catch (const Error&) {
+    kv::unsealed(record, where);  // where the checksum does not fit, that is what is wrong
+    throw;
+  }
+}
+
+SegmentTable TableBytes::open_adding(ByteSpan bytes, std::shared_ptr<const void> owner, const std::string& where,
+                                     RunningChecksum* sum) {
+  if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) {
+    auto copy = std::make_shared<const Bytes>(bytes.begin(), bytes.end());
+    bytes = *copy;
+    owner = std::move(copy);
+  }
+  Reader in(bytes, where, sum);
+  const std::span<const std::uint32_t> head = in.list<std::uint32_t>(kTableHead / sizeof(std::uint32_t), Anything{});
+  if (head[0] > kTableVersion) {
+    throw Error(ErrorCode::unsupported, fmt::format("{}: of version {}: this program reads up to {}; use a newer one",
+                                                    where, head[0], kTableVersion));
+  }
+  TableCounts counts{};
+  std::memcpy(&counts, head.data() + 2, sizeof counts);
+  const bool wide = head[1] == 1;
+  if (head[0] == 0 || head[1] > 1 || counts.rows == kNoRow) in.fail("a head that is none");
+  if (!std::has_single_bit(counts.slots) || counts.slots <= counts.texts) in.fail("no table of texts");
+
+  SegmentTable table;
+  table.owner_ = std::move(owner);
+  table.bytes_ = bytes;
+  table.size_ = counts.rows;
+  table.texts_ = in.texts(counts.texts, counts.text_bytes);
+  table.tiers_ = in.texts(counts.tiers, counts.tier_bytes);
+  table.recordings_ = in.texts(counts.recordings, counts.recording_bytes);
+  table.recording_tiers_ = in.ascending(counts.recordings, counts.places, "tiers out of order");
+  table.recording_begins_ = in.ascending(counts.recordings, counts.rows, "recordings out of order");
+  table.places_ = in.list<SegmentTable::TierRows>(
+      counts.places, [&](std::span<const SegmentTable::TierRows> places, std::size_t) -> const char* {
+        for (const SegmentTable::TierRows& rows : places) {
+          if (rows.recording >= counts.recordings || rows.tier >= counts.tiers || rows.signer >= counts.texts ||
+              rows.begin > rows.own_end || rows.own_end > rows.extra_end || rows.extra_end > rows.unit_end ||
+              rows.unit_end > counts.rows) {
+            return "a tier that is none";
+          }
+        }
+        return nullptr;
+      });
+  table.labels_of_texts_ = in.below(counts.texts, counts.texts, "labels that are none");
+  table.text_slots_ = in.below_or_none(counts.slots, counts.texts, "texts that are none");
+  const RowId labelled = counts.rows - std::min(counts.units, counts.rows);
+  table.rows_of_labels_ = in.ascending(counts.texts, labelled, "labels out of order");
+  table.by_label_ = in.below(labelled, counts.rows, "rows that are none");
+  for (std::size_t k = 0; k < kListedKinds; ++k) {
+    table.labels_of_kinds_[k] = in.below(counts.labels_of_kinds[k], counts.texts, "labels that are none");
+  }
+  for (std::size_t k = 0; k < counts.phases.size(); ++k) {
+    table.by_phase_[k] = in.below(counts.phases[k], counts.rows, "phases that are none");
+  }
+  table.units_ = in.below(counts.units, counts.rows, "units that are none");
+  if (wide) {
+    table.wide_ = in.list<std::int64_t>(2 * std::size_t{counts.rows}, Anything{});
+  } else {
+    table.begins_ = in.list<std::int32_t>(counts.rows, Anything{});
+    table.ends_ = in.list<std::int32_t>(counts.rows, Anything{});
+  }
+  table.texts_of_rows_ = in.below(counts.rows, counts.texts, "texts that are none");
+  table.parents_ = in.below_or_none(counts.rows, counts.rows, "parents that are none");
+  table.places_of_rows_ = in.below(counts.rows, counts.places, "tiers that are none");
+  table.flags_ = in.list<std::uint16_t>(counts.rows, Flags{table.parents_});
+  table.child_begins_ = in.ascending(counts.rows, counts.children, "children out of order");
+  table.child_list_ = in.below(counts.children, counts.rows, "children that are none");
+  in.finish();
+  return table;
+}
+
+}  // namespace signweave

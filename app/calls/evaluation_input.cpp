@@ -30,10 +30,10 @@ std::unique_ptr<Database> database_in(const fs::path& path) {
 }
 
 /// A file whose root's columns are swapped is read again as they are: as it stands every pose of it is wrong.
-bvh::File read_motion(const fs::path& path, const MotionReading& words, const Listener& listener) {
-  bvh::ReadOptions options = read_options(words);
-  bvh::File file = bvh::read(path, options);
-  if (!words.root_order.empty() || file.motion.frame_count() == 0) return file;
+motion_file::File read_motion(const fs::path& path, const MotionReading& words, const Listener& listener) {
+  motion_file::ReadOptions options = read_options(words);
+  motion_file::File file = motion_file::read(path, options);
+  if (!file.layout || !words.root_order.empty() || file.motion.frame_count() == 0) return file;
   const RigMap rig = map_rig(file.motion);
   for (const Defect& defect : find_defects(file.motion, rig)) {
     if (defect.kind == DefectKind::scale) {
@@ -42,7 +42,7 @@ bvh::File read_motion(const fs::path& path, const MotionReading& words, const Li
     if (defect.kind != DefectKind::permuted_root) continue;
     options.root_columns = bvh::RootColumns::rotation_first;
     listener.tell({path.string(), "the root's columns hold the rotation first, and are read so"});
-    return bvh::read(path, options);
+    return motion_file::read(path, options);
   }
   return file;
 }
@@ -121,7 +121,7 @@ void add_files(const std::vector<fs::path>& paths, const MotionReading& reading,
     if (!job.motion) continue;
     add(
         [&] {
-          bvh::File file = read_motion(*job.motion, reading, listener);
+          motion_file::File file = read_motion(*job.motion, reading, listener);
           if (file.motion.frame_count() == 0) {
             throw Error(ErrorCode::unsupported, job.motion->string() + ": no frames, so nothing can be cut out");
           }

@@ -59,6 +59,7 @@ AnnotationDocument cut_document(const AnnotationDocument& document, TimeSpan spa
 Outgoing Exported::outgoing() const {
   return {.motion = motion ? &*motion : nullptr,
           .layout = character ? std::nullopt : info.layout,
+          .wishes = wishes,
           .document = document ? &*document : nullptr,
           .title = info.name,
           .signing_space = signing_space,
@@ -69,7 +70,8 @@ Outgoing Exported::outgoing() const {
 
 Exported run(const Database& database, const ExportCall& call, const std::vector<std::string>& outputs) {
   const std::shared_ptr<const Contents> contents = database.contents();
-  Exported made{.info = contents->at(call.recording), .signing_space = call.signing_space};
+  Exported made{
+      .info = contents->at(call.recording), .signing_space = call.signing_space, .wishes = wishes_of(call.bvh)};
   const RecordingInfo& info = made.info;
   const bool part = call.from || call.to;
   made.frames = {0, info.motion ? info.motion->frames : 0};
@@ -87,7 +89,7 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
                                                     all.begin.count(), all.end.count()));
     }
     const JointSet joints = call.joints.empty() ? JointSet{} : joints_named(call.joints, *database.skeleton(info.name));
-    made.motion = database.read(info.name, made.frames, joints);
+    made.motion = at_rate(database.read(info.name, made.frames, joints), call.rate, info.name, made.notices);
   }
   if (info.document != 0 && std::ranges::any_of(outputs, is_document)) made.document = database.document(info.name);
   if (made.document && part) {
@@ -107,7 +109,8 @@ void show_on(Exported& made, const SignerStance& stance, SharedCharacter charact
 }
 
 nlohmann::json json_of(const Exported& exported) {
-  return {{"recording", exported.info.name}, {"frames", exported.frames.size()}};
+  return {{"recording", exported.info.name},
+          {"frames", exported.motion ? exported.motion->frame_count() : exported.frames.size()}};
 }
 
 }  // namespace signweave::calls

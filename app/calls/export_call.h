@@ -8,6 +8,7 @@
 #include "app/calls/field.h"
 #include "app/calls/files.h"
 #include "app/calls/json.h"
+#include "app/calls/motion_writing.h"
 #include "signweave/database/database.h"
 
 namespace signweave::calls {
@@ -20,6 +21,8 @@ struct ExportCall {
   std::string joints;
   bool signing_space = false;
   std::string character;
+  BvhWriting bvh;
+  RateWriting rate;
 };
 
 template <class Visit>
@@ -31,6 +34,8 @@ void fields(Visit& visit, ExportCall& call) {
   visit(Field{.name = "joints", .help = "joint names, separated by commas; the others are left at rest"}, call.joints);
   visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, call.signing_space);
   visit(Field{.name = "character", .help = kCharacterHelp}, call.character);
+  fields(visit, call.rate);
+  fields(visit, call.bvh);
 }
 
 /// What is to be written.
@@ -40,6 +45,7 @@ struct Exported {
   std::optional<Motion> motion;
   std::optional<AnnotationDocument> document;
   bool signing_space = false;
+  bvh::LayoutWishes wishes;
   SharedCharacter character;  ///< whose joints the motion has; none: those of the recording
   std::vector<Notice> notices;
 

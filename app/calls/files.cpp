@@ -9,12 +9,15 @@
 #include "app/calls/synthesis_report.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
+#include "signweave/core/time.h"
 #include "signweave/formats/contact_sheet.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/formats/face_csv.h"
+#include "signweave/formats/file_format.h"
 #include "signweave/formats/gltf.h"
 #include "signweave/formats/gltf_character.h"
 #include "signweave/formats/positions_csv.h"
+#include "signweave/formats/rotations_csv.h"
 #include "signweave/synthesis/provenance.h"
 
 namespace signweave::calls {
@@ -24,7 +27,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr const char* kFace = ".face.csv";
-constexpr const char* kEndings[] = {".bvh", ".glb", ".gltf", ".eaf", ".json", ".csv", kFace, ".svg"};
+constexpr const char* kRotations = ".rotations.csv";
 
 void write_text(const std::string& path, const std::string& text) {
   AtomicFile file(path);
@@ -32,7 +35,7 @@ void write_text(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-json json_of(const Motion& motion) {
+json motion_json(const Motion& motion) {
   json joints = json::array();
   for (const Joint& joint : motion.skeleton().joints()) {
     joints.push_back({{"name", joint.name},
@@ -78,9 +81,15 @@ void check_folders(const std::vector<std::string>& paths) {
   }
 }
 
-/// What a motion written without its own layout looks like.
-bvh::Layout layout_for(const std::optional<bvh::Layout>& layout, const Skeleton& skeleton) {
-  return layout && bvh::fits(*layout, skeleton) ? *layout : bvh::default_layout(skeleton);
+/// How a motion is written as BVH: as its own file was where it has one, but for what was asked for.
+bvh::Layout layout_for(const Outgoing& recording) {
+  const Skeleton& skeleton = recording.motion->skeleton();
+  const bool fits = recording.layout && bvh::fits(*recording.layout, skeleton);
+  bvh::Layout layout = fits ? *recording.layout : bvh::default_layout(skeleton);
+  // A time that was printed for another rate is another rate's.
+  const std::optional<SnappedRate> printed = snap_frame_time(layout.frame_time);
+  if (printed && printed->rate != recording.motion->rate()) layout.frame_time.clear();
+  return bvh::with(std::move(layout), recording.wishes);
 }
 
 /// One cell of a contact sheet per stroke and per junction: what a person wants to look at.
@@ -137,6 +146,7 @@ ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string&
 Outgoing outgoing(const Synthesized& made, const SynthesisLook& look) {
   return {.motion = &made.result.motion,
           .layout = look.layout,
+          .wishes = look.wishes,
           .title = look.sheet.title,
           .rig = look.sheet.rig,
           .declarations = made.result.declarations,
@@ -175,21 +185,21 @@ gltf::WriteOptions gltf_options(const Outgoing& recording) {
 }  // namespace
 
 std::string ending_of(const std::string& path) {
-  const std::string name = fold_case(fs::path(path).filename().string());
-  return name.ends_with(kFace) ? kFace : fs::path(name).extension().string();
+  const FileFormat* format = file_format(path);
+  return format != nullptr ? std::string(format->ending) : fold_case(fs::path(path).extension().string());
 }
 
 std::string writable_endings() {
   std::string list;
-  for (const char* ending : kEndings) list += fmt::format("{}{}", list.empty() ? "" : " ", ending);
+  for (const FileFormat& format : file_formats()) {
+    if (format.writes) list += fmt::format("{}{}", list.empty() ? "" : " ", format.ending);
+  }
   return list;
 }
 
 std::string check_output(const std::string& path) {
-  const std::string ending = ending_of(path);
-  for (const char* known : kEndings) {
-    if (ending == known) return {};
-  }
+  const FileFormat* format = file_format(path);
+  if (format != nullptr && format->writes) return {};
   return fmt::format("'{}' ends in none of {}", printable(path), writable_endings());
 }
 
@@ -216,7 +226,7 @@ std::string synthesis_text(std::string_view ending, const Synthesized& made, con
     }
     document["sources"] = std::move(sources);
     document["declarations"] = declarations_json(result.declarations);
-    document["motion"] = json_of(result.motion);
+    document["motion"] = motion_json(result.motion);
     return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
   }
   if (ending == ".svg") {
@@ -232,13 +242,18 @@ std::string recording_text(std::string_view ending, const Outgoing& recording, c
   require_parts(ending, recording, where);
   if (ending == ".eaf") return eaf::write_text(*recording.document);
   const Motion& motion = *recording.motion;
-  if (ending == ".bvh") return bvh::write_text(motion, layout_for(recording.layout, motion.skeleton()));
+  if (ending == ".bvh") return bvh::write_text(motion, layout_for(recording));
   if (ending == ".glb" && recording.character) return character_glb(recording);
   if (ending == ".glb" || ending == ".gltf") {
     return gltf::to_bytes(motion, gltf_options(recording),
                           ending == ".glb" ? gltf::Container::binary : gltf::Container::text);
   }
   if (ending == kFace) return face_csv::write_text(motion);
+  if (ending == kRotations) {
+    std::string text = rotations_csv_heading(motion.skeleton());
+    for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) text += rotations_csv_row(motion, frame);
+    return text;
+  }
   if (ending == ".csv") {
     std::string text = positions_csv_heading(motion.skeleton());
     for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) text += positions_csv_row(motion, frame);
@@ -252,7 +267,7 @@ std::string recording_text(std::string_view ending, const Outgoing& recording, c
     options.rig = map_rig(motion, recording.rig);
     return contact_sheet(motion, options);
   }
-  json document = json_of(motion);
+  json document = motion_json(motion);
   document["declarations"] = declarations_json(recording.declarations);
   return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
 }
@@ -278,13 +293,15 @@ void write_recording(const std::string& path, const Outgoing& recording) {
   require_parts(ending, recording, path);
   // The long ones go to the file piece by piece.
   if (ending == ".bvh") {
-    bvh::write(path, *recording.motion, layout_for(recording.layout, recording.motion->skeleton()));
+    bvh::write(path, *recording.motion, layout_for(recording));
   } else if (ending == ".glb" && recording.character) {
     write_text(path, character_glb(recording));
   } else if (ending == ".glb" || ending == ".gltf") {
     gltf::write(path, *recording.motion, gltf_options(recording));
   } else if (ending == ".csv") {
     write_positions_csv(path, *recording.motion);
+  } else if (ending == kRotations) {
+    write_rotations_csv(path, *recording.motion);
   } else {
     write_text(path, recording_text(ending, recording, path));
   }

@@ -39,6 +39,7 @@ struct SheetWishes {
 /// How a synthesis is written.
 struct SynthesisLook {
   std::optional<bvh::Layout> layout;  ///< for .bvh
+  bvh::LayoutWishes wishes;           ///< what of it is to be otherwise
   SheetWishes sheet;                  ///< for .svg
   SharedCharacter character;          ///< whose joints it has; for .glb
 };
@@ -55,6 +56,7 @@ std::string synthesis_text(std::string_view ending, const Synthesized& made, con
 struct Outgoing {
   const Motion* motion = nullptr;
   std::optional<bvh::Layout> layout;             ///< for .bvh
+  bvh::LayoutWishes wishes{};                    ///< what of it is to be otherwise
   const AnnotationDocument* document = nullptr;  ///< for .eaf
   std::string title;
   bool signing_space = false;                                     ///< for .svg

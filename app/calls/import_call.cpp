@@ -81,6 +81,8 @@ ImportOptions options_of(const ImportCall& call) {
   options.phase_tiers = call.phase_tiers;
   if (!call.phase_labels.empty()) options.phase_labels = read_phase_labels(call.phase_labels);
   if (call.offset_ms) options.offset = Seconds(*call.offset_ms / 1000.0);
+  if (call.face_offset_ms) options.face_offset = Seconds(*call.face_offset_ms / 1000.0);
+  if (!call.face_timecode.empty()) options.face_timecode = call.face_timecode;
   for (const std::string& sync : call.syncs) options.sync.push_back(*parse_sync(sync));
   if (!call.rig.empty()) options.rig = read_rig_names(call.rig);
   options.replace_motion = call.replace_motion;

@@ -23,6 +23,8 @@ struct ImportCall {
   MotionReading reading;
   std::optional<double> offset_ms;
   std::vector<std::string> syncs;
+  std::optional<double> face_offset_ms;
+  std::string face_timecode;
   std::string rig;
   bool replace_motion = false;
 };
@@ -32,7 +34,10 @@ std::string check_sync(const std::string& text);
 
 template <class Visit>
 void fields(Visit& visit, ImportCall& call) {
-  visit(Field{.name = "pairs", .help = "CSV: motion, annotation, signer, offset in ms", .is_file = true}, call.pairs);
+  visit(Field{.name = "pairs",
+              .help = "CSV: motion, annotation, signer, offset in ms, face, face offset in ms",
+              .is_file = true},
+        call.pairs);
   visit(Field{.name = "sign_tier", .help = "tier of glosses, TIER[:right|left|both[:SIGNER]]; guessed where not given"},
         call.sign_tiers);
   visit(Field{.name = "phase_tier", .help = "tier of phases; guessed where not given"}, call.phase_tiers);
@@ -41,6 +46,10 @@ void fields(Visit& visit, ImportCall& call) {
   fields(visit, call.reading);
   visit(Field{.name = "offset_ms", .help = "annotation time of frame 0"}, call.offset_ms);
   visit(Field{.name = "sync", .help = "FRAME@MS, given twice: sets offset and drift", .check = check_sync}, call.syncs);
+  visit(Field{.name = "face_offset_ms", .help = "the motion's time of a face capture's first row; else 0"},
+        call.face_offset_ms);
+  visit(Field{.name = "face_timecode", .help = "HH:MM:SS:FF of the motion's frame 0, on the clock of the face capture"},
+        call.face_timecode);
   visit(Field{.name = "rig",
               .help = "mapping file: lines 'part = joint' for what the joints' names do not tell; remembered, an empty "
                       "file forgets",

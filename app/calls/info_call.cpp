@@ -5,6 +5,7 @@
 #include "app/calls/defect_report.h"
 #include "app/calls/rig_json.h"
 #include "app/calls/selection_report.h"
+#include "signweave/formats/file_format.h"
 
 namespace signweave::calls {
 
@@ -121,28 +122,23 @@ json json_of(const CheckResult& result) {
 }
 
 std::vector<std::vector<std::string>> format_rows() {
-  return {
-      {"ending", "reads", "writes", "holds", "is lost"},
-      {".bvh", "yes", "yes", "skeleton and motion", "annotation; rotations beyond 1e-4 degrees"},
-      {".glb .gltf", "no", "yes", "skeleton, motion, a simple body and face; for viewers", "annotation"},
-      {".eaf", "yes", "yes", "annotation", "motion"},
-      {".anvil", "yes", "no", "annotation; written as .eaf", "motion"},
-      {".json", "no", "yes", "a synthesis: poses, signs, sources, junctions", "nothing"},
-      {".csv", "no", "yes", "joint positions per frame, metres", "rotations, annotation"},
-      {".face.csv", "yes", "yes", "scalar tracks, as Live Link Face writes them", "everything else"},
-      {".svg", "no", "yes", "contact sheet: frames as pictures", "everything but the picture"},
-  };
+  std::vector<std::vector<std::string>> rows = {{"ending", "reads", "writes", "holds", "is lost"}};
+  for (const FileFormat& format : file_formats()) {
+    rows.push_back({std::string(format.ending), format.reads ? "yes" : "no", format.writes ? "yes" : "no",
+                    std::string(format.holds), std::string(format.lost)});
+  }
+  return rows;
 }
 
 json formats_json() {
   json list = json::array();
-  const std::vector<std::vector<std::string>> rows = format_rows();
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    list.push_back({{"ending", rows[i][0]},
-                    {"reads", rows[i][1] == "yes"},
-                    {"writes", rows[i][2] == "yes"},
-                    {"holds", rows[i][3]},
-                    {"lost", rows[i][4]}});
+  for (const FileFormat& format : file_formats()) {
+    list.push_back({{"ending", format.ending},
+                    {"name", format.name},
+                    {"reads", format.reads},
+                    {"writes", format.writes},
+                    {"holds", format.holds},
+                    {"lost", format.lost}});
   }
   return list;
 }

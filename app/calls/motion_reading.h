@@ -3,21 +3,23 @@
 #include <string>
 
 #include "app/calls/field.h"
-#include "signweave/formats/bvh.h"
+#include "app/calls/motion_writing.h"
+#include "signweave/formats/motion_file.h"
 
 namespace signweave::calls {
 
-/// How a motion file is to be read. Empty texts: as the file says, or guessed.
+/// How a motion file is to be read. Empty texts: as the file says, or guessed. What a format does not know is passed
+/// over with a notice.
 struct MotionReading {
   std::string up;
   std::string unit;
   std::string root_unit;
   std::string root_order;
   bool mirror = false;
+  std::string source_rate;
+  std::string take;
+  std::string skeleton;
 };
-
-/// Empty, or why `text` is no unit.
-std::string check_unit(const std::string& text);
 
 template <class Visit>
 void fields(Visit& visit, MotionReading& reading) {
@@ -38,9 +40,21 @@ void fields(Visit& visit, MotionReading& reading) {
               .one_of = {"declared", "rotation_first"}},
         reading.root_order);
   visit(Field{.name = "mirror", .help = "the file's space is left-handed"}, reading.mirror);
+  visit(Field{.name = "source_rate",
+              .help = "frames a second, such as 120 or 30000/1001, of a file that does not tell or is sampled anew",
+              .or_number = true,
+              .check = check_rate},
+        reading.source_rate);
+  visit(Field{.name = "take", .help = "which of a file's several takes: its name or number; the first where not given"},
+        reading.take);
+  visit(Field{.name = "skeleton",
+              .help = "the file of the skeleton where it is one of its own; else it is looked for",
+              .is_file = true,
+              .type_name = "FILE"},
+        reading.skeleton);
 }
 
 /// Of checked fields.
-bvh::ReadOptions read_options(const MotionReading& reading);
+motion_file::ReadOptions read_options(const MotionReading& reading);
 
 }  // namespace signweave::calls

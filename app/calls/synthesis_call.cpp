@@ -52,12 +52,6 @@ std::string check_duration(const std::string& text) {
   return fmt::format("'{}' is neither corpus, nor fitted, nor 0 to 60000 ms", printable(text));
 }
 
-std::string check_rate(const std::string& text) {
-  const auto rate = parse_frame_rate(text);
-  if (rate && rate->hertz() >= 1 && rate->hertz() <= 2000) return {};
-  return fmt::format("'{}' is no rate of 1 to 2000 frames a second", printable(text));
-}
-
 SynthesisOptions options_of(const SynthesisChoices& choices) {
   SynthesisOptions options;
   options.method = find_transition_method(choices.transition);
@@ -122,6 +116,7 @@ void show_on(Synthesized& made, const SignerStance& stance, const CharacterFile&
 SynthesisLook look_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
                       SharedCharacter character) {
   SynthesisLook look;
+  look.wishes = wishes_of(choices.bvh);
   look.sheet = {.title = title, .signing_space = choices.signing_space, .rig = {}};
   look.character = std::move(character);
   if (look.character) return look;

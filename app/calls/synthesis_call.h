@@ -7,6 +7,7 @@
 #include "app/calls/field.h"
 #include "app/calls/files.h"
 #include "app/calls/json.h"
+#include "app/calls/motion_writing.h"
 #include "signweave/synthesis/synthesizer.h"
 
 namespace signweave::calls {
@@ -20,6 +21,7 @@ struct SynthesisChoices {
   std::string align = "auto";
   bool signing_space = false;
   std::string character;
+  BvhWriting bvh;
   bool explain = false;
 };
 
@@ -28,7 +30,6 @@ std::vector<std::string> transition_names();
 std::string transition_help();
 /// Empty, or what is wrong with the value.
 std::string check_duration(const std::string& text);
-std::string check_rate(const std::string& text);
 
 /// What says how the signing goes, but for its frame rate.
 template <class Visit>
@@ -63,6 +64,7 @@ void fields(Visit& visit, SynthesisChoices& choices) {
               .check = check_rate},
         choices.rate);
   visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, choices.signing_space);
+  fields(visit, choices.bvh);
   visit(Field{.name = "explain", .help = "show candidates, costs and junctions"}, choices.explain);
 }
 

@@ -75,6 +75,7 @@ Run query(CLI::App& verb);
 Run xpath(CLI::App& verb);
 Run sign(CLI::App& verb);
 Run edit(CLI::App& verb);
+Run convert(CLI::App& verb);
 Run export_recording(CLI::App& verb);
 Run segment(CLI::App& verb);
 Run stats(CLI::App& verb);

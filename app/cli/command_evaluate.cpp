@@ -11,6 +11,7 @@
 #include "app/cli/progress.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
+#include "signweave/formats/file_format.h"
 
 namespace signweave::cli {
 namespace {
@@ -91,7 +92,9 @@ void run_evaluate(const EvaluateArguments& options, Io& io) {
 
 Run evaluate(CLI::App& verb) {
   auto options = std::make_shared<EvaluateArguments>();
-  verb.add_option("PATH", options->paths, "databases, motion files (.bvh), or folders of them")->required();
+  verb.add_option("PATH", options->paths,
+                  "databases, motion files " + readable_endings(FileKind::motion) + ", or folders of them")
+      ->required();
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next != "seed") return;
     verb.add_option("--measure", options->measures, "a table of this measure, by its name in JSON; may be given again")

@@ -9,6 +9,7 @@
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "signweave/formats/file_format.h"
 
 namespace signweave::cli {
 namespace {
@@ -72,7 +73,8 @@ Run import(CLI::App& verb) {
   auto options = std::make_shared<ImportArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   verb.add_option("FILE", options->inputs,
-                  "motion files (.bvh), annotation files (.eaf, .anvil), face captures (.face.csv), folders of them");
+                  "motion files " + readable_endings(FileKind::motion) + ", annotation files " +
+                      readable_endings(FileKind::annotation) + ", face captures (.face.csv), folders of them");
   bind(verb, options->call);
   return [options](Io& io) {
     if (options->inputs.empty() && options->call.pairs.empty()) throw CLI::RequiredError("FILE or --pairs");

@@ -19,6 +19,7 @@
 #include "signweave/core/text.h"
 #include "signweave/formats/annotation_file.h"
 #include "signweave/formats/face_csv.h"
+#include "signweave/formats/file_format.h"
 
 namespace signweave::cli {
 namespace {
@@ -33,26 +34,29 @@ std::string unit_name(double metres) {
   return fmt::format("{:.6g} m", metres);
 }
 
-void info_of_bvh(const std::string& path, const calls::MotionReading& motion_options, const std::string& rig_path,
-                 Io& io) {
-  bvh::ReadOptions options = read_options(motion_options);
+void info_of_motion(const std::string& path, const calls::MotionReading& motion_options, const std::string& rig_path,
+                    Io& io) {
+  motion_file::ReadOptions options = read_options(motion_options);
   Progress progress(io, "reading");
   options.progress = [&](double fraction) { progress.show(fraction); };
-  const bvh::File file = bvh::read(path, options);
+  const motion_file::File file = motion_file::read(path, options);
   progress.hide();
   const Skeleton& skeleton = file.motion.skeleton();
   const RigMap rig = rig_map_of(file.motion, rig_path);
   nlohmann::ordered_json fields = {{"file", path},
-                                   {"format", "BVH"},
+                                   {"format", file.format},
                                    {"frames", file.motion.frame_count()},
                                    {"frames_per_second", file.motion.rate().hertz()},
                                    {"seconds", file.motion.duration().count()},
                                    {"joints", skeleton.joint_count()},
                                    {"tips", skeleton.tips().size()},
                                    {"joints_with_translation", skeleton.translation_count()},
-                                   {"root", skeleton.joint(0).name},
-                                   {"up", file.layout.up == bvh::UpAxis::z ? "z" : "y"},
-                                   {"unit", unit_name(file.layout.unit)}};
+                                   {"scalar_tracks", file.motion.tracks().size()},
+                                   {"root", skeleton.joint(0).name}};
+  if (file.layout) {
+    fields["up"] = file.layout->up == bvh::UpAxis::z ? "z" : "y";
+    fields["unit"] = unit_name(file.layout->unit);
+  }
   const std::vector<Defect> defects = find_defects(file.motion, rig);
   if (io.json) {
     json names = json::array();
@@ -159,15 +163,17 @@ Run info(CLI::App& verb) {
   };
   auto options = std::make_shared<InfoArguments>();
   verb.add_option("PATH", options->path,
-                  "a database, a motion file (.bvh), an annotation file (.eaf, .anvil) or a face capture (.face.csv)")
+                  "a database, a motion file " + readable_endings(FileKind::motion) + ", an annotation file " +
+                      readable_endings(FileKind::annotation) + " or a face capture (.face.csv)")
       ->required();
   verb.add_option("RECORDING", options->recording, "of a database: all that is known of this one");
   verb.add_option("--rig", options->rig, "a mapping file (part = joint) that says which joint plays which part")
       ->type_name("FILE");
   bind(verb, options->motion);
   return [options](Io& io) {
-    const std::string ending = fold_case(std::filesystem::path(options->path).extension().string());
-    if (!options->rig.empty() && ending != ".bvh") {
+    const FileFormat* format = file_format(options->path);
+    const FileKind kind = format == nullptr || !format->reads ? FileKind::product : format->kind;
+    if (!options->rig.empty() && kind != FileKind::motion) {
       throw CLI::ValidationError("--rig", "is about a motion file; a recording's mapping is given by import --rig");
     }
     std::error_code ignored;
@@ -183,11 +189,11 @@ Run info(CLI::App& verb) {
       throw Error(ErrorCode::not_found, options->path + ": no such file or database");
     } else if (!std::filesystem::is_regular_file(options->path, ignored)) {
       throw Error(ErrorCode::bad_input, options->path + ": is no file");
-    } else if (ending == ".bvh") {
-      info_of_bvh(options->path, options->motion, options->rig, io);
-    } else if (annotation_file::is_name(options->path)) {
+    } else if (kind == FileKind::motion) {
+      info_of_motion(options->path, options->motion, options->rig, io);
+    } else if (kind == FileKind::annotation) {
       info_of_annotation(options->path, io);
-    } else if (fold_case(options->path).ends_with(".face.csv")) {
+    } else if (kind == FileKind::face) {
       info_of_face(options->path, io);
     } else {
       throw Error(ErrorCode::unsupported,

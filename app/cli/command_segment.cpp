@@ -14,6 +14,7 @@
 #include "signweave/core/text.h"
 #include "signweave/features/phase_proposals.h"
 #include "signweave/formats/eaf.h"
+#include "signweave/formats/file_format.h"
 
 namespace signweave::cli {
 namespace {
@@ -62,10 +63,10 @@ void require_new(const std::string& path) {
 
 void run_segment(const SegmentArguments& options, Io& io) {
   if (!options.output.empty() && !options.overwrite) require_new(options.output);
-  bvh::ReadOptions reading = read_options(options.reading);
+  motion_file::ReadOptions reading = read_options(options.reading);
   Progress progress(io, "reading");
   reading.progress = [&](double fraction) { progress.show(fraction); };
-  const bvh::File file = bvh::read(options.motion, reading);
+  const motion_file::File file = motion_file::read(options.motion, reading);
   print_notices(io, file.notices);
   const RigMap rig = file.motion.frame_count() == 0
                          ? RigMap{}
@@ -88,7 +89,7 @@ void run_segment(const SegmentArguments& options, Io& io) {
 
 Run segment(CLI::App& verb) {
   auto options = std::make_shared<SegmentArguments>();
-  verb.add_option("MOTION", options->motion, "a motion file (.bvh)")->required();
+  verb.add_option("MOTION", options->motion, "a motion file " + readable_endings(FileKind::motion))->required();
   verb.add_option("-o,--output", options->output, "annotation file to write (.eaf); without it phases are only counted")
       ->check([](const std::string& path) {
         return fold_case(path).ends_with(".eaf") ? std::string() : "'" + printable(path) + "' does not end in .eaf";

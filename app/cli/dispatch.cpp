@@ -33,6 +33,8 @@ constexpr Command kCommands[] = {
     {"edit", "change a recording's words", "signweave edit corpus.db meteo --replace BRETAGNE=VANNES -o out.bvh", edit},
     {"export", "write a recording, or a part of it",
      "signweave export corpus.db meteo -o part.bvh --from 1000 --to 4000", export_recording},
+    {"convert", "write files of one format as another, without a database",
+     "signweave convert walk.bvh -o walk.glb -o walk.csv", convert},
     {"segment", "propose phases of both hands, from motion alone", "signweave segment meteo.bvh -o meteo.phases.eaf",
      segment},
     {"stats", "durations of the recorded transitions", "signweave stats corpus.db --recording meteo", stats},

@@ -4,6 +4,7 @@
 
 #include "app/server/error_name.h"
 #include "signweave/core/text.h"
+#include "signweave/formats/file_format.h"
 #include "signweave/query/parse.h"
 
 namespace signweave::server {
@@ -11,17 +12,18 @@ namespace {
 
 using nlohmann::json;
 
-constexpr FileFormat kFormats[] = {
-    {"bvh", ".bvh", "text/plain; charset=utf-8"},
-    {"glb", ".glb", "model/gltf-binary"},
-    {"gltf", ".gltf", "model/gltf+json"},
-    {"eaf", ".eaf", "application/xml"},
-    {"json", ".json", "application/json"},
-    {"csv", ".csv", "text/csv; charset=utf-8"},
-    {"face.csv", ".face.csv", "text/csv; charset=utf-8"},
-    {"svg", ".svg", "image/svg+xml"},
-    {"frames", ".frames", "application/vnd.signweave.frames"},
-};
+/// What an answer can be written as: every format that is written, by its ending, and what only HTTP has.
+const std::vector<AnswerFormat>& answer_formats() {
+  static const std::vector<AnswerFormat> formats = [] {
+    std::vector<AnswerFormat> list;
+    for (const FileFormat& format : file_formats()) {
+      if (format.writes) list.push_back({format.ending.substr(1), format.ending, format.media_type});
+    }
+    list.push_back({"frames", ".frames", "application/vnd.signweave.frames"});
+    return list;
+  }();
+  return formats;
+}
 
 /// One line, its options named as the API's fields are: "--replace-motion" is "replace_motion".
 std::string message_of(const std::string& text) {
@@ -89,16 +91,16 @@ ApiResponse error_answer(const Error& error, const std::function<std::string(std
   return json_answer(json{{"error", error_json(error, redact)}}, status_of(error));
 }
 
-const FileFormat& file_format(std::string_view name) {
+const AnswerFormat& answer_format(std::string_view name) {
   std::vector<std::string> known;
-  for (const FileFormat& format : kFormats) {
+  for (const AnswerFormat& format : answer_formats()) {
     if (format.name == name) return format;
     known.emplace_back(format.name);
   }
   throw Error(ErrorCode::bad_input, fmt::format("no format '{}'{}", printable(name), did_you_mean(name, known)));
 }
 
-ApiResponse file_answer(const FileFormat& format, const std::string& stem, std::string body) {
+ApiResponse file_answer(const AnswerFormat& format, const std::string& stem, std::string body) {
   std::string name;
   for (const char c : stem.substr(0, 100)) {
     const auto byte = static_cast<unsigned char>(c);

@@ -41,16 +41,16 @@ ApiResponse json_answer(const Json& document, int status = 200) {
 }
 
 /// What kind of file a format's name stands for: "bvh" -> ".bvh".
-struct FileFormat {
+struct AnswerFormat {
   std::string_view name;
   std::string_view ending;
   std::string_view media_type;
 };
 /// Error{bad_input} where there is none of this name.
-const FileFormat& file_format(std::string_view name);
+const AnswerFormat& answer_format(std::string_view name);
 
 /// A file, to be saved under `stem` with the format's ending.
-ApiResponse file_answer(const FileFormat& format, const std::string& stem, std::string body);
+ApiResponse file_answer(const AnswerFormat& format, const std::string& stem, std::string body);
 
 /// A JSON text in ASCII, for a header.
 std::string header_json(const nlohmann::json& document);

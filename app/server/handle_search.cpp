@@ -67,7 +67,7 @@ ApiResponse find_segments(Call& call) {
     if (const RecordingInfo* info = contents->find(last)) call.declare(info->declarations);
   }
   if (format == "csv" && !report.plan)
-    return file_answer(file_format("csv"), "answers", calls::format_csv(rows_of(report)));
+    return file_answer(answer_format("csv"), "answers", calls::format_csv(rows_of(report)));
   return json_answer(json_of(report));
 }
 
@@ -84,9 +84,9 @@ ApiResponse count_transitions(Call& call) {
     if (const RecordingInfo* info = contents->find(name)) call.declare(info->declarations);
   }
   if (format == "svg")
-    return file_answer(file_format("svg"), "transitions", calls::plot_of(counted, "transitions.svg"));
+    return file_answer(answer_format("svg"), "transitions", calls::plot_of(counted, "transitions.svg"));
   if (format == "csv")
-    return file_answer(file_format("csv"), "statistics", calls::format_csv(csv_of(parameters, counted)));
+    return file_answer(answer_format("csv"), "statistics", calls::format_csv(csv_of(parameters, counted)));
   return json_answer(json_of(parameters, counted));
 }
 
@@ -99,7 +99,7 @@ ApiResponse propose_segments(Call& call) {
   call.declare(info.declarations);
   call.notices = made.proposed.notices;
   if (format == "eaf") {
-    return file_answer(file_format("eaf"), info.name + ".phases",
+    return file_answer(answer_format("eaf"), info.name + ".phases",
                        eaf::write_text(proposals_document(made.proposed, made.length, info.motion_file)));
   }
   return json_answer(json_of(made, "recording", info.name));

@@ -59,7 +59,7 @@ std::string wanted_format(const Call& call, const std::string& format, const std
   const std::string_view accept = call.request.accept;
   const std::string_view first = trimmed(accept.substr(0, accept.find_first_of(",;")));
   for (const std::string& name : known) {
-    const std::string_view type = file_format(name).media_type;
+    const std::string_view type = answer_format(name).media_type;
     if (name != "json" && type.substr(0, type.find(';')) == first) return name;
   }
   return {};
@@ -96,7 +96,7 @@ ApiResponse deliver(Call& call, Synthesized made, const calls::SynthesisChoices&
     return report;
   };
   if (format.empty()) return json_answer(report_json());
-  const FileFormat& file = file_format(format);
+  const AnswerFormat& file = answer_format(format);
   if (format == "frames") {
     return file_answer(file, "signing",
                        frames_text(made.result.motion,
@@ -158,7 +158,7 @@ ApiResponse export_motion(Call& call) {
   std::string format = wanted_format(call, asked, motion_formats());
   if (format.empty()) format = "bvh";
   require_sheet(parameters.signing_space, format);
-  const FileFormat& file = file_format(format);
+  const AnswerFormat& file = answer_format(format);
   const calls::SharedCharacter character = wanted_character(call, parameters.character);
   const Database& database = call.database().database();
   calls::Exported made = calls::run(database, parameters, {parameters.recording + std::string(file.ending)});
@@ -183,7 +183,7 @@ ApiResponse export_annotation(Call& call) {
   const calls::Exported made =
       calls::run(call.database().database(), parameters.call, {parameters.call.recording + ".eaf"});
   call.declare(made.info.declarations);
-  return file_answer(file_format("eaf"), made.info.name,
+  return file_answer(answer_format("eaf"), made.info.name,
                      calls::recording_text(".eaf", made.outgoing(), made.info.name));
 }
 

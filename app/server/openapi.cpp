@@ -97,7 +97,7 @@ Json files_of(const Route& route) {
   const Json properties = route.parameters().properties;
   if (!properties.contains("format")) return content;
   for (const Json& name : properties["format"]["enum"]) {
-    const std::string type(file_format(name.get<std::string>()).media_type);
+    const std::string type(answer_format(name.get<std::string>()).media_type);
     if (type != "application/json" || route.answer.empty()) content[type] = Json::object();
   }
   return content;

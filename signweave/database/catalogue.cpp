@@ -213,6 +213,13 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
     info.rig = decode_rig(in);
     info.defects = decode_defects(in);
   }
+  if (info.motion && info.face_file.empty()) info.own_tracks = static_cast<std::uint32_t>(info.motion->tracks.size());
+  if (in.left() > 0) {  // recordings made before there were other formats than BVH have none of it
+    info.face_offset = Seconds(in.number<double>());
+    info.reading = in.text();
+    info.own_tracks = in.number<std::uint32_t>();
+    if (info.own_tracks > (info.motion ? info.motion->tracks.size() : 0)) in.fail("more tracks than the motion has");
+  }
   in.finish();
   return info;
 }
@@ -248,6 +255,9 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
   out.number(info.face_fingerprint);
   encode(info.rig, out);
   encode(info.defects, out);
+  out.number(info.face_offset.count());
+  out.text(info.reading);
+  out.number(info.own_tracks);
   transaction.put(slot_key(slot), kv::sealed(out.bytes()));
 }
 

@@ -213,6 +213,10 @@ void Database::put(const Recording& recording, const Progress& progress) {
     info.motion_fingerprint = recording.motion->fingerprint;
     info.face_file = recording.motion->face_file;
     info.face_fingerprint = recording.motion->face_fingerprint;
+    info.face_offset = recording.motion->face_offset;
+    info.reading = recording.motion->reading;
+    info.own_tracks = static_cast<std::uint32_t>(
+        recording.motion->face_file.empty() ? recording.motion->motion.tracks().size() : recording.motion->own_tracks);
   }
   if (recording.annotation) {
     if (info.document != 0) {

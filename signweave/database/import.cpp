@@ -7,16 +7,21 @@
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
+#include "signweave/database/face_part.h"
 #include "signweave/formats/annotation_file.h"
-#include "signweave/formats/face_csv.h"
 
 namespace signweave {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// True where the file would be read otherwise than it was when `layout` was made.
-bool reads_otherwise(const bvh::ReadOptions& options, const bvh::Layout& layout) {
+/// True where the file would be read otherwise than it was when it was imported.
+bool reads_otherwise(const fs::path& file, const motion_file::ReadOptions& options, const RecordingInfo& known) {
+  if (!known.layout) {
+    const std::string told = motion_file::told(file, options);
+    return !told.empty() && told != known.reading;
+  }
+  const bvh::Layout& layout = *known.layout;
   return (options.up && *options.up != layout.up) || (options.unit && *options.unit != layout.unit) ||
          (options.root_unit && *options.root_unit != layout.root_unit) || (options.mirror && !layout.mirrored) ||
          (options.root_columns != bvh::RootColumns::declared && options.root_columns != layout.root_columns);
@@ -117,28 +122,6 @@ void keep_notices(const RecordingInfo& known, const std::string& file, std::vect
   }
 }
 
-/// Adds a face capture's tracks to the motion, its first row at the first frame.
-void add_face(const fs::path& path, std::uint64_t fingerprint, MotionPart& part, std::vector<Notice>& notices) {
-  face_csv::Face face = face_csv::read(path);
-  const Motion& motion = part.motion;
-  const double last = face.times.back().count();
-  // A row covers the time until the next, as a frame does: half a second more or less is worth a word.
-  const double missing = motion.duration().count() - last;
-  if (missing > 0.5) {
-    face.notices.push_back(
-        {path.string(), fmt::format("the face ends {:.1f} s before the motion; its last values are held", missing)});
-  } else if (missing < -0.5) {
-    face.notices.push_back(
-        {path.string(), fmt::format("the face goes on {:.1f} s after the motion; that is left out", -missing)});
-  }
-  for (ScalarTrack& track : face_csv::resampled(face, motion.rate(), motion.frame_count())) {
-    part.motion.add_track(std::move(track));
-  }
-  notices.insert(notices.end(), face.notices.begin(), face.notices.end());
-  part.face_file = path.filename().string();
-  part.face_fingerprint = fingerprint;
-}
-
 /// What was guessed of the skeleton, and what is odd about it.
 void add_rig_notices(const Motion& motion, const ImportOptions& options, const RecordingInfo* known,
                      const ImportJob& job, std::vector<Notice>& notices) {
@@ -190,17 +173,22 @@ std::optional<RecordingInfo> find_known(const Database& database, const ImportJo
 
 ImportReport import_recording(Database& database, const ImportJob& job, const ImportOptions& options,
                               const Database::Progress& progress) {
-  const std::uint64_t motion_print = job.motion ? file_checksum(*job.motion) : 0;
+  const std::uint64_t motion_print = job.motion ? motion_file::fingerprint(*job.motion, options.motion) : 0;
   const std::uint64_t annotation_print = job.annotation ? annotation_file::fingerprint(*job.annotation) : 0;
   const std::optional<RecordingInfo> known = find_known(database, job, motion_print, annotation_print);
   const bool motion_known = known && known->motion;
   const bool document_known = known && known->document != 0;
   const bool same_motion = motion_known && known->motion_fingerprint == motion_print &&
-                           !(known->layout && reads_otherwise(options.motion, *known->layout));
+                           !reads_otherwise(*job.motion, options.motion, *known);
   // A face is a part of the motion. One that comes to a motion without replaces nothing, so it needs no leave.
   const std::uint64_t face_print = job.face ? file_checksum(*job.face) : 0;
   const bool new_face = job.face && same_motion && known->face_file.empty();
-  const bool other_face = job.face && same_motion && !new_face && known->face_fingerprint != face_print;
+  const std::optional<Seconds> face_offset =
+      job.face
+          ? given_face_offset(*job.face, job.face_offset ? job.face_offset : options.face_offset, options.face_timecode)
+          : std::nullopt;
+  const bool moved_face = face_offset && known && std::abs((*face_offset - known->face_offset).count()) > 1e-9;
+  const bool other_face = job.face && same_motion && !new_face && (known->face_fingerprint != face_print || moved_face);
   const bool new_motion = job.motion && (!same_motion || new_face || other_face || options.replace_motion);
 
   ImportReport report;
@@ -209,9 +197,12 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   recording.signer_given = !job.signer.empty() || (known && known->signer_given);
   recording.signer = !job.signer.empty() ? job.signer : recording.signer_given ? known->signer : "";
   if (other_face && !options.replace_motion) {
-    throw Error(ErrorCode::conflict,
-                fmt::format("{}: is not the face that recording '{}' was imported with; --replace-motion takes it",
-                            job.face->string(), recording.name));
+    throw Error(
+        ErrorCode::conflict,
+        fmt::format("{}: {} recording '{}' was imported with; --replace-motion takes it", job.face->string(),
+                    known->face_fingerprint == face_print ? "lies elsewhere in the motion than the face that"
+                                                          : "is not the face that",
+                    recording.name));
   }
   if (new_motion && motion_known && !new_face && !options.replace_motion) {
     throw Error(
@@ -272,19 +263,23 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   report.frames = motion_known ? known->motion->frames : 0;
   if (new_face || other_face) {  // to the motion as it was read then, whatever it was read with
     Motion stored = database.read(recording.name);
-    stored.take_tracks();  // all of them are the old face's
+    std::vector<ScalarTrack> tracks = stored.take_tracks();
+    for (std::size_t i = 0; i < known->own_tracks; ++i) stored.add_track(std::move(tracks[i]));
     recording.motion = MotionPart{.motion = std::move(stored),
                                   .layout = known->layout,
                                   .file = known->motion_file,
                                   .fingerprint = motion_print,
                                   .face_file = {},
                                   .face_fingerprint = 0,
+                                  .face_offset = known->face_offset,
+                                  .reading = known->reading,
+                                  .own_tracks = known->own_tracks,
                                   .rounded_within = known->motion->tolerance};
     keep_notices(*known, known->motion_file, recording.notices);
   } else if (new_motion) {
-    bvh::ReadOptions read_options = options.motion;
+    motion_file::ReadOptions read_options = options.motion;
     read_options.progress = half(progress, 0);
-    bvh::File file = bvh::read(*job.motion, read_options);
+    motion_file::File file = motion_file::read(*job.motion, read_options);
     rate = file.motion.rate();
     report.frames = file.motion.frame_count();
     recording.notices = std::move(file.notices);
@@ -295,6 +290,8 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                                   .fingerprint = motion_print,
                                   .face_file = {},
                                   .face_fingerprint = 0};
+    if (!recording.motion->layout) recording.motion->reading = motion_file::told(*job.motion, options.motion);
+    recording.motion->own_tracks = recording.motion->motion.tracks().size();
     if (!job.face && known && !known->face_file.empty()) {
       recording.notices.push_back({known->face_file, "was not given again, so its face is gone"});
     }
@@ -302,7 +299,13 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     keep_notices(*known, known->motion_file, recording.notices);
     keep_notices(*known, known->face_file, recording.notices);
   }
-  if (new_motion && job.face) add_face(*job.face, face_print, *recording.motion, recording.notices);
+  if (new_motion && job.face) {
+    const Seconds start = face_offset ? *face_offset : known ? known->face_offset : Seconds(0);
+    recording.motion->own_tracks = add_face(*job.face, start, recording.motion->motion, recording.notices);
+    recording.motion->face_file = job.face->filename().string();
+    recording.motion->face_fingerprint = face_print;
+    recording.motion->face_offset = start;
+  }
   if (new_annotation) {
     recording.notices.insert(recording.notices.end(), annotation_notices.begin(), annotation_notices.end());
   } else if (known) {

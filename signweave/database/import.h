@@ -13,7 +13,7 @@
 #include "signweave/core/error.h"
 #include "signweave/core/time.h"
 #include "signweave/database/database.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/motion_file.h"
 
 namespace signweave {
 
@@ -22,9 +22,10 @@ struct ImportJob {
   std::string name;  ///< of the recording: the stem of its files, with the folder's name in front where stems collide
   std::optional<std::filesystem::path> motion;
   std::optional<std::filesystem::path> annotation;
-  std::optional<std::filesystem::path> face;  ///< face capture, its first row at the motion's first frame
+  std::optional<std::filesystem::path> face;  ///< face capture
   std::string signer;
-  std::optional<Seconds> offset;  ///< annotation time of frame 0, from a table of pairs
+  std::optional<Seconds> offset;       ///< annotation time of frame 0, from a table of pairs
+  std::optional<Seconds> face_offset;  ///< the motion's time of the face's first row, from such a table
 };
 
 struct Pairing {
@@ -37,9 +38,9 @@ struct Pairing {
 /// face capture STEM.face.csv goes with the motion STEM of its folder. Throws Error{not_found} for an input that is not
 /// there, Error{unsupported} for a file of a kind that cannot be read, Error{bad_input} for a bad table.
 ///
-/// The table is CSV with the columns motion, annotation, signer, offset (ms); the last two may be missing, either of
-/// the first two may be empty; paths are relative to the table's folder. A first row "motion,annotation,…" is a
-/// heading.
+/// The table is CSV with the columns motion, annotation, signer, offset (ms), face, face offset (ms); all but the first
+/// two may be missing, either of the first two may be empty; paths are relative to the table's folder. A first row
+/// "motion,annotation,…" is a heading.
 Pairing pair_files(const std::vector<std::filesystem::path>& inputs,
                    const std::optional<std::filesystem::path>& pairs_table = {});
 
@@ -50,14 +51,16 @@ struct SyncPoint {
 };
 
 struct ImportOptions {
-  bvh::ReadOptions motion;
+  motion_file::ReadOptions motion;
   std::vector<TierNames::SignTier> sign_tiers;    ///< empty: guessed
   std::vector<std::string> phase_tiers;           ///< empty: guessed
   std::map<std::string, PhaseKind> phase_labels;  ///< see TierNames
-  std::optional<Seconds> offset;  ///< annotation time of frame 0; else from the EAF's TIME_ORIGIN; else 0
-  std::vector<SyncPoint> sync;    ///< none, or two: sets origin and rate of the clock
-  std::optional<RigNames> rig;    ///< what a mapping file says of the skeletons; none: as they were told before
-  bool replace_motion = false;    ///< take a motion or face file that changed since it was imported
+  std::optional<Seconds> offset;             ///< annotation time of frame 0; else from the EAF's TIME_ORIGIN; else 0
+  std::vector<SyncPoint> sync;               ///< none, or two: sets origin and rate of the clock
+  std::optional<Seconds> face_offset;        ///< the motion's time of a face's first row; else by the timecode; else 0
+  std::optional<std::string> face_timecode;  ///< of the motion's frame 0, on the clock of the face capture
+  std::optional<RigNames> rig;  ///< what a mapping file says of the skeletons; none: as they were told before
+  bool replace_motion = false;  ///< take a motion or face file that changed since it was imported
 };
 
 enum class ImportOutcome {

@@ -2,35 +2,31 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <set>
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/database/import.h"
 #include "signweave/formats/annotation_file.h"
+#include "signweave/formats/file_format.h"
 
 namespace signweave {
 namespace {
 
 namespace fs = std::filesystem;
 
-enum class Kind { motion, annotation, face, other };
-
-Kind kind_of(const fs::path& path) {
-  const std::string ending = fold_case(path.extension().string());
-  if (ending == ".bvh") return Kind::motion;
-  if (annotation_file::is_name(path)) return Kind::annotation;
-  if (fold_case(path.filename().string()).ends_with(".face.csv")) return Kind::face;
-  return Kind::other;
+/// What a file is to an import; `product` where it is nothing to it.
+FileKind kind_of(const fs::path& path) {
+  const FileFormat* format = file_format(path);
+  return format == nullptr || !format->reads ? FileKind::product : format->kind;
 }
 
 [[noreturn]] void refuse_kind(const fs::path& path) {
-  throw Error(
-      ErrorCode::unsupported,
-      fmt::format(
-          "{}: neither a motion file (.bvh), an annotation file (.eaf, .anvil) nor a face capture, which is called "
-          "as its motion, NAME.face.csv",
-          path.string()));
+  throw Error(ErrorCode::unsupported,
+              fmt::format("{}: neither a motion file {}, an annotation file {} nor a face capture, which is called "
+                          "as its motion, NAME.face.csv",
+                          path.string(), readable_endings(FileKind::motion), readable_endings(FileKind::annotation)));
 }
 
 struct Files {
@@ -41,18 +37,31 @@ struct Files {
 
 void take(const fs::path& path, Files& files) {
   switch (kind_of(path)) {
-    case Kind::motion:
+    case FileKind::motion:
       files.motions.push_back(path);
       break;
-    case Kind::annotation:
+    case FileKind::annotation:
       files.annotations.push_back(path);
       break;
-    case Kind::face:
+    case FileKind::face:
       files.faces.push_back(path);
       break;
-    case Kind::other:
+    case FileKind::motion_part:
+    case FileKind::product:
       break;
   }
+}
+
+/// The motion file of that folder and stem, the preferred one of several; or none.
+std::optional<fs::path> motion_called(const fs::path& stem) {
+  std::error_code ignored;
+  for (const FileFormat& format : file_formats()) {
+    if (format.kind != FileKind::motion || !format.reads) continue;
+    fs::path path = stem;
+    path += format.ending;
+    if (fs::is_regular_file(path, ignored)) return path;
+  }
+  return std::nullopt;
 }
 
 /// Gives each motion the face capture that lies beside it, whether it was named or not; and each face that was named to
@@ -60,7 +69,7 @@ void take(const fs::path& path, Files& files) {
 void pair_faces(const std::vector<fs::path>& faces, std::vector<ImportJob>& jobs, std::vector<Notice>& notices) {
   std::error_code ignored;
   for (ImportJob& job : jobs) {
-    if (!job.motion) continue;
+    if (!job.motion || job.face) continue;
     const fs::path face = job.motion->parent_path() / (job.motion->stem().string() + ".face.csv");
     if (fs::is_regular_file(face, ignored)) job.face = face;
   }
@@ -73,17 +82,19 @@ void pair_faces(const std::vector<fs::path>& faces, std::vector<ImportJob>& jobs
     const auto job = std::find_if(jobs.begin(), jobs.end(), [&](const ImportJob& one) {
       return one.motion && beside(one.motion->parent_path(), one.motion->stem()) == stem;
     });
-    const fs::path motion = face.parent_path() / (face.stem().stem().string() + ".bvh");
+    const std::optional<fs::path> motion = motion_called(face.parent_path() / face.stem().stem());
     if (job != jobs.end()) {
       job->face = face;
-    } else if (fs::is_regular_file(motion, ignored)) {
+    } else if (motion) {
       ImportJob with_motion;
-      with_motion.motion = motion;
+      with_motion.motion = *motion;
       with_motion.face = face;
       jobs.push_back(std::move(with_motion));
     } else {
-      notices.push_back({face.string(), fmt::format("a face without its motion, passed over; put it beside a '{}.bvh'",
-                                                    printable(stem.filename().string()))});
+      notices.push_back(
+          {face.string(), fmt::format("a face without its motion, passed over; put it beside the motion "
+                                      "file '{}' {}",
+                                      printable(stem.filename().string()), readable_endings(FileKind::motion))});
     }
   }
 }
@@ -95,7 +106,7 @@ Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
     const fs::file_status status = fs::status(input, fault);
     if (!fs::exists(status)) throw Error(ErrorCode::not_found, input.string() + ": no such file or folder");
     if (!fs::is_directory(status)) {
-      if (kind_of(input) == Kind::other) refuse_kind(input);
+      if (kind_of(input) == FileKind::product) refuse_kind(input);
       take(input, files);
       continue;
     }
@@ -103,7 +114,7 @@ Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
     fs::recursive_directory_iterator entry(input, fs::directory_options::skip_permission_denied, fault);
     for (; !fault && entry != fs::recursive_directory_iterator(); entry.increment(fault)) {
       if (!entry->is_regular_file(fault)) continue;
-      if (kind_of(entry->path()) == Kind::other) {
+      if (kind_of(entry->path()) == FileKind::product) {
         ++others;
       } else {
         take(entry->path(), files);
@@ -119,6 +130,24 @@ Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
   return files;
+}
+
+/// Of motion files of one name in a folder that was walked, such as a recording and what was exported from it, the
+/// preferred one stays. What was named itself stays in any case.
+void prefer_one(const std::vector<fs::path>& inputs, std::vector<fs::path>& motions, std::vector<Notice>& notices) {
+  std::map<fs::path, fs::path> best;  // by folder and stem
+  const auto rank = [](const fs::path& path) { return file_format(path) - file_formats().data(); };
+  for (const fs::path& motion : motions) {
+    fs::path& one = best[motion.parent_path() / motion.stem()];
+    if (one.empty() || rank(motion) < rank(one)) one = motion;
+  }
+  std::erase_if(motions, [&](const fs::path& motion) {
+    const fs::path& one = best[motion.parent_path() / motion.stem()];
+    if (one == motion || std::find(inputs.begin(), inputs.end(), motion) != inputs.end()) return false;
+    notices.push_back({motion.string(), fmt::format("passed over for '{}' beside it; name the file itself to import it",
+                                                    printable(one.filename().string()))});
+    return true;
+  });
 }
 
 /// Rows of a CSV file (RFC 4180: quotes double inside quotes, a field may hold line ends).
@@ -175,30 +204,39 @@ std::vector<ImportJob> read_pairs(const fs::path& table) {
     const auto fail = [&](const std::string& what) {
       throw Error(ErrorCode::bad_input, fmt::format("{}:{}: {}", table.string(), row.line, what));
     };
-    if (row.fields.size() > 4) fail("more than the four columns motion, annotation, signer, offset");
+    if (row.fields.size() > 6) fail("more than the six columns motion, annotation, signer, offset, face, face offset");
     ImportJob job;
     job.signer = field(2);
-    const auto path_of = [&](const std::string& text, Kind kind) -> std::optional<fs::path> {
+    const auto path_of = [&](const std::string& text, FileKind kind) -> std::optional<fs::path> {
       if (text.empty()) return std::nullopt;
       const fs::path path = fs::path(text).is_absolute() ? fs::path(text) : table.parent_path() / text;
       std::error_code ignored;
       if (!fs::exists(path, ignored)) fail(fmt::format("no file '{}'", text));
       if (kind_of(path) != kind) {
-        fail(fmt::format("'{}' is no {} file", text, kind == Kind::motion ? "motion" : "annotation"));
+        fail(fmt::format("'{}' is no {} file", text,
+                         kind == FileKind::motion ? "motion"
+                         : kind == FileKind::face ? "face (.face.csv)"
+                                                  : "annotation"));
       }
       return path;
     };
-    job.motion = path_of(field(0), Kind::motion);
-    job.annotation = path_of(field(1), Kind::annotation);
+    job.motion = path_of(field(0), FileKind::motion);
+    job.annotation = path_of(field(1), FileKind::annotation);
     if (!job.motion && !job.annotation) fail("a row needs a motion or an annotation");
-    if (const std::string offset = field(3); !offset.empty()) {
+    job.face = path_of(field(4), FileKind::face);
+    if (job.face && !job.motion) fail("a face needs its motion in the same row");
+    const auto offset_of = [&](const std::string& text) -> std::optional<Seconds> {
+      if (text.empty()) return std::nullopt;
       double ms = 0;
-      const auto [end, error] = std::from_chars(offset.data(), offset.data() + offset.size(), ms);
-      if (error != std::errc() || end != offset.data() + offset.size()) {
-        fail(fmt::format("the offset '{}' is no number of milliseconds", printable(offset)));
+      const char* end = text.data() + text.size();
+      if (std::from_chars(text.data(), end, ms).ptr != end || !std::isfinite(ms)) {
+        fail(fmt::format("the offset '{}' is no number of milliseconds", printable(text)));
       }
-      job.offset = Seconds(ms / 1000.0);
-    }
+      return Seconds(ms / 1000.0);
+    };
+    job.offset = offset_of(field(3));
+    job.face_offset = offset_of(field(5));
+    if (job.face_offset && !job.face) fail("a face offset without a face");
     jobs.push_back(std::move(job));
   }
   return jobs;
@@ -211,7 +249,7 @@ std::set<std::string> linked_motions(const fs::path& annotation) {
   try {
     for (const LinkedFile& linked : annotation_file::read(annotation).document.linked_files) {
       for (const std::string& url : {linked.url, linked.relative_url}) {
-        if (kind_of(linked_file_name(url)) == Kind::motion) names.insert(linked_file_name(url));
+        if (kind_of(linked_file_name(url)) == FileKind::motion) names.insert(linked_file_name(url));
       }
     }
   } catch (const Error&) {
@@ -272,6 +310,7 @@ std::string linked_file_name(std::string_view url) {
 Pairing pair_files(const std::vector<fs::path>& inputs, const std::optional<fs::path>& pairs_table) {
   Pairing result;
   Files files = walk(inputs, result.notices);
+  prefer_one(inputs, files.motions, result.notices);
   std::vector<ImportJob> jobs;
   std::set<fs::path> used;
   const auto same_file = [](const fs::path& path) {

@@ -27,6 +27,9 @@ struct MotionPart {
   std::uint64_t fingerprint = 0;      ///< checksum of the file's bytes; 0: not known
   std::string face_file;              ///< the same of the face capture whose tracks the motion has; empty: none
   std::uint64_t face_fingerprint = 0;
+  Seconds face_offset{0};      ///< the motion's time of the face's first row
+  std::string reading;         ///< what the file was told to be read with (motion_file::told)
+  std::size_t own_tracks = 0;  ///< with a face: so many of the tracks, the first, are the motion file's
   /// Metres: its numbers were rounded within so much when it was stored before. It is then stored as it is, and compact
   /// again. 0: as captured.
   float rounded_within = 0;
@@ -72,6 +75,9 @@ struct RecordingInfo {
   std::uint64_t motion_fingerprint = 0;
   std::uint64_t annotation_fingerprint = 0;
   std::uint64_t face_fingerprint = 0;
+  Seconds face_offset{0};        ///< see MotionPart
+  std::string reading;           ///< see MotionPart
+  std::uint32_t own_tracks = 0;  ///< see MotionPart
   std::vector<Notice> notices;
   RigNames rig;                 ///< what a mapping file said of the skeleton; usually nothing
   std::vector<Defect> defects;  ///< found in the motion when it was put

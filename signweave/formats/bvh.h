@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -63,6 +64,16 @@ File read_text(std::string name, std::string_view text, const ReadOptions& optio
 /// A layout for a motion that did not come from a BVH file: centimetres, Y up, ZXY rotations, positions on each
 /// translated joint.
 Layout default_layout(const Skeleton& skeleton);
+
+/// What of a layout is to be otherwise.
+struct LayoutWishes {
+  std::optional<std::array<Channel, 3>> order{};  ///< of the rotations, each once, as their columns stand
+  std::optional<UpAxis> up{};
+  std::optional<double> unit{};  ///< metres per file unit, of offsets and all positions
+};
+
+/// The layout, but for what is wished. With an order every joint has three rotations in it, after its positions.
+Layout with(Layout layout, const LayoutWishes& wishes);
 
 /// True where `layout` can write motions of this skeleton (same joint count; positions for every translated joint).
 bool fits(const Layout& layout, const Skeleton& skeleton) noexcept;

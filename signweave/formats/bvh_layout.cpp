@@ -42,6 +42,19 @@ Layout default_layout(const Skeleton& skeleton) {
   return layout;
 }
 
+Layout with(Layout layout, const LayoutWishes& wishes) {
+  if (wishes.order) {
+    for (std::vector<Channel>& channels : layout.channels) {
+      std::erase_if(channels, is_rotation);
+      channels.insert(channels.end(), wishes.order->begin(), wishes.order->end());
+    }
+    layout.root_columns = RootColumns::declared;
+  }
+  if (wishes.up) layout.up = *wishes.up;
+  if (wishes.unit) layout.unit = layout.root_unit = *wishes.unit;
+  return layout;
+}
+
 bool fits(const Layout& layout, const Skeleton& skeleton) noexcept {
   if (layout.channels.size() != skeleton.joint_count()) return false;
   if (!is_unit(layout.unit) || !is_unit(layout.root_unit)) return false;

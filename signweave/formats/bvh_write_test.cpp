@@ -258,5 +258,34 @@ RC_GTEST_PROP(BvhWrite, WhatIsWrittenIsReadBackTheSame, ()) {
   }
 }
 
+RC_GTEST_PROP(BvhWrite, InAnyOrderAxisAndUnitItShowsTheSame, ()) {
+  constexpr Channel kX = Channel::x_rotation;
+  constexpr Channel kY = Channel::y_rotation;
+  constexpr Channel kZ = Channel::z_rotation;
+  using Order = std::array<Channel, 3>;
+  const File first = read_text("first", random_text(), {.unit = 0.01, .mirror = *rc::gen::arbitrary<bool>()});
+  const LayoutWishes wishes{.order = *rc::gen::element(Order{kX, kY, kZ}, Order{kX, kZ, kY}, Order{kY, kX, kZ},
+                                                       Order{kY, kZ, kX}, Order{kZ, kX, kY}, Order{kZ, kY, kX}),
+                            .up = *rc::gen::element(UpAxis::y, UpAxis::z),
+                            .unit = *rc::gen::element(1.0, 0.01, 0.0254)};
+  const Layout layout = with(first.layout, wishes);
+  RC_ASSERT(fits(layout, first.motion.skeleton()));
+  for (const std::vector<Channel>& channels : layout.channels) {
+    RC_ASSERT(std::equal(channels.end() - 3, channels.end(), wishes.order->begin()));
+  }
+  const File second = read_text("second", write_text(first.motion, layout),
+                                {.up = layout.up, .unit = layout.unit, .mirror = layout.mirrored});
+  RC_ASSERT(second.motion.frame_count() == first.motion.frame_count());
+  for (std::size_t i = 0; i < first.motion.rotations().size(); ++i) {
+    RC_ASSERT(degrees_between(first.motion.rotations()[i], second.motion.rotations()[i]) <= 1e-4);
+  }
+  for (std::size_t i = 0; i < first.motion.translations().size(); ++i) {
+    RC_ASSERT(second.motion.translations()[i].isApprox(first.motion.translations()[i], 1e-5f));
+  }
+  for (std::size_t i = 0; i < first.motion.skeleton().joint_count(); ++i) {
+    RC_ASSERT(second.motion.skeleton().joints()[i].offset.isApprox(first.motion.skeleton().joints()[i].offset, 1e-5f));
+  }
+}
+
 }  // namespace
 }  // namespace signweave::bvh

@@ -245,6 +245,7 @@ Face read(TextReader& reader) {
   const int rate = rate_of(codes);
   face.rate = {rate, 1};
   const auto seconds = [&](const Timecode& code) { return static_cast<double>(code.second) + code.frame / rate; };
+  face.first = Seconds(seconds(codes[0]));
   for (const std::size_t row : filled) face.times.emplace_back(seconds(codes[row]) - seconds(codes[0]));
   return face;
 }
@@ -265,7 +266,19 @@ Face read_text(const std::string& name, std::string_view text) {
   return read(reader);
 }
 
-std::vector<ScalarTrack> resampled(const Face& face, FrameRate rate, std::int64_t frames) {
+std::optional<Seconds> seconds_of(std::string_view timecode, FrameRate rate) {
+  const std::optional<Timecode> code = parse_timecode(timecode);
+  if (!code) return std::nullopt;
+  return Seconds(static_cast<double>(code->second) + code->frame * rate.frame_time().count());
+}
+
+Seconds start_of(const Face& face, Seconds motion_timecode) {
+  constexpr Seconds kDay(24 * 3600);
+  const Seconds start = face.first - motion_timecode;
+  return start > kDay / 2 ? start - kDay : start < -kDay / 2 ? start + kDay : start;
+}
+
+std::vector<ScalarTrack> resampled(const Face& face, FrameRate rate, std::int64_t frames, Seconds start) {
   const auto says_something = [](const ScalarTrack& track) {
     return std::ranges::find(kNames, track.name) == std::end(kNames) ||
            std::ranges::any_of(track.values, [](float value) { return value != 0; });
@@ -283,12 +296,13 @@ std::vector<ScalarTrack> resampled(const Face& face, FrameRate rate, std::int64_
   std::size_t next = 0;  // the first row after the frame's time
   for (std::int64_t frame = 0; frame < frames; ++frame) {
     const Seconds time(static_cast<double>(frame) * static_cast<double>(rate.denominator) /
-                       static_cast<double>(rate.numerator));
+                           static_cast<double>(rate.numerator) -
+                       start.count());
     while (next < face.times.size() && face.times[next] <= time) ++next;
     const std::size_t before = next == 0 ? 0 : next - 1;
     const std::size_t after = std::min(next, face.times.size() - 1);
     const double span = (face.times[after] - face.times[before]).count();
-    const double part = span > 0 ? (time - face.times[before]).count() / span : 0;
+    const double part = span > 0 && next > 0 ? (time - face.times[before]).count() / span : 0;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
       const std::vector<float>& values = wanted[i]->values;
       tracks[i].values.push_back(

@@ -133,6 +133,24 @@ TEST(FaceCsv, ResamplingIsLinearAndHoldsTheLastValue) {
   EXPECT_THAT(face_csv::resampled(face, {20, 1}, 0)[0].values, IsEmpty());
 }
 
+TEST(FaceCsv, BeginsWhereItIsToldTo) {
+  const face_csv::Face face = read("10:20:30:0,2,0,1\n10:20:30:30,2,1,1\n");
+  EXPECT_DOUBLE_EQ(face.first.count(), 37'230);
+  // 4 frames a second: the first row at 0.25 s, the second at 0.75 s.
+  EXPECT_THAT(face_csv::resampled(face, {4, 1}, 5, Seconds(0.25))[0].values, ElementsAre(0, 0, 0.5f, 1, 1));
+  EXPECT_THAT(face_csv::resampled(face, {4, 1}, 3, Seconds(-0.25))[0].values, ElementsAre(0.5f, 1, 1));
+}
+
+TEST(FaceCsv, TimecodesTellWhereItLiesInAMotion) {
+  const face_csv::Face face = read("00:00:01:30,2,0,1\n");
+  EXPECT_DOUBLE_EQ(face_csv::seconds_of("00:00:01:15", {60, 1})->count(), 1.25);
+  EXPECT_FALSE(face_csv::seconds_of("1:15", {60, 1}));
+  EXPECT_DOUBLE_EQ(face_csv::start_of(face, Seconds(1.25)).count(), 0.25);
+  EXPECT_DOUBLE_EQ(face_csv::start_of(face, Seconds(4)).count(), -2.5);
+  const Seconds before_midnight = *face_csv::seconds_of("23:59:59:30", {60, 1});
+  EXPECT_DOUBLE_EQ(face_csv::start_of(face, before_midnight).count(), 2.0);
+}
+
 TEST(FaceCsv, BeforeTheFirstFaceItsValuesHoldAndEqualTimesAreAStep) {
   const face_csv::Face late = read("0:0:0:0,0\n0:0:0:30,2,1,0\n");
   EXPECT_THAT(face_csv::resampled(late, {4, 1}, 4)[0].values, ElementsAre(1, 1, 1, 1));

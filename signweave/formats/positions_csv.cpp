@@ -5,25 +5,14 @@
 #include <iterator>
 
 #include "signweave/core/atomic_file.h"
+#include "signweave/formats/csv_text.h"
 #include "signweave/motion/kinematics.h"
 
 namespace signweave {
-namespace {
-
-std::string column(const std::string& name, char axis) {
-  const std::string plain = name + '.' + axis;
-  if (plain.find_first_of(",\"\r\n") == std::string::npos) return plain;
-  std::string quoted = "\"";
-  for (const char c : plain) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-}  // namespace
-
 std::string positions_csv_heading(const Skeleton& skeleton) {
   std::string text = "frame,time_s";
   const auto add = [&](const std::string& name) {
-    for (const char axis : {'x', 'y', 'z'}) text += ',' + column(name, axis);
+    for (const char axis : {'x', 'y', 'z'}) text += ',' + csv_field(name + '.' + axis);
   };
   for (const Joint& joint : skeleton.joints()) add(joint.name);
   for (const Tip& tip : skeleton.tips()) add(skeleton.joint(tip.joint).name + " tip");

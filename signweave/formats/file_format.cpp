@@ -1,0 +1,56 @@
+#include "signweave/formats/file_format.h"
+
+#include "signweave/core/text.h"
+
+namespace signweave {
+namespace {
+
+constexpr std::string_view kPlainText = "text/plain; charset=utf-8";
+constexpr std::string_view kCsvText = "text/csv; charset=utf-8";
+
+constexpr FileFormat kFileFormats[] = {
+    {".bvh", "BVH", FileKind::motion, true, true, kPlainText, "skeleton and motion",
+     "annotation; rotations beyond 1e-4 degrees"},
+    {".glb", "glTF", FileKind::motion, false, true, "model/gltf-binary",
+     "skeleton, motion, a simple body and face; for viewers", "annotation"},
+    {".gltf", "glTF", FileKind::motion, false, true, "model/gltf+json", "the same as text", "annotation"},
+    {".eaf", "EAF", FileKind::annotation, true, true, "application/xml", "annotation", "motion"},
+    {".anvil", "ANVIL", FileKind::annotation, true, false, "application/xml", "annotation; written as .eaf", "motion"},
+    {".json", "JSON", FileKind::product, false, true, "application/json",
+     "a synthesis: poses, signs, sources, junctions", "nothing"},
+    {".csv", "CSV", FileKind::product, false, true, kCsvText, "joint positions per frame, metres",
+     "rotations, annotation"},
+    {".rotations.csv", "CSV", FileKind::product, false, true, kCsvText,
+     "joint rotations per frame as quaternions, positions of joints that have their own", "bone lengths, annotation"},
+    {".face.csv", "Live Link Face CSV", FileKind::face, true, true, kCsvText,
+     "scalar tracks, as Live Link Face writes them", "everything else"},
+    {".svg", "SVG", FileKind::product, false, true, "image/svg+xml", "contact sheet: frames as pictures",
+     "everything but the picture"},
+};
+
+}  // namespace
+
+std::span<const FileFormat> file_formats() noexcept {
+  return kFileFormats;
+}
+
+const FileFormat* file_format(const std::filesystem::path& path) {
+  const std::string name = fold_case(path.filename().string());
+  const FileFormat* longest = nullptr;
+  for (const FileFormat& format : kFileFormats) {
+    // ".bvh" alone is the name of a hidden file, not an ending.
+    if (name.size() <= format.ending.size() || !name.ends_with(format.ending)) continue;
+    if (longest == nullptr || longest->ending.size() < format.ending.size()) longest = &format;
+  }
+  return longest;
+}
+
+std::string readable_endings(FileKind kind) {
+  std::string list;
+  for (const FileFormat& format : kFileFormats) {
+    if (format.kind == kind && format.reads) list += (list.empty() ? "(" : ", ") + std::string(format.ending);
+  }
+  return list + ')';
+}
+
+}  // namespace signweave

@@ -1,0 +1,57 @@
+#include "signweave/formats/file_format.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "signweave/formats/motion_file.h"
+
+namespace signweave {
+namespace {
+
+TEST(FileFormats, AreToldByTheLongestEndingInAnyCase) {
+  EXPECT_EQ(file_format("a/b.BVH")->name, "BVH");
+  EXPECT_EQ(file_format("meteo.face.csv")->kind, FileKind::face);
+  EXPECT_EQ(file_format("meteo.csv")->kind, FileKind::product);
+  EXPECT_EQ(file_format("meteo.txt"), nullptr);
+  EXPECT_EQ(file_format(".bvh"), nullptr);
+  EXPECT_EQ(file_format("folder.bvh/meteo"), nullptr);
+}
+
+TEST(FileFormats, HaveEachEndingOnceAndSayWhatTheyHold) {
+  std::set<std::string_view> endings;
+  for (const FileFormat& format : file_formats()) {
+    EXPECT_TRUE(endings.insert(format.ending).second) << format.ending;
+    EXPECT_TRUE(format.reads || format.writes) << format.ending;
+    EXPECT_FALSE(format.name.empty() || format.holds.empty() || format.lost.empty() || format.media_type.empty());
+    EXPECT_EQ(format.ending, file_format(std::string("x") + std::string(format.ending))->ending);
+  }
+}
+
+TEST(MotionFiles, OfEveryReadableEndingHaveAReader) {
+  for (const FileFormat& format : file_formats()) {
+    if (format.kind != FileKind::motion || !format.reads) continue;
+    try {
+      motion_file::read(std::string("no such file") + std::string(format.ending));
+      FAIL() << format.ending;
+    } catch (const Error& error) {
+      EXPECT_NE(error.code(), ErrorCode::unsupported) << error.what();
+    }
+  }
+}
+
+TEST(MotionFiles, SayWhichOptionsTheyPassOver) {
+  const std::filesystem::path file = std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "testdata/bvh/signer.bvh";
+  motion_file::ReadOptions options;
+  options.take = "walk";
+  options.unit = 0.01;
+  const motion_file::File read = motion_file::read(file, options);
+  EXPECT_EQ(read.format, "BVH");
+  EXPECT_TRUE(read.layout);
+  ASSERT_FALSE(read.notices.empty());
+  EXPECT_EQ(read.notices.back().text, "--take says nothing about BVH files, and was passed over");
+  EXPECT_EQ(motion_file::told(file, options), "unit=0.01");
+}
+
+}  // namespace
+}  // namespace signweave

@@ -1,0 +1,113 @@
+#include "signweave/formats/motion_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "signweave/core/atomic_file.h"
+#include "signweave/core/bytes.h"
+#include "signweave/core/text.h"
+#include "signweave/formats/file_format.h"
+
+namespace signweave::motion_file {
+namespace {
+
+namespace fs = std::filesystem;
+
+File read_bvh(const fs::path& path, const ReadOptions& options) {
+  bvh::File file = bvh::read(path, {.up = options.up,
+                                    .unit = options.unit,
+                                    .root_unit = options.root_unit,
+                                    .root_columns = options.root_columns,
+                                    .mirror = options.mirror,
+                                    .progress = options.progress});
+  return {.motion = std::move(file.motion),
+          .layout = std::move(file.layout),
+          .notices = std::move(file.notices),
+          .format = {}};
+}
+
+std::vector<fs::path> only_itself(const fs::path& path, const ReadOptions&) {
+  return {path};
+}
+
+/// One thing that a reader can be told, as the command line calls it.
+struct Telling {
+  std::string_view option;
+  std::string text;  ///< empty: not told
+};
+
+std::vector<Telling> tellings(const ReadOptions& options) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : std::string();
+  };
+  return {{"up", !options.up                     ? ""
+                 : *options.up == bvh::UpAxis::z ? "z"
+                                                 : "y"},
+          {"unit", number(options.unit)},
+          {"root-unit", number(options.root_unit)},
+          {"root-order", options.root_columns == bvh::RootColumns::rotation_first ? "rotation_first" : ""},
+          {"mirror", options.mirror ? "yes" : ""},
+          {"source-rate", options.rate ? to_string(*options.rate) : ""},
+          {"take", options.take},
+          {"skeleton", options.skeleton.empty() ? "" : "given"}};
+}
+
+struct MotionReader {
+  std::string_view ending;
+  std::string_view takes;  ///< the options that it knows, each between blanks
+  File (*read)(const fs::path&, const ReadOptions&);
+  std::vector<fs::path> (*files)(const fs::path&, const ReadOptions&);  ///< everything that is read
+};
+
+constexpr MotionReader kMotionReaders[] = {
+    {".bvh", " up unit root-unit root-order mirror ", read_bvh, only_itself},
+};
+
+const MotionReader& reader_for(const fs::path& path) {
+  const FileFormat* format = file_format(path);
+  for (const MotionReader& reader : kMotionReaders) {
+    if (format != nullptr && format->ending == reader.ending) return reader;
+  }
+  throw Error(ErrorCode::unsupported,
+              fmt::format("{}: is no motion file {}", path.string(), readable_endings(FileKind::motion)));
+}
+
+bool knows(const MotionReader& reader, std::string_view option) {
+  return reader.takes.find(fmt::format(" {} ", option)) != std::string_view::npos;
+}
+
+}  // namespace
+
+File read(const fs::path& path, const ReadOptions& options) {
+  const MotionReader& reader = reader_for(path);
+  File file = reader.read(path, options);
+  file.format = file_format(path)->name;
+  for (const Telling& one : tellings(options)) {
+    if (one.text.empty() || knows(reader, one.option)) continue;
+    file.notices.push_back(
+        {path.string(), fmt::format("--{} says nothing about {} files, and was passed over", one.option, file.format)});
+  }
+  return file;
+}
+
+std::uint64_t fingerprint(const fs::path& path, const ReadOptions& options) {
+  const std::vector<fs::path> files = reader_for(path).files(path, options);
+  if (files.size() == 1) return file_checksum(files[0]);
+  ByteWriter all;
+  for (const fs::path& file : files) all.number(file_checksum(file));
+  return checksum(all.bytes());
+}
+
+std::string told(const fs::path& path, const ReadOptions& options) {
+  const MotionReader& reader = reader_for(path);
+  std::string line;
+  for (const Telling& one : tellings(options)) {
+    // Another skeleton is another fingerprint.
+    if (one.text.empty() || one.option == "skeleton" || !knows(reader, one.option)) continue;
+    line += fmt::format("{}{}={}", line.empty() ? "" : ";", one.option, one.text);
+  }
+  return line;
+}
+
+}  // namespace signweave::motion_file

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "signweave/motion/motion.h"
+
+namespace signweave {
+
+/// Writes how every joint is turned: one row a frame, columns frame, time_s, then for each joint NAME.tx, NAME.ty,
+/// NAME.tz in metres where it has a translation per frame, and NAME.qx, NAME.qy, NAME.qz, NAME.qw, a unit quaternion
+/// relative to the parent, in the hemisphere of the frame before. Y up, right-handed. Numbers have as many digits as a
+/// float needs to come back. Whole or not at all; throws Error{io}.
+void write_rotations_csv(const std::filesystem::path& path, const Motion& motion);
+
+/// The heading, and one row: for other writers of the same table.
+std::string rotations_csv_heading(const Skeleton& skeleton);
+std::string rotations_csv_row(const Motion& motion, std::int64_t frame);
+
+}  // namespace signweave

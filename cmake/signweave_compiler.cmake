@@ -32,11 +32,14 @@ if(SIGNWEAVE_FUZZ)
   add_compile_options(-fsanitize-coverage=inline-8bit-counters,pc-table)
 endif()
 
-# Tests are compiled for speed of compiling: what they test is not. Clang with a sanitizer takes a third of the time without
-# optimising.
+# Clang with a sanitizer takes a third to a half of the time without optimising: so it is with tests, and with the programs
+# around the library, whose speed nobody looks at there.
 set(optimise_tests -O1)
+add_library(signweave_app_flags INTERFACE)
+target_link_libraries(signweave_app_flags INTERFACE signweave_flags)
 if(SIGNWEAVE_SANITIZE)
   set(optimise_tests -O0)
+  target_compile_options(signweave_app_flags INTERFACE -O0)
 endif()
 add_library(signweave_test_flags INTERFACE)
 target_link_libraries(signweave_test_flags INTERFACE signweave_flags GTest::gmock GTest::gtest_main rapidcheck

@@ -10,7 +10,7 @@
 namespace signweave::calls {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
+using TextRows = std::vector<std::vector<std::string>>;
 
 constexpr std::string_view kYardstick = "slerp";          // of the wrist's error
 constexpr std::string_view kFingerYardstick = "hermite";  // of the fingertips'
@@ -48,7 +48,7 @@ bool same_for_all(Measure measure) {
 template <class Figure>
 std::string table_of(const EvaluatedTask& task, const std::vector<ReportGroup>& groups, const std::string& title,
                      int decimals, Figure figure) {
-  Rows rows = {{title}};
+  TextRows rows = {{title}};
   for (const ReportGroup& group : groups) rows[0].push_back(group.name);
   for (const MethodScores& method : task.methods) {
     std::vector<std::string> row = {method.name};
@@ -70,7 +70,7 @@ std::size_t recordings_of(const EvaluatedTask& task, const ReportGroup& group) {
   return static_cast<std::size_t>(std::unique(recordings.begin(), recordings.end()) - recordings.begin());
 }
 
-nlohmann::ordered_json json_of(const Estimate& estimate) {
+nlohmann::ordered_json estimate_json(const Estimate& estimate) {
   const auto number_or_null = [](double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
   };
@@ -130,7 +130,7 @@ std::optional<Estimate> ratio_to(const EvaluatedTask& task, const MethodScores& 
 std::string summary_text(const EvaluatedTask& task, std::span<const Measure> chosen, Bootstrap& bootstrap) {
   const std::vector<ReportGroup> groups = groups_of(task, false);
   if (groups.empty()) return fmt::format("{}: no span\n", task.name);
-  Rows counts = {{task.name}, {"spans"}, {"recordings"}};
+  TextRows counts = {{task.name}, {"spans"}, {"recordings"}};
   for (const ReportGroup& group : groups) {
     counts[0].push_back(group.name);
     counts[1].push_back(std::to_string(group.spans.size()));
@@ -166,7 +166,7 @@ std::string default_text(const EvaluatedTask& task, Bootstrap& bootstrap) {
   const std::vector<ReportGroup> groups = groups_of(task, false);
   if (groups.empty() || task.methods.empty()) return {};
   const MethodScores& method = task.methods[0];
-  Rows rows = {{method.name}};
+  TextRows rows = {{method.name}};
   for (const ReportGroup& group : groups) rows[0].push_back(group.name);
   const auto add = [&](std::string title, int decimals, auto figure) {
     std::vector<std::string> row = {std::move(title)};
@@ -199,7 +199,7 @@ std::string full_text(const EvaluatedTask& task, Bootstrap& bootstrap) {
     for (const HandChoice hand : kHands) {
       text += fmt::format("\n{}, {}: {} hand, {} of {}\n", task.name, group.name, name_of(hand),
                           counted(group.spans.size(), "span"), counted(recordings_of(task, group), "recording"));
-      Rows columns;  // of each: title, a cell for each method, how many spans
+      TextRows columns;  // of each: title, a cell for each method, how many spans
       const auto add = [&](const std::string& title, int decimals, auto figure) {
         std::vector<std::string> column = {title};
         std::size_t most = 0;
@@ -222,7 +222,7 @@ std::string full_text(const EvaluatedTask& task, Bootstrap& bootstrap) {
         });
       }
       for (std::size_t first = 0; first < columns.size(); first += kColumns) {
-        Rows rows = {{""}};
+        TextRows rows = {{""}};
         for (const MethodScores& method : task.methods) rows.push_back({method.name});
         rows.push_back({"spans"});
         for (std::size_t i = first; i < std::min(columns.size(), first + kColumns); ++i) {
@@ -250,12 +250,12 @@ nlohmann::ordered_json json_of(const EvaluatedTask& task, Bootstrap& bootstrap) 
         for (const MeasureInfo& info : measures()) {
           const Estimate estimate = estimate_of(task, method, group, hand, info.measure, bootstrap);
           if (estimate.scores == 0) continue;
-          figures[std::string(info.name)] = json_of(estimate);
+          figures[std::string(info.name)] = estimate_json(estimate);
           if (!info.unit.empty()) figures[std::string(info.name)]["unit"] = info.unit;
           const std::string_view yardstick = yardstick_of(info.measure);
           if (yardstick.empty()) continue;
           if (const auto ratio = ratio_to(task, method, yardstick, group, hand, info.measure, bootstrap)) {
-            figures[std::string(info.name)][fmt::format("over_{}", yardstick)] = json_of(*ratio);
+            figures[std::string(info.name)][fmt::format("over_{}", yardstick)] = estimate_json(*ratio);
           }
         }
         methods[method.name] = std::move(figures);

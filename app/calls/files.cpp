@@ -32,7 +32,7 @@ void write_text(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-json json_of(const Motion& motion) {
+json motion_json(const Motion& motion) {
   json joints = json::array();
   for (const Joint& joint : motion.skeleton().joints()) {
     joints.push_back({{"name", joint.name},
@@ -216,7 +216,7 @@ std::string synthesis_text(std::string_view ending, const Synthesized& made, con
     }
     document["sources"] = std::move(sources);
     document["declarations"] = declarations_json(result.declarations);
-    document["motion"] = json_of(result.motion);
+    document["motion"] = motion_json(result.motion);
     return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
   }
   if (ending == ".svg") {
@@ -252,7 +252,7 @@ std::string recording_text(std::string_view ending, const Outgoing& recording, c
     options.rig = map_rig(motion, recording.rig);
     return contact_sheet(motion, options);
   }
-  json document = json_of(motion);
+  json document = motion_json(motion);
   document["declarations"] = declarations_json(recording.declarations);
   return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
 }

@@ -46,7 +46,6 @@ class FieldReader {
   nlohmann::json object_;
   const Texts* given_;
   bool texts_ = false;  ///< every value is a text
-  bool from_given_ = false;
   std::vector<std::string> known_;
 };
 

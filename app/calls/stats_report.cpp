@@ -78,14 +78,14 @@ std::string text_of(const std::vector<std::string>& glosses) {
   return text;
 }
 
-json json_of(const PartStats& part) {
-  json one = {{"duration_ms", calls::json_of(part.duration)}};
+json part_json(const PartStats& part) {
+  json one = {{"duration_ms", json_of(part.duration)}};
   for (std::size_t side = 0; side < part.hands.size(); ++side) {
     const TravelStats& hand = part.hands[side];
     if (hand.path.count == 0) continue;
-    one[fmt::format("{}_hand", kSideNames[side])] = {{"displacement_m", calls::json_of(hand.displacement)},
-                                                     {"path_m", calls::json_of(hand.path)},
-                                                     {"speed_m_per_s", calls::json_of(hand.speed)}};
+    one[fmt::format("{}_hand", kSideNames[side])] = {{"displacement_m", json_of(hand.displacement)},
+                                                     {"path_m", json_of(hand.path)},
+                                                     {"speed_m_per_s", json_of(hand.speed)}};
   }
   return one;
 }
@@ -207,10 +207,10 @@ json json_of(const Distribution& of) {
 }
 
 json json_of(const TransitionSummary& summary) {
-  json one = {{"inferred", summary.inferred}, {"whole", json_of(summary.whole)}};
+  json one = {{"inferred", summary.inferred}, {"whole", part_json(summary.whole)}};
   if (!summary.inferred) {
-    one["retraction"] = json_of(summary.retraction);
-    one["preparation"] = json_of(summary.preparation);
+    one["retraction"] = part_json(summary.retraction);
+    one["preparation"] = part_json(summary.preparation);
   }
   return one;
 }

@@ -41,7 +41,6 @@ AmcReader::AmcReader(TextReader& reader, const Figure& figure, std::function<voi
   }
   numbers_.resize(columns);
   read_header(notices);
-  if (moving_ == 0) lines_.fail("no bone of the skeleton has a dof, so there is no motion; look at --skeleton");
 }
 
 void AmcReader::read_header(std::vector<Notice>& notices) {
@@ -60,16 +59,20 @@ void AmcReader::read_header(std::vector<Notice>& notices) {
   }
   if (unknown) notices.push_back(*unknown);
   if (lines_.words().size() != 1 || !whole_number(lines_.first())) {
-    lines_.fail(fmt::format("expected the number of the first frame, found {}; this is no Acclaim motion",
-                            in_quotes(lines_.first())));
+    const bool bone = bones_.contains(lines_.first()) || same_word(lines_.first(), "root");
+    lines_.fail(fmt::format("expected the number of the first frame, found {}; {}", in_quotes(lines_.first()),
+                            bone ? "write it on a line of its own before its bones" : "this is no Acclaim motion"));
   }
   lines_.back();
+  header_bytes_ = lines_.reader().bytes_read();
 }
 
-std::int64_t AmcReader::frames_to_reserve() const noexcept {
+std::int64_t AmcReader::frames_expected() const noexcept {
   const std::size_t total = lines_.reader().total_bytes();
-  const std::size_t left = total - std::min(total, lines_.reader().bytes_read());
-  std::size_t most = left / (2 * numbers_.size()) + 1;
+  const std::size_t read = std::min(total, lines_.reader().bytes_read());
+  const std::size_t frame = std::max(read - std::min(read, header_bytes_), 2 * numbers_.size());
+  std::size_t most = (total - read) / frame;
+  most += most / 16 + 1;
   if (is_sparse()) most = std::min(most, kMostSparsePoses / figure_.bones.size() + 1);
   return static_cast<std::int64_t>(most);
 }
@@ -123,16 +126,22 @@ std::size_t AmcReader::bone_of(std::string_view name) {
   if (same_word(name, "root")) return 0;
   if (lines_.is_keyword())
     lines_.fail(fmt::format("{} stands behind the first frame; put it before it", in_quotes(name)));
+  if (name.front() == '-' || (name.front() >= '0' && name.front() <= '9')) {
+    lines_.fail(
+        fmt::format("{} is neither a bone nor the number of a frame, which is a whole number on a line of its own",
+                    in_quotes(name)));
+  }
   std::vector<std::string> known;
   for (const Bone& bone : bones) known.push_back(bone.name);
+  const std::string near = did_you_mean_bone(name, known);
   lines_.fail(fmt::format("frame {} has the bone {}, which the skeleton has not{}", number_, in_quotes(name),
-                          did_you_mean_bone(name, known)));
+                          near.empty() ? "; name another skeleton with --skeleton" : near));
 }
 
 void AmcReader::read_bone() {
   const std::size_t at = bone_of(lines_.first());
-  guess_ = at + 1;
   const Bone& bone = figure_.bones[at];
+  if (!bone.dofs.empty()) guess_ = at + 1;
   if (seen_at_[at] > frame_line_) {
     lines_.fail(fmt::format("bone {} comes twice in frame {}, in line {} too; remove one", in_quotes(bone.name),
                             number_, seen_at_[at]));
@@ -140,10 +149,12 @@ void AmcReader::read_bone() {
   seen_at_[at] = lines_.line();
   const std::span<const std::string_view> words = lines_.words().subspan(1);
   if (words.size() != bone.dofs.size()) {
-    const std::string what =
-        bone.dofs.empty() ? "none, for it has no dof" : fmt::format("{} ({})", bone.dofs.size(), dofs_shown(bone.dofs));
-    lines_.fail(fmt::format("bone {} of frame {}: expected {} number{}, found {}", in_quotes(bone.name), number_, what,
-                            bone.dofs.size() == 1 ? "" : "s", words.size()));
+    const std::size_t count = bone.dofs.size();
+    const std::string expected =
+        count == 0 ? "no numbers, for it has no dof"
+                   : fmt::format("{} number{} ({})", count, count == 1 ? "" : "s", dofs_shown(bone.dofs));
+    lines_.fail(fmt::format("bone {} of frame {}: expected {}, found {}", in_quotes(bone.name), number_, expected,
+                            words.size()));
   }
   if (words.empty()) return;
   ++seen_;
@@ -153,7 +164,7 @@ void AmcReader::read_bone() {
   if (!bone.limits.empty()) check_limits(at);
 }
 
-void AmcReader::check_limits(std::size_t at) noexcept {
+void AmcReader::check_limits(std::size_t at) {
   const Bone& bone = figure_.bones[at];
   const double half_turn = std::numbers::pi / 180;
   const double unit = figure_.degrees == degrees_ ? 1.0 : figure_.degrees ? half_turn : 1 / half_turn;

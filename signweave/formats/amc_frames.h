@@ -20,7 +20,7 @@ namespace signweave::asf {
 /// Reads the numbers of frame after frame. All that it is given must outlive it.
 class AmcReader {
  public:
-  /// Reads what stands before the first frame. Throws Error{bad_input}, also where no bone has a degree of freedom.
+  /// Reads what stands before the first frame. Throws Error{bad_input}.
   AmcReader(TextReader& reader, const Figure& figure, std::function<void(double)> progress,
             std::vector<Notice>& notices);
 
@@ -28,8 +28,9 @@ class AmcReader {
   std::size_t column_of(std::size_t bone) const noexcept { return columns_[bone]; }
   /// Whether the angles are degrees: as this file says, else as the skeleton's.
   bool degrees() const noexcept { return degrees_; }
-  /// Each number takes two bytes at least, so this never reserves more than the file can fill.
-  std::int64_t frames_to_reserve() const noexcept;
+  /// After the first frame, about how many are still to come, if they are as long as it is: never more than the file
+  /// can hold.
+  std::int64_t frames_expected() const noexcept;
 
   /// The numbers of the next frame, [bone][dof], in the file's units; empty after the last. Valid until the next call.
   /// Throws Error{bad_input} where a frame or a bone is missing, comes twice, or holds what is no number.
@@ -43,7 +44,7 @@ class AmcReader {
   void read_number();
   void read_bone();
   std::size_t bone_of(std::string_view name);
-  void check_limits(std::size_t bone) noexcept;
+  void check_limits(std::size_t bone);
   void check_complete() const;
   void check_size() const;
   bool is_sparse() const noexcept;
@@ -57,9 +58,10 @@ class AmcReader {
   std::vector<std::size_t> columns_;                         ///< [bone]
   std::vector<double> numbers_;
   std::vector<std::size_t> seen_at_;  ///< [bone], the line of this frame that held it; before the frame's own: none
-  std::size_t moving_ = 0;            ///< bones with degrees of freedom
-  std::size_t seen_ = 0;              ///< of them, in this frame
-  std::size_t guess_ = 0;             ///< the bone that is likely to come next
+  std::size_t header_bytes_ = 0;
+  std::size_t moving_ = 0;  ///< bones with degrees of freedom
+  std::size_t seen_ = 0;    ///< of them, in this frame
+  std::size_t guess_ = 0;   ///< the bone that is likely to come next
   bool degrees_ = true;
   std::int64_t frames_ = 0;     ///< read so far
   std::int64_t number_ = 0;     ///< that the file gives this frame

@@ -38,7 +38,8 @@ Children children_told(std::vector<Bone>& bones, const std::vector<Kinship>& kin
       const auto at = static_cast<std::size_t>(child);
       const std::string name = in_quotes(bones[at].name);
       if (child == 0) refuse_kinship(file, kinship.line, "the root hangs on a bone; it stands first and has no parent");
-      if (child == parent) refuse_kinship(file, kinship.line, fmt::format("bone {} hangs on itself", name));
+      if (child == parent)
+        refuse_kinship(file, kinship.line, fmt::format("bone {} hangs on itself; name another as its parent", name));
       if (bones[at].parent == parent) {
         refuse_kinship(file, kinship.line,
                        fmt::format("bone {} stands twice on {}, in line {} too; remove one", name,

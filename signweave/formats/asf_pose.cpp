@@ -25,8 +25,7 @@ Eigen::Vector3d rest_head(const Figure& figure, const Bone& bone) noexcept {
 }  // namespace
 
 Eigen::Quaterniond turn_about(int axis, double angle, bool degrees) noexcept {
-  // A remainder is exact, and half of an angle is known up to two full turns.
-  const double half = (degrees ? std::remainder(angle, 720.0) * (std::numbers::pi / 180) : angle) / 2;
+  const double half = (degrees ? angle * (std::numbers::pi / 180) : angle) / 2;
   Eigen::Quaterniond turn(std::cos(half), 0, 0, 0);
   turn.vec()[axis] = std::sin(half);
   return turn;

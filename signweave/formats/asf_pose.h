@@ -11,8 +11,7 @@
 /// From the numbers of a frame to a pose. Part of formats/asf, not for others.
 namespace signweave::asf {
 
-/// A rotation by an angle about one of the figure's axes, 0 to 2 for x to z. Full turns are taken off degrees before
-/// they are rounded.
+/// A rotation by an angle about one of the figure's axes, 0 to 2 for x to z.
 Eigen::Quaterniond turn_about(int axis, double angle, bool degrees) noexcept;
 
 /// Three angles, one after the other about fixed axes.

@@ -14,7 +14,7 @@
 namespace signweave::asf {
 namespace {
 
-constexpr FrameRate kUsualRate{120, 1};
+constexpr FrameRate kAcclaimRate{120, 1};
 
 void check_unit_option(const ReadOptions& options) {
   if (options.unit && !(*options.unit >= 1e-6 && *options.unit <= 1e6)) {
@@ -76,19 +76,19 @@ File read_pair(TextReader& asf, TextReader& amc, const ReadOptions& options) {
   // The unit is known only when all frames are read, so the skeleton that the motion shares is exchanged then, before
   // anybody else has seen it.
   const auto skeleton = std::make_shared<Skeleton>(rest.joints, rest.tips);
-  file.motion = Motion(skeleton, options.rate.value_or(kUsualRate));
+  file.motion = Motion(skeleton, options.rate.value_or(kAcclaimRate));
   AmcReader frames(amc, figure, options.progress, file.notices);
   Poser poser(figure, frames.degrees());
-  file.motion.reserve(frames.frames_to_reserve());
   for (std::span<const double> numbers = frames.next(); !numbers.empty(); numbers = frames.next()) {
     poser.apply(numbers, file.motion.append());
+    if (file.motion.frame_count() == 1) file.motion.reserve(1 + frames.frames_expected());
   }
   frames.report();
   if (!options.rate) {
     file.notices.push_back(
         {amc.name(), fmt::format("the format does not tell the frame rate; {} frames a second taken, "
                                  "--rate overrides",
-                                 to_string(kUsualRate))});
+                                 to_string(kAcclaimRate))});
   }
   const bvh::UpAxis up = options.up.value_or(bvh::UpAxis::y);
   const double unit = settle_unit(file.motion, figure, options, up, asf.name(), file.notices);

@@ -212,7 +212,7 @@ TEST(AsfRead, OddSpellingsAreOne) {
   EXPECT_TRUE(tells(file.notices, "b:5: the first frame has the number 7; it becomes frame 0"));
 }
 
-TEST(AsfRead, FullTurnsAreTakenOffBeforeTheyAreRounded) {
+TEST(AsfRead, AnglesKeepTheirPrecisionThroughManyTurns) {
   const Motion motion = read_text("a", one_bone({.dof = "rx"}), "b", "1\nroot 0 0 0\nbone 360000045\n", kMetres).motion;
   expect_turn(motion.pose(0).rotations[1], 45, Eigen::Vector3d::UnitX());
 }

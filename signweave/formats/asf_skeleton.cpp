@@ -33,7 +33,7 @@ bool is_numeric(std::string_view word) noexcept {
 }
 
 /// What is written once in a bone or in the root.
-enum class Entry : unsigned { id, name, direction, length, axis, dof, limits, order, position, orientation };
+enum class BoneEntry : unsigned { id, name, direction, length, axis, dof, limits, order, position, orientation };
 
 /// Reads section after section.
 class FigureReader {
@@ -51,7 +51,10 @@ class FigureReader {
     while (lines_.next());
     const std::size_t end = lines_.line();
     if (!has_root_) lines_.fail("the file ends without :root; export it again");
-    if (kinships_.empty() && figure_.bones.size() > 1) lines_.fail("the file ends without :hierarchy; export it again");
+    if (!has_hierarchy_) lines_.fail("the file ends without :hierarchy; export it again");
+    const bool moves =
+        std::any_of(figure_.bones.begin(), figure_.bones.end(), [](const Bone& bone) { return !bone.dofs.empty(); });
+    if (!moves) lines_.fail("no bone has a dof and the root's order is empty, so nothing can move; export it again");
     report();
     order_bones(figure_.bones, kinships_, reader_.name(), end);
     return std::move(figure_);
@@ -117,23 +120,23 @@ class FigureReader {
     while (next_in_section()) {
       const std::string_view key = lines_.first();
       if (same_word(key, "order")) {
-        once(Entry::order);
+        once(BoneEntry::order);
         root.dofs = read_dofs("order");
       } else if (same_word(key, "axis")) {
-        once(Entry::axis);
+        once(BoneEntry::axis);
         if (lines_.words().size() != 2) lines_.fail("expected 'axis XYZ' or another order of the three");
         root.axis.order = read_axis_order(lines_.words()[1]);
       } else if (same_word(key, "position")) {
-        once(Entry::position);
+        once(BoneEntry::position);
         figure_.position = read_vector("position");
       } else if (same_word(key, "orientation")) {
-        once(Entry::orientation);
+        once(BoneEntry::orientation);
         root.axis.angles = read_vector("orientation");
       } else {
         note_unknown(key);
       }
     }
-    if (!has(Entry::order)) {
+    if (!has(BoneEntry::order)) {
       lines_.fail_at(root.line, "the root has no order; add one, such as 'order TX TY TZ RX RY RZ'");
     }
   }
@@ -159,24 +162,24 @@ class FigureReader {
       if (same_word(key, "end")) break;
       if (same_word(key, "begin")) lines_.fail(fmt::format("'begin' inside {}; write 'end' before it", item_));
       if (same_word(key, "name")) {
-        once(Entry::name);
+        once(BoneEntry::name);
         if (lines_.words().size() != 2) lines_.fail("expected a name of one word");
         bone.name = lines_.words()[1];
         item_ = "bone " + in_quotes(bone.name);
       } else if (same_word(key, "direction")) {
-        once(Entry::direction);
+        once(BoneEntry::direction);
         bone.direction = read_vector("direction");
       } else if (same_word(key, "length")) {
-        once(Entry::length);
+        once(BoneEntry::length);
         length = lines_.numbers(1, "length")[0];
       } else if (same_word(key, "axis")) {
-        once(Entry::axis);
+        once(BoneEntry::axis);
         bone.axis = read_turn();
       } else if (same_word(key, "dof")) {
-        once(Entry::dof);
+        once(BoneEntry::dof);
         bone.dofs = read_dofs("dof");
       } else if (same_word(key, "limits")) {
-        once(Entry::limits);
+        once(BoneEntry::limits);
         bone.limits = read_limits();
       } else if (!same_word(key, "id") && !same_word(key, "bodymass") && !same_word(key, "cofmass")) {
         note_unknown(key);
@@ -187,10 +190,13 @@ class FigureReader {
   }
 
   void finish(Bone& bone, double length) {
-    if (!has(Entry::name)) lines_.fail(fmt::format("{} has no name", item_));
-    if (!has(Entry::direction)) lines_.fail(fmt::format("{} has no direction", item_));
-    if (!has(Entry::length)) lines_.fail(fmt::format("{} has no length", item_));
-    if (!bone.dofs.empty() && !has(Entry::axis)) {
+    if (!has(BoneEntry::name))
+      lines_.fail(fmt::format("{} has no name; a bone needs name, direction and length", item_));
+    if (!has(BoneEntry::direction))
+      lines_.fail(fmt::format("{} has no direction; a bone needs name, direction and length", item_));
+    if (!has(BoneEntry::length))
+      lines_.fail(fmt::format("{} has no length; a bone needs name, direction and length", item_));
+    if (!bone.dofs.empty() && !has(BoneEntry::axis)) {
       lines_.fail(fmt::format("{} has no axis; add one, 'axis 0 0 0 XYZ' where it turns about the figure's", item_));
     }
     if (same_word(bone.name, "root")) lines_.fail("a bone is called 'root' like the root; give it another name");
@@ -202,7 +208,7 @@ class FigureReader {
       odd_name_ = reader_.notice(fmt::format(
           "the name {} is not UTF-8, it is kept byte for byte; save the file as UTF-8", in_quotes(bone.name)));
     }
-    if (has(Entry::limits) && bone.limits.size() != bone.dofs.size()) {
+    if (has(BoneEntry::limits) && bone.limits.size() != bone.dofs.size()) {
       if (odd_limits_.where.empty()) {
         odd_limits_ = reader_.notice(fmt::format("{} has {} limits for {} dofs; its limits are not looked at", item_,
                                                  bone.limits.size(), bone.dofs.size()));
@@ -219,6 +225,7 @@ class FigureReader {
   }
 
   void read_hierarchy() {
+    has_hierarchy_ = true;
     bool ended = false;
     if (!next_in_section() || !same_word(lines_.first(), "begin")) lines_.fail("expected 'begin' after :hierarchy");
     while (!ended && next_in_section()) {
@@ -306,8 +313,8 @@ class FigureReader {
     item_ = std::move(name);
     entries_ = 0;
   }
-  bool has(Entry entry) const noexcept { return (entries_ >> static_cast<unsigned>(entry) & 1u) != 0; }
-  void once(Entry entry) {
+  bool has(BoneEntry entry) const noexcept { return (entries_ >> static_cast<unsigned>(entry) & 1u) != 0; }
+  void once(BoneEntry entry) {
     if (has(entry)) lines_.fail(fmt::format("a second {} in {}; remove one", in_quotes(lines_.first()), item_));
     entries_ |= 1u << static_cast<unsigned>(entry);
   }
@@ -336,6 +343,7 @@ class FigureReader {
   std::vector<Kinship> kinships_;
   std::unordered_map<std::string, std::size_t> lines_of_;  ///< of bones, by name
   bool has_root_ = false;
+  bool has_hierarchy_ = false;
   std::string item_;                                        ///< what is being read, for messages
   unsigned entries_ = 0;                                    ///< of it, a bit each
   Notice unknown_, odd_name_, odd_limits_, odd_direction_;  ///< the first of each kind

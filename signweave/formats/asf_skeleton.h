@@ -62,7 +62,7 @@ struct Figure {
   bool degrees = true;                                 ///< false: radians
 };
 
-/// Reads a file to its end. Throws Error{bad_input, "FILE:LINE: …"}.
+/// Reads a file to its end; at least one bone has a dof. Throws Error{bad_input, "FILE:LINE: …"}.
 Figure read_figure(TextReader& reader, std::vector<Notice>& notices);
 
 /// Whose parent is who, as :hierarchy tells: a line of names, the first the parent of all others.

@@ -45,11 +45,12 @@ TEST(GltfBroken, EveryBrokenFileIsRefusedWithItsPlaceAndItsMend) {
     EXPECT_LT(fault.size() - path.string().size(), 200u) << fault;
     const std::string name = path.string();
     const std::string folder = kBrokenFolder.string();
-    for (std::size_t at = fault.find(folder, name.size()); at != fault.npos; at = fault.find(folder)) {
+    for (std::size_t at = fault.find(folder, name.size()); at != fault.npos; at = fault.find(folder, name.size())) {
       fault.replace(at, folder.size(), "FOLDER");
     }
     const std::string expected = read_file(path.replace_extension(".expected"));
-    EXPECT_EQ(fault, name + ":" + std::string(trimmed(expected)));
+    ASSERT_TRUE(fault.starts_with(name + ":")) << fault;
+    EXPECT_EQ(trimmed(std::string_view(fault).substr(name.size() + 1)), trimmed(expected));
   }
 }
 

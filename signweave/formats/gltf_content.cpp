@@ -174,6 +174,18 @@ tinygltf::Model model_of(const std::string& file, nlohmann::json json) {
   return model;
 }
 
+std::string outside_bytes(const std::string& place, const fs::path& path) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+    refuse_content(place, path.string() + " is no file");
+  }
+  try {
+    return read_file(path);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", place, error.what()));
+  }
+}
+
 /// Fills in the bytes of every buffer.
 void add_buffers(Content& content, nlohmann::json& json, const GlbParts& parts, const fs::path& folder) {
   const auto list = json.find("buffers");
@@ -188,7 +200,7 @@ void add_buffers(Content& content, nlohmann::json& json, const GlbParts& parts, 
       if (is_data_uri(text)) {
         content.owned.push_back(data_of_uri(place, text));
       } else {
-        content.owned.push_back(read_file(path_of_uri(place, text, folder)));
+        content.owned.push_back(outside_bytes(place, path_of_uri(place, text, folder)));
         content.byte_count += content.owned.back().size();
       }
       bytes = content.owned.back();

@@ -10,7 +10,7 @@
 namespace signweave::gltf {
 namespace {
 
-constexpr std::size_t kMostJoints = 65'535;
+constexpr std::size_t kMostStoredJoints = 65'535;
 constexpr float kStill = 1e-6f;
 
 /// Chooses the joints of a file.
@@ -50,9 +50,9 @@ class JointChoice {
     }
     std::vector<std::size_t> joints;
     std::ranges::copy_if(forest_.order, std::back_inserter(joints), [&](std::size_t node) { return kept[node]; });
-    if (joints.size() > kMostJoints) {
+    if (joints.size() > kMostStoredJoints) {
       throw Error(ErrorCode::unsupported,
-                  fmt::format("{}: {} joints; at most {} can be stored", content_.name, joints.size(), kMostJoints));
+                  fmt::format("{}: {} joints; at most {} can be stored", content_.name, joints.size(), kMostStoredJoints));
     }
     // The file's own order where it has parents first, so that what we wrote comes back as it was.
     const bool ordered = std::ranges::all_of(

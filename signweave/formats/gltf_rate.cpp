@@ -30,14 +30,22 @@ double key_slack(float seconds, double hertz, double slack) {
   return std::min(slack + step * hertz, 0.25);
 }
 
-bool keys_stand(AllTimes all, double start, double hertz, double slack) {
+/// How far the farthest key is from a frame, where each is no farther than it may be that is meant to stand there.
+std::optional<double> farthest_key(AllTimes all, double start, double hertz, double slack) {
+  double farthest = 0;
   for (const auto& times : all) {
     for (const float seconds : times->seconds) {
       const double frame = (static_cast<double>(seconds) - start) * hertz;
-      if (std::abs(frame - std::round(frame)) > key_slack(seconds, hertz, slack)) return false;
+      const double off = std::abs(frame - std::round(frame));
+      if (off > key_slack(seconds, hertz, slack)) return std::nullopt;
+      farthest = std::max(farthest, off);
     }
   }
-  return true;
+  return farthest;
+}
+
+bool keys_stand(AllTimes all, double start, double hertz, double slack) {
+  return farthest_key(all, start, hertz, slack).has_value();
 }
 
 double span_of_keys(const KeyTimes& times) {
@@ -51,6 +59,22 @@ const KeyTimes& fullest(AllTimes all) {
 
 bool every_second_frame(const KeyTimes& times, double hertz) {
   return 2 * static_cast<double>(times.seconds.size()) >= span_of_keys(times) * hertz + 1;
+}
+
+/// The lowest standard rate at which keys stand. A few keys stand at 29.97 as well as at 30: the nearer one is taken.
+std::optional<FrameRate> standard_rate(AllTimes all, double start, bool smooth) {
+  std::optional<FrameRate> found;
+  double nearest = 0;
+  for (const FrameRate& rate : kKeyRates) {
+    const double hertz = rate.hertz();
+    if (found && hertz > 1.002 * found->hertz()) break;
+    if (!every_second_frame(fullest(all), hertz) && hertz < (smooth ? 59.0 : 23.0)) continue;
+    const std::optional<double> off = farthest_key(all, start, hertz, kKeySlack);
+    if (!off || (found && *off >= nearest)) continue;
+    found = rate;
+    nearest = *off;
+  }
+  return found;
 }
 
 /// The fraction of the smallest denominator in [low, high], both positive.
@@ -106,14 +130,7 @@ Timing timing_of(AllTimes times, bool smooth, std::optional<FrameRate> told) {
     lists.assign(times.begin(), times.end());
   }
   if (!told) {
-    std::optional<FrameRate> found;
-    for (const FrameRate& rate : kKeyRates) {
-      const double hertz = rate.hertz();
-      if (!every_second_frame(fullest(lists), hertz) && hertz < (smooth ? 60.0 : 23.0)) continue;
-      if (!keys_stand(lists, timing.start, hertz, kKeySlack)) continue;
-      found = rate;
-      break;
-    }
+    std::optional<FrameRate> found = standard_rate(lists, timing.start, smooth);
     if (!found && timing.told_by_keys) found = rate_of_even_keys(lists, timing.start);
     timing.even = found.has_value();
     timing.rate = found ? *found : timing.told_by_keys ? rate_of_uneven_keys(lists, timing.start) : kRateOfUnevenKeys;

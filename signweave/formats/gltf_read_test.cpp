@@ -239,6 +239,17 @@ TEST(GltfRead, AnOddStatureIsTold) {
   expect_near(file.motion.skeleton().joint(1).offset, {0, 1.7f, 0});
 }
 
+// Two keys a thirtieth of a second apart are next to frames of 29.97 too.
+TEST(GltfRead, OfTwoRatesThatFitTheNearerIsTaken) {
+  for (const FrameRate rate : {FrameRate{30, 1}, FrameRate{30'000, 1'001}, FrameRate{5, 1}, FrameRate{37, 1}}) {
+    const auto skeleton =
+        std::make_shared<const Skeleton>(std::vector<Joint>{{.name = "Hips", .translated = true}}, std::vector<Tip>());
+    Motion motion(skeleton, rate, 2);
+    motion.pose(1).translations[0] = {0, 1, 0};
+    EXPECT_EQ(read_bytes("a.glb", to_bytes(motion, {}, Container::binary), {}).motion.rate(), rate);
+  }
+}
+
 TEST(GltfRead, OutsideBuffersAreNamedAndNeedAFolder) {
   EXPECT_THAT(files_of(kFolder / "step.gltf"), ElementsAre(kFolder / "step.gltf", kFolder / "step keys.bin"));
   EXPECT_THAT(files_of(kFolder / "linear.glb"), ElementsAre(kFolder / "linear.glb"));
@@ -251,7 +262,7 @@ TEST(GltfRead, AMotionFarLargerThanItsFileIsRefusedBeforeItIsMade) {
   EXPECT_THAT(
       fault_of_bytes(
           bytes, {.take = {}, .rate = FrameRate{1'000'000, 1}, .unit = {}, .progress = {}, .most_growth = 1'000'000}),
-      HasSubstr("133334 frames of 3 joints would be larger than what a file of its size may become"));
+      HasSubstr("133335 frames of 3 joints would be larger than what a file of its size may become"));
 }
 
 TEST(GltfRead, ProgressMayCancel) {

@@ -44,6 +44,9 @@ struct Content {
   std::vector<std::string_view> buffers;          ///< [buffer] its bytes; none of one that only stands in for others
   std::deque<std::string> owned;                  ///< those bytes that are not in the file as they are
   std::uint64_t byte_count = 0;                   ///< of the file and of all buffers outside of it
+
+  /// Our own writer made it.
+  bool is_ours() const { return model.asset.generator == "signweave"; }
 };
 
 /// Takes a .glb or .gltf apart. Buffers outside of it must lie in `folder` or below; where that is empty, none may be

@@ -30,7 +30,7 @@ bool is_tip_name(std::string_view name) {
 /// Takes the tips out of the joints.
 std::vector<Tip> take_tips(const Content& content, std::vector<JointPlace>& places) {
   std::vector<Tip> tips;
-  if (content.model.asset.generator != "signweave") return tips;
+  if (!content.is_ours()) return tips;
   std::vector<bool> carries(places.size(), false);
   for (const JointPlace& place : places) {
     if (place.parent != kNoJoint) carries[static_cast<std::size_t>(place.parent)] = true;

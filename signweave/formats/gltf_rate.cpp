@@ -61,14 +61,20 @@ bool every_second_frame(const KeyTimes& times, double hertz) {
   return 2 * static_cast<double>(times.seconds.size()) >= span_of_keys(times) * hertz + 1;
 }
 
+bool every_frame(const KeyTimes& times, double hertz) {
+  return std::abs(span_of_keys(times) * hertz - static_cast<double>(times.seconds.size() - 1)) < 0.5;
+}
+
 /// The lowest standard rate at which keys stand. A few keys stand at 29.97 as well as at 30: the nearer one is taken.
-std::optional<FrameRate> standard_rate(AllTimes all, double start, bool smooth) {
+std::optional<FrameRate> standard_rate(AllTimes all, double start, KeyHabits habits) {
   std::optional<FrameRate> found;
   double nearest = 0;
+  const double least = habits.key_a_frame ? 0.0 : habits.smooth ? 59.0 : 23.0;
   for (const FrameRate& rate : kKeyRates) {
     const double hertz = rate.hertz();
     if (found && hertz > 1.002 * found->hertz()) break;
-    if (!every_second_frame(fullest(all), hertz) && hertz < (smooth ? 59.0 : 23.0)) continue;
+    if (habits.key_a_frame && !every_frame(fullest(all), hertz)) continue;
+    if (!every_second_frame(fullest(all), hertz) && hertz < least) continue;
     const std::optional<double> off = farthest_key(all, start, hertz, kKeySlack);
     if (!off || (found && *off >= nearest)) continue;
     found = rate;
@@ -114,7 +120,7 @@ FrameRate rate_of_uneven_keys(AllTimes all, double start) {
 
 }  // namespace
 
-Timing timing_of(AllTimes times, bool smooth, std::optional<FrameRate> told) {
+Timing timing_of(AllTimes times, KeyHabits habits, std::optional<FrameRate> told) {
   Timing timing{.rate = told.value_or(kRateOfOneKey), .start = std::numeric_limits<double>::infinity()};
   double end = 0;
   for (const auto& one : times) {
@@ -130,7 +136,7 @@ Timing timing_of(AllTimes times, bool smooth, std::optional<FrameRate> told) {
     lists.assign(times.begin(), times.end());
   }
   if (!told) {
-    std::optional<FrameRate> found = standard_rate(lists, timing.start, smooth);
+    std::optional<FrameRate> found = standard_rate(lists, timing.start, habits);
     if (!found && timing.told_by_keys) found = rate_of_even_keys(lists, timing.start);
     timing.even = found.has_value();
     timing.rate = found ? *found : timing.told_by_keys ? rate_of_uneven_keys(lists, timing.start) : kRateOfUnevenKeys;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <set>
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
@@ -35,16 +35,15 @@ void check_options(const ReadOptions& options) {
 /// The times of the curves that are used, each list once.
 std::vector<std::shared_ptr<KeyTimes>> times_of_used(const Take& take, const std::vector<JointPlace>& places) {
   std::vector<std::shared_ptr<KeyTimes>> all;
+  std::set<const KeyTimes*> known;
   const auto add = [&](const Curve* curve) {
-    if (curve != nullptr) all.push_back(curve->times);
+    if (curve != nullptr && known.insert(curve->times.get()).second) all.push_back(curve->times);
   };
   for (const JointPlace& place : places) {
     add(take.nodes[place.node].translation);
     add(take.nodes[place.node].rotation);
   }
   for (const NodeCurves& curves : take.nodes) add(curves.weights);
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
@@ -97,7 +96,8 @@ ReadFile read_content(const Content& content, const ReadOptions& options) {
   look_at_bind_poses(content, forest, accessors, unit, file.notices);
 
   const std::vector<std::shared_ptr<KeyTimes>> times = times_of_used(take, places);
-  const Timing timing = timing_of(times, is_any_cubic(take), options.rate);
+  const KeyHabits habits{.smooth = is_any_cubic(take), .key_a_frame = content.is_ours()};
+  const Timing timing = timing_of(times, habits, options.rate);
   for (const auto& one : times) place_keys(*one, timing);
   tell_of_timing(name, timing, options, !timing.told_by_keys && timing.frames == 1, file.notices);
 

@@ -92,59 +92,6 @@ void look_at_bind_poses(const Content& content, const NodeForest& forest, Access
   constexpr std::size_t kMostBound = 65'535;
   std::size_t seen = 0;
   const auto& skins = content.model.skins;
-  for (std::size_t i = 0; i < skin.joints.size(); ++i) {
-      const auto node = static_cast<std::size_t>(skin.joints[i]);
-      const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix4f>(matrices.values.data() + 16 * i).cast<double>();
-      const bool usable = matrix.allFinite() && std::abs(matrix.topLeftCorner<3, 3>().determinant()) > 1e-18;
-      if (!usable && broken_++ == 0) first_broken_ = node;
-      if (usable) from_model_[node].matrix() = matrix;
-      bound_[node] = usable;
-    }
-  }
-
-  std::size_t broken() const { return broken_; }
-  std::size_t first_broken() const { return first_broken_; }
-
-  BindGap largest_gap(const tinygltf::Skin& skin, double unit) const {
-    BindGap largest;
-    for (const int joint : skin.joints) {
-      const auto node = static_cast<std::size_t>(joint);
-      if (!bound_[node]) continue;
-      Eigen::Affine3d rest = rest_of(content_, node).matrix();
-      std::size_t above = forest_.parent[node];
-      for (std::size_t steps = 0; above != kNoNode && !bound_[above] && steps < 64; ++steps) {
-        rest = rest_of(content_, above).matrix() * rest;
-        above = forest_.parent[above];
-      }
-      if (above == kNoNode || !bound_[above]) continue;
-      const Eigen::Affine3d bind = from_model_[above] * from_model_[node].inverse();
-      // In the parent joint's own units; its size in the model makes metres of them.
-      const double size = std::cbrt(std::abs(from_model_[above].linear().determinant()));
-      const double metres = (bind.translation() - rest.translation()).norm() / size * unit;
-      const double degrees = degrees_between(bind.linear(), rest.linear());
-      const bool larger = std::max(metres / kBindMetres, degrees / kBindDegrees) >
-                          std::max(largest.metres / kBindMetres, largest.degrees / kBindDegrees);
-      if (std::isfinite(metres) && std::isfinite(degrees) && larger) largest = {degrees, metres, node};
-    }
-    return largest;
-  }
-
- private:
-  const Content& content_;
-  const NodeForest& forest_;
-  std::vector<Eigen::Affine3d> from_model_;  ///< [node] joint from model
-  std::vector<bool> bound_;                  ///< [node]
-  std::size_t broken_ = 0;
-  std::size_t first_broken_ = kNoNode;
-};
-
-}  // namespace
-
-void look_at_bind_poses(const Content& content, const NodeForest& forest, Accessors& accessors, double unit,
-                        std::vector<Notice>& notices) {
-  // One skin after another would take the square of a file's size where many name the same nodes.
-  constexpr std::size_t kMostSkins = 64;
-  const auto& skins = content.model.skins;
   for (std::size_t i = 0; i < std::min(skins.size(), kMostSkins); ++i) {
     const tinygltf::Skin& skin = skins[i];
     if (skin.inverseBindMatrices < 0 || skin.joints.empty()) continue;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <memory>
 #include <set>
 
 #include "signweave/core/atomic_file.h"
@@ -21,6 +23,8 @@ namespace {
 /// Bodies lower or taller than this are hardly in metres.
 constexpr float kLowestBody = 0.05f;
 constexpr float kTallestBody = 4.0f;
+
+constexpr std::uintmax_t kMostFileSize = std::uintmax_t{1} << 32;
 
 void check_options(const ReadOptions& options) {
   if (options.unit && !(*options.unit >= 1e-6 && *options.unit <= 1e6)) {
@@ -82,6 +86,26 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
+/// A file's bytes, read at once: what grows while it is read is copied again and again, and a GLB may be large.
+struct WholeFile {
+  std::unique_ptr<char[]> bytes;
+  std::size_t size = 0;
+};
+
+WholeFile whole_file(const std::filesystem::path& path) {
+  std::error_code fault;
+  const std::uintmax_t size = std::filesystem::file_size(path, fault);
+  if (!fault && size <= kMostFileSize) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    WholeFile whole{std::make_unique_for_overwrite<char[]>(size), size};
+    if (file && std::fread(whole.bytes.get(), 1, size, file.get()) == size) return whole;
+  }
+  const std::string text = read_file(path);  // tells what is wrong, or reads what has no size
+  WholeFile whole{std::make_unique_for_overwrite<char[]>(text.size()), text.size()};
+  std::ranges::copy(text, whole.bytes.get());
+  return whole;
+}
+
 ReadFile read_content(const Content& content, const ReadOptions& options) {
   const std::string& name = content.name;
   ReadFile file;
@@ -121,7 +145,8 @@ ReadFile read_bytes(const std::string& name, std::string_view bytes, const std::
 
 ReadFile read(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
-  return read_bytes(path.string(), read_file(path), folder_of(path), options);
+  const WholeFile whole = whole_file(path);
+  return read_bytes(path.string(), {whole.bytes.get(), whole.size}, folder_of(path), options);
 }
 
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tiny_gltf.h>
+
+#include "signweave/core/error.h"
+
+namespace signweave::gltf {
+
+/// EXT_meshopt_compression of a view: where its packed bytes lie and what they unpack to.
+struct PackedView {
+  std::size_t buffer = 0;
+  std::uint64_t offset = 0;  ///< bytes
+  std::uint64_t length = 0;  ///< bytes
+  std::uint64_t stride = 0;  ///< bytes of one element, unpacked
+  std::uint64_t count = 0;   ///< elements
+  std::string mode;          ///< ATTRIBUTES, TRIANGLES or INDICES
+  std::string filter;        ///< NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL
+};
+
+/// What is told of a mesh by its morph targets.
+struct MorphMesh {
+  std::string name;
+  std::size_t targets = 0;
+  std::vector<std::string> target_names;  ///< [target], or none
+};
+
+/// A file taken apart, and checked as far as that needs no numbers. The bytes that it was made from must outlive it.
+struct Content {
+  std::string name;                               ///< stands for the file in errors
+  tinygltf::Model model;                          ///< without buffers, meshes, materials and pictures
+  std::vector<std::optional<PackedView>> packed;  ///< [view]
+  std::vector<MorphMesh> meshes;                  ///< [mesh]
+  std::vector<nlohmann::json> tracks;             ///< [animation] the `tracks` of its extras, or null
+  std::vector<bool> is_light;                     ///< [node]
+  std::vector<std::string_view> buffers;          ///< [buffer] its bytes; none of one that only stands in for others
+  std::deque<std::string> owned;                  ///< those bytes that are not in the file as they are
+  std::uint64_t byte_count = 0;                   ///< of the file and of all buffers outside of it
+
+  /// Our own writer made it.
+  bool is_ours() const { return model.asset.generator == "signweave"; }
+};
+
+/// Takes a .glb or .gltf apart. Buffers outside of it must lie in `folder` or below; where that is empty, none may be
+/// read. Throws Error{bad_input} or Error{unsupported}, "FILE: …", and as `read_file` does.
+Content content_of(const std::string& name, std::string_view bytes, const std::filesystem::path& folder);
+
+/// The buffers outside of a file, in its folder or below.
+std::vector<std::filesystem::path> outside_buffers(const std::string& name, std::string_view bytes,
+                                                   const std::filesystem::path& folder);
+
+}  // namespace signweave::gltf

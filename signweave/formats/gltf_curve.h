@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace signweave::gltf {
+
+enum class Interpolation { step, linear, cubic };
+
+/// The times of keys, shared by curves.
+struct KeyTimes {
+  std::span<const float> seconds;  ///< [key] ascending
+  std::vector<double> frames;      ///< [key] where they are among the motion's frames; filled in when its rate is known
+  bool one_a_frame = false;        ///< key i stands at frame i
+};
+
+/// Keys of one property of one node, as the file has them. Borrows its numbers.
+struct Curve {
+  std::string place;  ///< "animation 0, channel 3"
+  Interpolation interpolation = Interpolation::linear;
+  std::shared_ptr<KeyTimes> times;
+  std::span<const float> values;  ///< [key][part]; cubic: [key][tangent in, value, tangent out][part]
+  std::size_t parts = 0;          ///< 3, 4 (x, y, z, w), or as many as a mesh has morph targets
+
+  std::size_t key_count() const { return times->seconds.size(); }
+  /// The value at a key.
+  std::span<const float> key(std::size_t index) const {
+    const std::size_t row = interpolation == Interpolation::cubic ? 3 * index + 1 : index;
+    return values.subspan(row * parts, parts);
+  }
+  /// The tangent that arrives at a key of a cubic curve, or that leaves it; parts per second.
+  std::span<const float> tangent(std::size_t index, bool leaving) const {
+    return values.subspan((3 * index + (leaving ? 2 : 0)) * parts, parts);
+  }
+};
+
+/// True where any part of any key is farther than `most` from the first key's, or a cubic curve leaves it between keys.
+bool changes(const Curve& curve, float most);
+
+/// Evaluates a curve at places among the motion's frames, fastest where they ascend. Before the first key and after the
+/// last one their values hold. Borrows the curve.
+class CurveReader {
+ public:
+  /// `frame_seconds`: how long a frame lasts, for the tangents of cubic curves.
+  CurveReader(const Curve& curve, double frame_seconds) : curve_(&curve), frame_seconds_(frame_seconds) {}
+
+  /// [part] at a place; not normalised. Valid until the next call.
+  std::span<const double> at(double frame);
+  /// The same of a rotation, whose linear interpolation goes along the shorter arc; unit.
+  Eigen::Quaterniond rotation_at(double frame);
+  /// The same of a translation or scale.
+  Eigen::Vector3d vector_at(double frame);
+
+ private:
+  struct Between {
+    std::size_t key;  ///< the last one at or before the place, else the first
+    double part;      ///< 0 at that key, 1 at the next
+  };
+  Between between(double frame);
+
+  const Curve* curve_;
+  double frame_seconds_;
+  std::size_t key_ = 0;
+  std::vector<double> values_;
+};
+
+/// A unit quaternion from four numbers x, y, z, w; the identity where they have no length.
+Eigen::Quaterniond unit_rotation(std::span<const float> xyzw);
+
+}  // namespace signweave::gltf

@@ -1,0 +1,24 @@
+"""Where Blender's own importer puts the joints of a glTF file, to compare with ours; outside of the tests.
+
+    blender --background --factory-startup --python tools/blender_fk.py -- FILE.glb RATE FRAMES > places.csv
+
+Prints "place,FRAME,NAME,X,Y,Z" for each bone and each frame at RATE frames a second from the file's time 0 on, metres, Y up.
+"""
+import sys
+
+import bpy
+
+path, rate, frames = sys.argv[sys.argv.index("--") + 1:]
+bpy.ops.wm.read_factory_settings(use_empty=True)
+scene = bpy.context.scene
+scene.render.fps = int(rate)
+bpy.ops.import_scene.gltf(filepath=path, bone_heuristic="TEMPERANCE")
+armatures = [thing for thing in scene.objects if thing.type == "ARMATURE"]
+things = [thing for thing in scene.objects if thing.type == "EMPTY"]
+for frame in range(int(frames)):
+    scene.frame_set(frame)
+    places = [(bone.name, armature.matrix_world @ bone.matrix) for armature in armatures for bone in armature.pose.bones]
+    places += [(thing.name, thing.matrix_world) for thing in things]
+    for name, matrix in places:
+        x, y, z = matrix.translation  # Blender's Z is up
+        print("place,%d,%s,%.7f,%.7f,%.7f" % (frame, name, x, z, -y))

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <thread>
 
+#include "signweave/core/text.h"
 #include "signweave/database/catalogue.h"
 #include "signweave/database/database.h"
 #include "signweave/database/measure.h"
+#include "signweave/formats/face_csv.h"
 #include "signweave/query/watch.h"
 #include "signweave/semantic_db/semantic_db.h"
 #include "signweave/semantic_db/trace_store.h"
@@ -18,6 +21,34 @@ HandTrace no_trace(std::string why_not) {
   HandTrace trace;
   trace.why_not = std::move(why_not);
   return trace;
+}
+
+/// The place of a name among some: exactly, else but for case, for Live Link Face's own files spell EyeBlinkLeft.
+template <typename Names>
+std::optional<std::size_t> place_in(const Names& names, std::string_view name) {
+  auto at = std::ranges::find(names, name);
+  if (at == names.end()) {
+    const std::string folded = fold_case(name);
+    at = std::ranges::find_if(names, [&](const auto& one) { return fold_case(one) == folded; });
+  }
+  return at == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - names.begin()));
+}
+
+std::optional<std::size_t> stored_track(const RecordingInfo& info, std::string_view name) {
+  return info.motion ? place_in(info.motion->tracks, name) : std::nullopt;
+}
+
+/// Whether a recording has a face: a track that a face capture has.
+bool is_face(const RecordingInfo& info) {
+  const auto known = [](const std::string& track) {
+    return std::ranges::find(face_csv::track_names(), track) != face_csv::track_names().end();
+  };
+  return info.motion && std::ranges::any_of(info.motion->tracks, known);
+}
+
+/// Whether a track was left out because it is 0 throughout (face_csv::resampled).
+bool is_at_rest(const RecordingInfo& info, std::string_view name) {
+  return is_face(info) && place_in(face_csv::track_names(), name);
 }
 
 /// The rows of a recording as its table has them.
@@ -48,18 +79,25 @@ std::shared_ptr<MovementCache::Recording> MovementCache::find(std::uint32_t reco
 
 std::shared_ptr<MovementCache::Recording> MovementCache::add(std::uint32_t recording,
                                                              std::shared_ptr<Recording> entry) {
-  std::size_t bytes = sizeof(Recording);
-  for (const auto& points : entry->trace->points) bytes += points.size() * sizeof(TraceSample);
   const std::lock_guard guard(mutex_);
-  make_room(bytes);
+  make_room(sizeof(Recording));
   return recordings_.try_emplace(recording, std::move(entry)).first->second;
 }
 
-void MovementCache::grew(const Recording& entry) {
-  std::size_t bytes = 0;
-  for (const std::vector<float>& column : entry.columns) bytes += column.size() * sizeof(float);
+void MovementCache::grew(std::size_t bytes) {
   const std::lock_guard guard(mutex_);
   make_room(bytes);
+}
+
+bool MovementCache::has_track(std::string_view name) const {
+  const std::lock_guard guard(mutex_);
+  return tracks_.find(name) != tracks_.end();
+}
+
+void MovementCache::remember_track(std::string_view name) {
+  constexpr std::size_t kMostTracks = 10'000;  // as many as queries may think of
+  const std::lock_guard guard(mutex_);
+  if (tracks_.size() < kMostTracks) tracks_.emplace(name);
 }
 
 /// The mutex must be held.
@@ -104,34 +142,120 @@ class StoredMovement : public Movement {
 
   ColumnValues column(Column column, std::uint32_t recording) const override {
     MovementCache::Recording& entry = at(recording);
-    if (!entry.measured.load(std::memory_order_acquire)) measure(recording, entry);
+    find_once(entry, entry.measured, [&] { measure(recording, entry); });
     return {entry.columns[place_of(column)], entry_};
   }
-  float shoulder_width(std::uint32_t recording) const override { return at(recording).trace->shoulder_width; }
+  float shoulder_width(std::uint32_t recording) const override { return hands(recording)->shoulder_width; }
   FrameClock clock(std::uint32_t recording) const override { return at(recording).info.clock; }
-  std::shared_ptr<const HandTrace> hands(std::uint32_t recording) const override { return at(recording).trace; }
+  std::shared_ptr<const HandTrace> hands(std::uint32_t recording) const override {
+    MovementCache::Recording& entry = at(recording);
+    find_once(entry, entry.traced, [&] { trace(entry); });
+    return entry.trace;
+  }
+  std::int64_t frame_count(std::uint32_t recording) const override {
+    const RecordingInfo& info = at(recording).info;
+    return info.motion ? info.motion->frames : 0;
+  }
+
+  std::vector<float> track(std::uint32_t recording, std::string_view name, FrameRange frames) const override {
+    const TrackPlace& place = place_of_track(recording, name);
+    const auto count = static_cast<std::size_t>(frames.size());
+    if (!place.stored) return std::vector<float>(place.at_rest ? count : 0);
+    std::vector<float> values(count);
+    std::vector<std::span<float>> wanted(at(recording).info.motion->tracks.size());
+    wanted[*place.stored] = values;
+    source(recording).read_tracks(frames, wanted);
+    return values;
+  }
+  std::vector<Gaze> gaze(std::uint32_t recording, FrameRange frames) const override {
+    MovementCache::Recording& entry = at(recording);
+    if (!entry.info.motion) return {};
+    find_once(entry, entry.eyes_known, [&] {
+      entry.eyes = gaze_source(entry.info.motion->tracks);
+      if (!entry.eyes && entry.info.motion->frames > 0) {
+        entry.eyes = gaze_source(source(recording), model(recording).rig, [this] { pause(); });
+      }
+    });
+    if (!entry.eyes) return {};
+    return gaze_over(source(recording), *entry.eyes, frames, [this] { pause(); });
+  }
+  bool has_track(std::string_view name) const override {
+    if (cache_->has_track(name)) return true;
+    const bool found = look_at_catalogue(
+        [&](const RecordingInfo& info) { return !stored_track(info, name) && !is_at_rest(info, name); });
+    if (found) cache_->remember_track(name);
+    return found;
+  }
+  std::vector<std::string> tracks() const override {
+    std::set<std::string> names;
+    look_at_catalogue([&](const RecordingInfo& info) {
+      if (info.motion) names.insert(info.motion->tracks.begin(), info.motion->tracks.end());
+      if (is_face(info)) names.insert(face_csv::track_names().begin(), face_csv::track_names().end());
+      return true;
+    });
+    return {names.begin(), names.end()};
+  }
 
   std::vector<PointTrack> points(std::uint32_t recording, std::span<const Part> parts,
                                  FrameRange range) const override {
-    const RecordingInfo& info = at(recording).info;
-    if (!info.motion) return std::vector<PointTrack>(parts.size());
-    const Pause pauses = [this] { pause(); };
-    if (motion_of_ != recording) {  // rows come recording by recording
-      motion_of_.reset();
-      source_ = std::make_unique<motion_db::StoredSource>(transaction_, database_->known(*transaction_, *info.motion));
-      model_ = model_of(*source_, info.rig, pauses);
-      motion_of_ = recording;
-    }
-    return track_points(*source_, model_, parts, range, pauses);
+    if (!at(recording).info.motion) return std::vector<PointTrack>(parts.size());
+    return track_points(source(recording), model(recording), parts, range, [this] { pause(); });
   }
 
  private:
+  struct TrackPlace {
+    std::optional<std::size_t> stored;
+    bool at_rest = false;  ///< it is 0 throughout
+  };
+  const TrackPlace& place_of_track(std::uint32_t recording, std::string_view name) const {
+    const RecordingInfo& info = at(recording).info;
+    auto found = track_places_.find(name);
+    if (found == track_places_.end()) {
+      const std::optional<std::size_t> stored = stored_track(info, name);
+      found = track_places_.emplace(name, TrackPlace{stored, !stored && is_at_rest(info, name)}).first;
+    }
+    return found->second;
+  }
+
+  /// The motion of a recording that has one. Rows come recording by recording.
+  const MotionSource& source(std::uint32_t recording) const {
+    if (source_of_ != recording) {
+      source_of_.reset();
+      model_.reset();
+      const motion_db::StoredMotion& stored = *at(recording).info.motion;
+      source_ = std::make_unique<motion_db::StoredSource>(transaction_, database_->known(*transaction_, stored));
+      source_of_ = recording;
+    }
+    return *source_;
+  }
+  const SignerModel& model(std::uint32_t recording) const {
+    const MotionSource& motion = source(recording);
+    if (!model_) model_ = model_of(motion, at(recording).info.rig, [this] { pause(); });
+    return *model_;
+  }
+
+  /// Calls `use(info)` for all recordings that can be read, until it returns false: then true.
+  template <typename Use>
+  bool look_at_catalogue(Use&& use) const {
+    const std::uint32_t count = catalogue::read_head(*transaction_).recordings;
+    for (std::uint32_t slot = 0; slot < count; ++slot) {
+      pause();
+      try {
+        if (!use(catalogue::read_recording(*transaction_, slot))) return true;
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::corrupt) throw;  // `check` tells of it
+      }
+    }
+    return false;
+  }
+
   MovementCache::Recording& at(std::uint32_t recording) const {
     if (at_ != recording) {
       pause();
       std::shared_ptr<MovementCache::Recording> entry = cache_->find(recording);
       entry_ = entry ? std::move(entry) : cache_->add(recording, read(recording));
       at_ = recording;
+      track_places_.clear();
     }
     return *entry_;
   }
@@ -140,22 +264,49 @@ class StoredMovement : public Movement {
     auto entry = std::make_shared<MovementCache::Recording>();
     try {
       entry->info = database_->recording_in(*transaction_, segments_->recording_name(recording));
-      entry->trace = std::make_shared<const HandTrace>(trace_stored(*transaction_, entry->info, [this] { pause(); }));
     } catch (const Error& error) {  // a damaged entry of the catalogue
       if (error.code() != ErrorCode::corrupt && error.code() != ErrorCode::not_found) throw;
-      entry->trace = std::make_shared<const HandTrace>(no_trace(error.what()));
+      entry->fault = error.what();
     }
     return entry;
   }
 
-  void measure(std::uint32_t recording, MovementCache::Recording& entry) const {
-    std::unique_lock lock(entry.measuring, std::defer_lock);
+  /// Calls `find()`, which fills in a part of an entry, unless a thread has done so.
+  template <typename Find>
+  void find_once(MovementCache::Recording& entry, std::atomic<bool>& found, Find&& find) const {
+    if (found.load(std::memory_order_acquire)) return;
+    std::unique_lock lock(entry.finding, std::defer_lock);
     while (!lock.try_lock()) {  // another search does; this one may have to stop before it has
       pause();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    if (entry.measured.load(std::memory_order_acquire)) return;
+    if (found.load(std::memory_order_acquire)) return;
     pause();
+    find();
+    found.store(true, std::memory_order_release);
+  }
+
+  void trace(MovementCache::Recording& entry) const {
+    HandTrace found = no_trace(entry.fault);
+    if (entry.fault.empty()) {
+      try {
+        found = trace_stored(*transaction_, entry.info, [this] { pause(); });
+      } catch (const Error& error) {  // a rig that does not fit the skeleton
+        if (error.code() != ErrorCode::corrupt && error.code() != ErrorCode::not_found) throw;
+        found = no_trace(error.what());
+      }
+    }
+    std::size_t bytes = 0;
+    for (const auto& points : found.points) bytes += points.size() * sizeof(TraceSample);
+    entry.trace = std::make_shared<const HandTrace>(std::move(found));
+    cache_->grew(bytes);
+  }
+
+  void measure(std::uint32_t recording, MovementCache::Recording& entry) const {
+    if (!entry.traced.load(std::memory_order_acquire)) {
+      trace(entry);
+      entry.traced.store(true, std::memory_order_release);
+    }
     const std::vector<MovementRow> rows = rows_of(segments_->part(recording));
     RecordingFeatures features;
     if (entry.info.document != 0 && entry.trace->samples() != 0) {
@@ -170,8 +321,9 @@ class StoredMovement : public Movement {
     }
     pause();
     entry.columns = measure_rows(rows, features, *entry.trace, entry.info.clock, [this] { pause(); });
-    cache_->grew(entry);
-    entry.measured.store(true, std::memory_order_release);
+    std::size_t bytes = 0;
+    for (const std::vector<float>& column : entry.columns) bytes += column.size() * sizeof(float);
+    cache_->grew(bytes);
   }
 
   const Database* database_;
@@ -180,10 +332,11 @@ class StoredMovement : public Movement {
   std::shared_ptr<MovementCache> cache_;
   mutable std::optional<std::uint32_t> at_;
   mutable std::shared_ptr<MovementCache::Recording> entry_;
+  mutable std::map<std::string, TrackPlace, std::less<>> track_places_;  ///< of the recording `at_`
   Watch watch_;
-  mutable std::optional<std::uint32_t> motion_of_;
+  mutable std::optional<std::uint32_t> source_of_;  ///< the recording whose motion is at hand
   mutable std::unique_ptr<motion_db::StoredSource> source_;
-  mutable SignerModel model_;
+  mutable std::optional<SignerModel> model_;  ///< of the same, once it was asked for
 };
 
 std::unique_ptr<Movement> Database::movement_of(const std::shared_ptr<const kv::ReadTransaction>& snapshot,

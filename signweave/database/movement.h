@@ -5,9 +5,13 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 
 #include "signweave/database/recording.h"
+#include "signweave/features/gaze.h"
 #include "signweave/kv/kv_store.h"
 #include "signweave/query/movement.h"
 #include "signweave/semantic_db/segments.h"
@@ -27,19 +31,29 @@ class MovementCache {
   explicit MovementCache(std::uint64_t changes) : changes_(changes) {}
   std::uint64_t changes() const noexcept { return changes_; }
 
+  /// What is known of a recording. All but `info` is there once its flag says so; it is found by one thread, which has
+  /// the mutex meanwhile.
   struct Recording {
     RecordingInfo info;
+    std::string fault;  ///< why nothing is known; empty: all is well
+    std::mutex finding;
+    std::atomic<bool> traced = false;
     std::shared_ptr<const HandTrace> trace;
-    std::mutex measuring;
     std::atomic<bool> measured = false;
-    MovementColumns columns;  ///< once measured
+    MovementColumns columns;
+    std::atomic<bool> eyes_known = false;
+    std::optional<GazeSource> eyes;
   };
   /// The entry of a recording (numbered as in Segments), or null.
   std::shared_ptr<Recording> find(std::uint32_t recording) const;
   /// Adds an entry, unless another thread did; in either case what is there.
   std::shared_ptr<Recording> add(std::uint32_t recording, std::shared_ptr<Recording> entry);
-  /// An entry's columns were measured.
-  void grew(const Recording& entry);
+  /// So many bytes came to an entry.
+  void grew(std::size_t bytes);
+
+  /// Whether it was `remember`ed that some recording has this scalar track.
+  bool has_track(std::string_view name) const;
+  void remember_track(std::string_view name);
 
  private:
   void make_room(std::size_t bytes);
@@ -50,6 +64,7 @@ class MovementCache {
   std::uint64_t changes_;
   mutable std::mutex mutex_;
   std::map<std::uint32_t, std::shared_ptr<Recording>> recordings_;
+  std::set<std::string, std::less<>> tracks_;  ///< that queries asked for
   std::size_t bytes_ = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "signweave/query/movement_check.h"
 #include "signweave/query/plan.h"
 #include "signweave/query/rank.h"
 
@@ -25,12 +26,31 @@ std::string shown(const PhaseQuery& query, std::size_t first, std::size_t last) 
   return first == last ? text : '(' + text + ')';
 }
 
+void find_slow(const Expression& expression, std::vector<std::string>& found) {
+  const Condition& condition = expression.condition;
+  if (expression.kind == Expression::Kind::condition && condition.field == Field::movement &&
+      !is_scannable(condition.movement)) {
+    found.push_back(to_string(condition));
+  }
+  for (const Expression& operand : expression.operands) find_slow(operand, found);
+}
+
+/// The expression, and what of it is read from the motion. What stands inside of a link's sequence tells that itself.
+std::string kept(const Expression& expression) {
+  std::vector<std::string> slow;
+  find_slow(expression, slow);
+  const std::string text = to_string(expression);
+  if (slow.empty()) return text;
+  if (slow.size() == 1 && slow.front() == text) return text + ", read from the motion";
+  return fmt::format("{}; read from the motion, where the rest does not tell: {}", text, fmt::join(slow, ", "));
+}
+
 std::string follow(const PhaseQuery& query, std::size_t from, std::size_t to) {
   const Interval& gap = query.gaps[std::min(from, to)];
   const std::string_view where = to > from ? "after" : "before";
   const std::string how = gap.direct() ? fmt::format("the row directly {}", where)
                                        : fmt::format("the rows {} within {}", where, to_string(gap));
-  return fmt::format("{}: keep those with {}", how, to_string(query.elements[to].term.expression));
+  return fmt::format("{}: keep those with {}", how, kept(query.elements[to].term.expression));
 }
 
 /// Of the relations of an element, then of the groups that end there.
@@ -58,10 +78,10 @@ class Explainer {
     }
     const Element& start = query.elements[chosen.element];
     if (chosen.relation) {
-      add(fmt::format("keep those with {}", to_string(partner(start, *chosen.relation).expression)));
+      add(fmt::format("keep those with {}", kept(partner(start, *chosen.relation).expression)));
       add("take the rows around each of them");
     }
-    add(fmt::format("keep those with {}", to_string(start.term.expression)));
+    add(fmt::format("keep those with {}", kept(start.term.expression)));
     for (std::size_t e = chosen.element + 1; e < query.elements.size(); ++e) add(follow(query, e - 1, e));
     for (std::size_t e = chosen.element; e > 0; --e) add(follow(query, e, e - 1));
     for (std::size_t e = 0; e < query.elements.size(); ++e) {
@@ -84,7 +104,7 @@ class Explainer {
       const std::string before =
           fmt::format("find the partner: {} {}", shown(query, first, last), word_of(relation.link));
       if (relation.sequence.empty()) {
-        add(fmt::format("{} {}", before, to_string(relation.term.expression)));
+        add(fmt::format("{} {}", before, kept(relation.term.expression)));
         continue;
       }
       add(fmt::format("{} what is found in its recording so:", before));

@@ -6,6 +6,7 @@
 
 #include "signweave/query/rank.h"
 #include "signweave/query/search.h"
+#include "signweave/query/series_over.h"
 
 namespace signweave {
 
@@ -98,6 +99,7 @@ PreparedQuery::PreparedQuery(PhaseQuery query, std::shared_ptr<const Segments> s
   state_->segments = std::move(segments);
   state_->movement = movement;
   state_->ranked = ranked_place(state_->query);
+  if (movement != nullptr) require_tracks(state_->query, *movement);
   for (const Segments::Member& member : state_->segments->members()) {
     state_->searches.push_back(std::make_unique<Search>(state_->query, member, movement, limits));
   }

@@ -58,7 +58,8 @@ struct FoundRow {
 /// A query made ready for some segments, to be asked again and again. For one thread at a time.
 class PreparedQuery {
  public:
-  /// Borrows the movement; without it nothing is known of movement. Throws Error{cancelled} where `limits` say so.
+  /// Borrows the movement; without it nothing is known of movement. Throws Error{cancelled} where `limits` say so,
+  /// Error{not_found} with near matches for a scalar track that no recording has.
   PreparedQuery(PhaseQuery query, std::shared_ptr<const Segments> segments, const Movement* movement = nullptr,
                 const FindLimits& limits = {});
   ~PreparedQuery();
@@ -82,7 +83,8 @@ class PreparedQuery {
 /// `parts` is the first of them in time. With like(…) the answers come by their distance, the nearest first, and
 /// without a limit the kNearest nearest; those of which nothing is known are left out.
 ///
-/// Throws Error{cancelled} where `limits` say so, and Error{bad_input} past five million answers without a limit.
+/// Throws Error{cancelled} where `limits` say so, Error{not_found} for a scalar track that no recording has, and
+/// Error{bad_input} past five million answers without a limit.
 std::vector<Segment> find(const PhaseQuery& query, const Segments& segments, const FindLimits& limits = {},
                           const Movement* movement = nullptr);
 

@@ -102,6 +102,13 @@ bool holds(const Condition& condition, TimeSpan span) noexcept {
   return compares(time, condition.compare, std::get<Milliseconds>(condition.value));
 }
 
+bool reads_motion(const BoundExpression& expression) noexcept {
+  const BoundCondition& condition = expression.condition;
+  if (expression.kind == Expression::Kind::condition) return condition.movement && !condition.movement->scannable();
+  if (expression.linked) return reads_motion(expression.linked->root());
+  return std::ranges::any_of(expression.operands, reads_motion);
+}
+
 Matcher::Matcher(const Expression& expression, const Segments::Member& member, const Movement* movement, Watch& watch,
                  Plain plain)
     : member_(&member),
@@ -131,6 +138,9 @@ BoundExpression Matcher::bind(const Expression& expression) {
   } else {
     result.top = top_scope(expression, tier_names_);
     for (const Expression& operand : expression.operands) result.operands.push_back(bind(operand));
+    if (expression.kind == Expression::Kind::all) {
+      std::ranges::stable_partition(result.operands, [](const auto& operand) { return !reads_motion(operand); });
+    }
   }
   return result;
 }

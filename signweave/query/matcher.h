@@ -48,8 +48,11 @@ struct BoundExpression {
   Link link = Link::parent;
   std::unique_ptr<Matcher> linked;   ///< of a link
   std::shared_ptr<Search> sequence;  ///< of a link to one
+  /// What is joined by `&` stands with what is read from the motion last: of most rows it need not be.
   std::vector<BoundExpression> operands;
 };
+/// Whether a condition on movement in it is read from the motion, which takes longer than all else.
+bool reads_motion(const BoundExpression& expression) noexcept;
 
 /// Tells for each row of a table whether an expression holds for it. Regular expressions are tried once per distinct
 /// label. Borrows all that it is made of, which must outlive it. For one thread.

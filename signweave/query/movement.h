@@ -5,10 +5,12 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "signweave/core/time.h"
+#include "signweave/features/gaze.h"
 #include "signweave/features/hand_trace.h"
 #include "signweave/features/phase_features.h"
 #include "signweave/features/point_track.h"
@@ -108,6 +110,17 @@ class Movement {
   /// Points of the body over some frames of a recording, as `track_points` gives them, computed from the motion.
   virtual std::vector<PointTrack> points(std::uint32_t recording, std::span<const Part> parts,
                                          FrameRange range) const = 0;
+  /// Frames of the motion; 0 where there is none.
+  virtual std::int64_t frame_count(std::uint32_t) const { return 0; }
+  /// Values of a scalar track at some frames, which must lie within the motion: one for each; none where it is not
+  /// known. A track that is 0 throughout may be left out of what is stored: it is known, and 0.
+  virtual std::vector<float> track(std::uint32_t, std::string_view, FrameRange) const { return {}; }
+  /// The gaze at some frames, which must lie within the motion: one for each; none where it is not known.
+  virtual std::vector<Gaze> gaze(std::uint32_t, FrameRange) const { return {}; }
+  /// Whether a scalar track of this name is known of some recording.
+  virtual bool has_track(std::string_view) const { return false; }
+  /// The names of all scalar tracks that are known of some recording, sorted.
+  virtual std::vector<std::string> tracks() const { return {}; }
   /// Called now and then by what works on movement for more than a few milliseconds. May throw Error{cancelled}.
   virtual void pause() const {}
 };

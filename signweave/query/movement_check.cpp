@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "signweave/features/point_sum.h"
+#include "signweave/query/series_over.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -50,6 +51,10 @@ HandMeasure measure_for(const Condition& condition) noexcept {
                                                 : HandMeasure::distance;
     case Quantity::begin:
     case Quantity::end:
+    case Quantity::track:
+    case Quantity::mean_track:
+    case Quantity::gaze:
+    case Quantity::mean_gaze:
       break;
   }
   const bool begin = term.quantity == Quantity::begin;
@@ -95,6 +100,7 @@ Across across_of(float x) noexcept {
 
 MovementCheck::MovementCheck(const Condition& condition, const Movement* movement)
     : movement_(movement), condition_(&condition) {
+  if (is_series(condition.movement.quantity)) return;
   const HandMeasure measure = measure_for(condition);
   by_state_ = measure == HandMeasure::begin_state || measure == HandMeasure::end_state;
   if (const Amount* amount = std::get_if<Amount>(&condition.value)) {
@@ -118,6 +124,7 @@ MovementCheck::MovementCheck(const Condition& condition, const Movement* movemen
 void MovementCheck::load(std::uint32_t recording) {
   if (recording_ == recording) return;
   recording_.reset();  // where it is stopped below, nothing of it is at hand
+  told_.clear();
   for (Way& way : ways_) {
     const bool palms = way.point.kind == Point::Kind::palm && (!way.other || way.other->kind == Point::Kind::palm);
     if (palms) way.column = movement_->column({way.measure, way.point.side}, recording);
@@ -176,6 +183,10 @@ bool MovementCheck::fits(float value) const {
 }
 
 bool MovementCheck::holds(const MovingRow& row, const Stretches& stretches) {
+  if (movement_ != nullptr && is_series(condition_->movement.quantity)) {
+    load(row.recording);
+    return fits(series_of(row, stretches));
+  }
   if (ways_.empty()) return false;
   load(row.recording);
   std::optional<std::vector<TimeSpan>> looked_at;
@@ -191,6 +202,15 @@ bool MovementCheck::holds(const MovingRow& row, const Stretches& stretches) {
     if (fits(from_frames(way, row.recording, *looked_at))) return true;
   }
   return false;
+}
+
+/// A row may be asked about again and again, as a partner of others.
+float MovementCheck::series_of(const MovingRow& row, const Stretches& stretches) {
+  if (told_.size() <= row.row) told_.resize(row.row + 1, kInfinity);
+  if (std::isinf(told_[row.row])) {
+    told_[row.row] = series_over(condition_->movement, *movement_, row.recording, stretches());
+  }
+  return told_[row.row];
 }
 
 void MovementCheck::track(const Point& point, std::uint32_t recording, const HandTrace& trace, FrameRange frames,
@@ -314,12 +334,13 @@ void MovementCheck::append_within(std::span<const float> column, Bounds bounds, 
   }
 }
 
-bool MovementCheck::scannable() const noexcept {
-  const MovementTerm& term = condition_->movement;
-  return term.point.kind != Point::Kind::part && (!term.other || term.other->kind != Point::Kind::part);
+bool is_scannable(const MovementTerm& term) noexcept {
+  return !is_series(term.quantity) && term.point.kind != Point::Kind::part &&
+         (!term.other || term.other->kind != Point::Kind::part);
 }
 
 bool MovementCheck::scan(std::uint32_t recording, RowId first, std::vector<RowId>& rows) {
+  if (is_series(condition_->movement.quantity)) return false;
   if (ways_.empty()) return true;
   load(recording);
   if (std::ranges::any_of(ways_, [](const Way& way) { return way.column.values.empty(); })) return false;

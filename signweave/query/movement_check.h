@@ -19,6 +19,10 @@ struct MovingRow {
   Side hand = Side::right;  ///< of a row of one hand
 };
 
+/// Whether a term is about hands alone, of which columns are stored. All else is read from the motion, segment by
+/// segment.
+bool is_scannable(const MovementTerm& term) noexcept;
+
 /// What is looked at of a row: a sign's strokes in order, of other rows their span.
 using Stretches = std::function<std::vector<TimeSpan>()>;
 
@@ -33,8 +37,8 @@ class MovementCheck {
   /// Error{corrupt} where a trace or motion is damaged, and what Movement::pause throws.
   bool holds(const MovingRow& row, const Stretches& stretches);
 
-  /// Whether what it asks for may be stored: it is about hands.
-  bool scannable() const noexcept;
+  /// Whether what it asks for may be stored as a column: it is about hands.
+  bool scannable() const noexcept { return is_scannable(condition_->movement); }
   /// Appends `first` + all rows of a recording for which it holds, and perhaps others (of `hand`: what either hand
   /// does). False, and nothing, where something that it asks for is not stored.
   bool scan(std::uint32_t recording, RowId first, std::vector<RowId>& rows);
@@ -55,6 +59,7 @@ class MovementCheck {
   };
 
   void load(std::uint32_t recording);
+  float series_of(const MovingRow& row, const Stretches& stretches);
   static void append_within(std::span<const float> column, Bounds bounds, RowId first, std::vector<RowId>& rows);
   bool fits(float value) const;
   Bounds bounds(std::uint32_t recording) const;
@@ -67,8 +72,9 @@ class MovementCheck {
   std::vector<Way> ways_;                   ///< one of them has to hold
   std::optional<std::uint32_t> recording_;  ///< of which columns and bounds are at hand
   Bounds bounds_{};
-  bool scaled_ = false;    ///< the value's unit is not the column's: it depends on the signer's shoulders
-  bool by_state_ = false;  ///< the value is told from a state number
+  bool scaled_ = false;      ///< the value's unit is not the column's: it depends on the signer's shoulders
+  bool by_state_ = false;    ///< the value is told from a state number
+  std::vector<float> told_;  ///< [row of `recording_`] of a track or the gaze; infinite: not looked at yet
 };
 
 }  // namespace signweave

@@ -41,6 +41,12 @@ ValueKind value_kind(const MovementTerm& term) noexcept {
       return ValueKind::length;
     case Quantity::contact:
       return ValueKind::contact;
+    case Quantity::track:
+    case Quantity::mean_track:
+      return ValueKind::share;
+    case Quantity::gaze:
+    case Quantity::mean_gaze:
+      return ValueKind::angle;
     case Quantity::begin:
     case Quantity::end:
       break;
@@ -62,13 +68,17 @@ ValueKind value_kind(const MovementTerm& term) noexcept {
     case Component::none:
     case Component::begin:
     case Component::end:
+    case Component::least:
       break;
   }
   return ValueKind::length;
 }
 
 std::string to_string(const MovementTerm& term) {
-  std::string result = fmt::format("{}({}", word_of(term.quantity), to_string(term.point));
+  const std::string of = is_gaze(term.quantity)     ? std::string(word_of(term.angle))
+                         : is_series(term.quantity) ? in_quotes(term.track)
+                                                    : to_string(term.point);
+  std::string result = fmt::format("{}({}", word_of(term.quantity), of);
   if (term.other) result += ", " + to_string(*term.other);
   result += ')';
   if (term.component != Component::none) result += fmt::format(".{}", word_of(term.component));
@@ -76,7 +86,7 @@ std::string to_string(const MovementTerm& term) {
 }
 
 std::string to_string(const Amount& amount) {
-  constexpr std::string_view kUnits[] = {"", " m", " sw", " m/s", " m/s2"};
+  constexpr std::string_view kUnits[] = {"", " m", " sw", " m/s", " m/s2", " deg"};
   // The shortest digits that read back as the same number, never with an exponent.
   std::array<char, 400> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), amount.value, std::chars_format::fixed);
@@ -99,15 +109,19 @@ std::string to_string(const Point& point) {
 }
 
 std::string_view word_of(Quantity quantity) noexcept {
-  constexpr std::string_view kWords[] = {"speed", "mean_speed",   "acceleration", "mean_acceleration",
-                                         "path",  "displacement", "distance",     "contact",
-                                         "begin", "end"};
+  constexpr std::string_view kWords[] = {
+      "speed", "mean_speed", "acceleration", "mean_acceleration", "path", "displacement", "distance", "contact",
+      "begin", "end",        "track",        "mean_track",        "gaze", "mean_gaze"};
   return kWords[static_cast<std::size_t>(quantity)];
 }
 
+std::string_view word_of(GazeAngle angle) noexcept {
+  return angle == GazeAngle::yaw ? "yaw" : "pitch";
+}
+
 std::string_view word_of(Component component) noexcept {
-  constexpr std::string_view kWords[] = {"",     "x",       "height",  "forward", "openness",
-                                         "palm", "fingers", "contact", "begin",   "end"};
+  constexpr std::string_view kWords[] = {"",        "x",       "height", "forward", "openness", "palm",
+                                         "fingers", "contact", "begin",  "end",     "least"};
   return kWords[static_cast<std::size_t>(component)];
 }
 

@@ -32,7 +32,7 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
-/// What is asked of a point.
+/// What is asked of a point, or of what a face does.
 enum class Quantity : std::uint8_t {
   speed,  ///< the peak
   mean_speed,
@@ -44,21 +44,44 @@ enum class Quantity : std::uint8_t {
   contact,       ///< what a hand touches at some moment
   begin,         ///< a component at the first moment
   end,           ///< a component at the last moment
+  track,         ///< of a scalar track: the most, or the component
+  mean_track,
+  gaze,  ///< of an angle of the gaze: the most, or the component
+  mean_gaze,
 };
+/// Whether it is a scalar track or the gaze: one number a frame, without a point.
+constexpr bool is_series(Quantity quantity) noexcept {
+  return quantity >= Quantity::track;
+}
+constexpr bool is_gaze(Quantity quantity) noexcept {
+  return quantity >= Quantity::gaze;
+}
 
-enum class Component : std::uint8_t { none, x, height, forward, openness, palm, fingers, contact, begin, end };
+enum class Component : std::uint8_t { none, x, height, forward, openness, palm, fingers, contact, begin, end, least };
 
-/// QUANTITY(POINT)[.COMPONENT], or distance(POINT, POINT)[.COMPONENT].
+/// An angle of the gaze (features/gaze.h).
+enum class GazeAngle : std::uint8_t { yaw, pitch };
+
+/// QUANTITY(POINT)[.COMPONENT], distance(POINT, POINT)[.COMPONENT], track("NAME")[.COMPONENT], gaze(ANGLE)[.COMPONENT].
 struct MovementTerm {
   Quantity quantity = Quantity::speed;
   Point point;
   std::optional<Point> other;  ///< of a distance only
   Component component = Component::none;
+  std::string track;                 ///< name of a scalar track
+  GazeAngle angle = GazeAngle::yaw;  ///< of the gaze
   friend bool operator==(const MovementTerm&, const MovementTerm&) = default;
 };
 
 /// What a number counts. All others are turned into these by the parser.
-enum class Unit : std::uint8_t { none, metres, shoulder_widths, metres_per_second, metres_per_second_squared };
+enum class Unit : std::uint8_t {
+  none,
+  metres,
+  shoulder_widths,
+  metres_per_second,
+  metres_per_second_squared,
+  degrees,
+};
 
 /// A number with its unit.
 struct Amount {
@@ -84,6 +107,7 @@ enum class ValueKind : std::uint8_t {
   across,        ///< the same, or left, centre, right
   reach,         ///< the same, or near, far
   share,         ///< a bare number
+  angle,         ///< an amount in degrees
   facing,        ///< up, down, …
   contact,       ///< hand, head, torso
 };
@@ -96,6 +120,7 @@ std::string to_string(const Point& point);
 
 std::string_view word_of(Quantity quantity) noexcept;
 std::string_view word_of(Component component) noexcept;
+std::string_view word_of(GazeAngle angle) noexcept;
 std::string_view word_of(Facing facing) noexcept;
 /// Of one contact.
 std::string_view word_of(Contact contact) noexcept;

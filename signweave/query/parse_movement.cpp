@@ -6,9 +6,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 
 #include "signweave/core/text.h"
 #include "signweave/query/parse.h"
+#include "signweave/query/parse_series.h"
 
 namespace signweave {
 namespace {
@@ -18,7 +20,8 @@ using Kind = QueryToken::Kind;
 constexpr std::array kQuantities = {
     Quantity::speed, Quantity::mean_speed,   Quantity::acceleration, Quantity::mean_acceleration,
     Quantity::path,  Quantity::displacement, Quantity::distance,     Quantity::contact,
-    Quantity::begin, Quantity::end};
+    Quantity::begin, Quantity::end,          Quantity::track,        Quantity::mean_track,
+    Quantity::gaze,  Quantity::mean_gaze};
 constexpr std::array kPlaceComponents = {Component::height, Component::x, Component::forward};
 constexpr std::array kHandComponents = {Component::height, Component::x,       Component::forward, Component::openness,
                                         Component::palm,   Component::fingers, Component::contact};
@@ -47,12 +50,15 @@ constexpr std::array kUnits = {
     UnitName{"mm/s", Unit::metres_per_second, 1000},
     UnitName{"m/s2", Unit::metres_per_second_squared, 1},
     UnitName{"cm/s2", Unit::metres_per_second_squared, 100},
+    UnitName{"deg", Unit::degrees, 1},
+    UnitName{"rad", Unit::degrees, std::numbers::pi / 180},
+    UnitName{"\xC2\xB0", Unit::degrees, 1},
     UnitName{"m/s^2", Unit::metres_per_second_squared, 1},
     UnitName{"cm/s^2", Unit::metres_per_second_squared, 100},
     UnitName{"m/s\xC2\xB2", Unit::metres_per_second_squared, 1},
     UnitName{"cm/s\xC2\xB2", Unit::metres_per_second_squared, 100},
 };
-constexpr std::size_t kUnitsShown = 9;  ///< the rest are other spellings
+constexpr std::size_t kUnitsShown = 11;  ///< the rest are other spellings
 
 /// What a value is in words: what may stand after the comparison.
 struct Allowed {
@@ -92,6 +98,8 @@ Allowed allowed_for(ValueKind kind) {
       return {lengths, "0.8 (shoulder widths)", words_of(kReaches), "= !="};
     case ValueKind::share:
       return {{Unit::none}, "0.5", {}, ""};
+    case ValueKind::angle:
+      return {{Unit::degrees}, "15 deg", {}, ""};
     case ValueKind::facing:
       return {{}, "", words_of(kFacings), "= !="};
     case ValueKind::contact:
@@ -121,6 +129,11 @@ class MovementParser {
     result.field = Field::movement;
     MovementTerm& term = result.movement;
     term.quantity = value_of(kQuantities, name.text).value();
+    if (is_series(term.quantity)) {
+      parse_series(in_, name, term);
+      result.compare = compare(result);
+      return result;
+    }
     in_.expect("(", fmt::format("name a point: {}(right_hand)", name.text));
     term.point = point(false);
     if (term.quantity == Quantity::distance) {
@@ -187,15 +200,15 @@ class MovementParser {
   }
 
   Component component(const MovementTerm& term, const QueryToken& name) {
-    const QueryToken& next = in_.peek();
     const bool ends = term.quantity == Quantity::begin || term.quantity == Quantity::end;
-    if (next.kind != Kind::word || !next.text.starts_with('.')) {
+    const std::optional<QueryToken> found_token = take_component(in_);
+    if (!found_token) {
       if (!ends) return Component::none;
+      const QueryToken& next = in_.peek();
       in_.fail(next.begin, fmt::format("expected a component after '{}(…)', found {}; write {}({}).height", name.text,
                                        QueryLexer::shown(next), name.text, to_string(term.point)));
     }
-    QueryToken token = in_.take();
-    if (token.text == "." && in_.peek().kind == Kind::word) token.text += in_.take().text;
+    const QueryToken& token = *found_token;
     const std::string word = fold_case(token.text.substr(1));
     std::optional<Component> found = value_of(kHandComponents, word);
     std::vector<std::string> known = words_of(kPlaceComponents);
@@ -208,10 +221,7 @@ class MovementParser {
     } else if (term.point.kind != Point::Kind::part) {
       known = words_of(kHandComponents);
     }
-    if (!found) {
-      in_.fail(token.begin, fmt::format("no component is called '{}'{}; use one of {}", printable(word),
-                                        did_you_mean(word, known), fmt::join(known, ", ")));
-    }
+    if (!found) refuse_component(in_, token, known);
     if (std::find(known.begin(), known.end(), word) == known.end()) require_hand(term.point, token.begin, word);
     return *found;
   }
@@ -278,6 +288,7 @@ class MovementParser {
       case ValueKind::acceleration:
       case ValueKind::length:
       case ValueKind::share:
+      case ValueKind::angle:
         break;
     }
     if (found) return *std::move(found);

@@ -42,7 +42,8 @@ class RandomQueries {
     Condition& condition = result.condition;
     condition.field = Field::movement;
     MovementTerm& term = condition.movement;
-    term.quantity = static_cast<Quantity>(below(10));
+    term.quantity = static_cast<Quantity>(below(14));
+    if (is_series(term.quantity)) return of_series(std::move(result));
     term.point = point(false);
     if (term.quantity == Quantity::contact && term.point.kind == Point::Kind::part) term.point = Point::own_hand();
     if (term.quantity == Quantity::distance) {
@@ -71,6 +72,9 @@ class RandomQueries {
       case ValueKind::share:
         condition.value = amount(Unit::none);
         break;
+      case ValueKind::angle:
+        condition.value = amount(Unit::degrees);
+        break;
       case ValueKind::height:
         condition.value = amount(length);
         if (!number) named(static_cast<Height>(below(8)), one_in(2) ? equality : condition.compare);
@@ -97,6 +101,26 @@ class RandomQueries {
   }
 
  private:
+  /// The rest of a condition on a scalar track or the gaze.
+  Expression of_series(Expression result) {
+    Condition& condition = result.condition;
+    MovementTerm& term = condition.movement;
+    constexpr const char* kTracks[] = {"jawOpen", "browInnerUp", "cheekPuff"};
+    constexpr Component kComponents[] = {Component::none, Component::least, Component::begin, Component::end};
+    constexpr Compare kOrder[] = {Compare::less, Compare::less_equal, Compare::greater, Compare::greater_equal};
+    if (is_gaze(term.quantity)) {
+      term.angle = one_in(2) ? GazeAngle::yaw : GazeAngle::pitch;
+    } else {
+      term.track = kTracks[below(3)];
+    }
+    const bool mean = term.quantity == Quantity::mean_track || term.quantity == Quantity::mean_gaze;
+    if (!mean) term.component = kComponents[below(4)];
+    condition.compare = kOrder[below(4)];
+    condition.value = is_gaze(term.quantity) ? Amount{static_cast<double>(below(20)) - 10, Unit::degrees}
+                                             : Amount{static_cast<double>(below(21)) / 20, Unit::none};
+    return result;
+  }
+
   /// Two places; at times with a condition on the whole, or something beside one of them.
   PhaseQuery pair() {
     const unsigned kind = below(4);

@@ -58,6 +58,10 @@ void read_motion_half(const ImportJob& job, const ConvertCall& call, const std::
   }
   made.frames = {0, file.motion.frame_count()};
   made.info.layout = std::move(file.layout);
+  for (auto& declaration : file.declarations) {
+    if (std::ranges::find(made.info.declarations, declaration) != made.info.declarations.end()) continue;
+    made.info.declarations.push_back(std::move(declaration));
+  }
   made.motion = at_rate(std::move(file.motion), call.rate, job.motion->string(), made.notices);
 }
 

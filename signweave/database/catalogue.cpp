@@ -114,6 +114,23 @@ RigNames decode_rig(ByteReader& in) {
   return names;
 }
 
+void encode(const std::vector<std::pair<std::string, std::string>>& declarations, ByteWriter& out) {
+  out.number(static_cast<std::uint32_t>(declarations.size()));
+  for (const auto& [name, value] : declarations) {
+    out.text(name);
+    out.text(value);
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> decode_declarations(ByteReader& in) {
+  std::vector<std::pair<std::string, std::string>> declarations;
+  for (std::size_t n = in.count(8); n > 0; --n) {
+    std::string name = in.text();
+    declarations.emplace_back(std::move(name), in.text());
+  }
+  return declarations;
+}
+
 void encode(const std::vector<Defect>& defects, ByteWriter& out) {
   out.number(static_cast<std::uint32_t>(defects.size()));
   for (const Defect& defect : defects) {
@@ -203,10 +220,7 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
     notice.text = in.text();
     info.notices.push_back(std::move(notice));
   }
-  for (std::size_t n = in.count(8); n > 0; --n) {
-    std::string name = in.text();
-    info.declarations.emplace_back(std::move(name), in.text());
-  }
+  info.declarations = decode_declarations(in);
   info.face_file = in.text();
   info.face_fingerprint = in.number<std::uint64_t>();
   if (version >= 3) {
@@ -218,6 +232,7 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
     info.face_offset = Seconds(in.number<double>());
     info.reading = in.text();
     info.own_tracks = in.number<std::uint32_t>();
+    info.motion_declarations = decode_declarations(in);
     if (info.own_tracks > (info.motion ? info.motion->tracks.size() : 0)) in.fail("more tracks than the motion has");
   }
   in.finish();
@@ -246,11 +261,7 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
     out.text(notice.where);
     out.text(notice.text);
   }
-  out.number(static_cast<std::uint32_t>(info.declarations.size()));
-  for (const auto& [name, value] : info.declarations) {
-    out.text(name);
-    out.text(value);
-  }
+  encode(info.declarations, out);
   out.text(info.face_file);
   out.number(info.face_fingerprint);
   encode(info.rig, out);
@@ -258,6 +269,7 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
   out.number(info.face_offset.count());
   out.text(info.reading);
   out.number(info.own_tracks);
+  encode(info.motion_declarations, out);
   transaction.put(slot_key(slot), kv::sealed(out.bytes()));
 }
 

@@ -54,6 +54,15 @@ void Database::require_writable() const {
 
 namespace {
 
+using Declarations = std::vector<std::pair<std::string, std::string>>;
+
+/// Adds those that are not there.
+void add_new(const Declarations& more, Declarations& declarations) {
+  for (const auto& one : more) {
+    if (std::ranges::find(declarations, one) == declarations.end()) declarations.push_back(one);
+  }
+}
+
 /// Throws Error{io} unless what was stored reads back as the motion, to the bit.
 void verify(const kv::ReadTransaction& snapshot, const motion_db::StoredMotion& stored, const Motion& motion) {
   // Some thousand frames at a time, in whole packets: none is read twice, nor the motion held twice where it is cut.
@@ -217,6 +226,9 @@ void Database::put(const Recording& recording, const Progress& progress) {
     info.reading = recording.motion->reading;
     info.own_tracks = static_cast<std::uint32_t>(
         recording.motion->face_file.empty() ? recording.motion->motion.tracks().size() : recording.motion->own_tracks);
+    const Declarations before = std::exchange(info.motion_declarations, recording.motion->declarations);
+    std::erase_if(info.declarations, [&](const auto& one) { return std::ranges::find(before, one) != before.end(); });
+    add_new(info.motion_declarations, info.declarations);
   }
   if (recording.annotation) {
     if (info.document != 0) {
@@ -231,6 +243,7 @@ void Database::put(const Recording& recording, const Progress& progress) {
     for (const auto& property : recording.annotation->document.properties) {
       if (property.first.starts_with("signweave:")) info.declarations.push_back(property);
     }
+    add_new(info.motion_declarations, info.declarations);
     semantic_db::put_document(*transaction, info.document, source, specification, head.documents);
     semantic_db::put(*transaction, info.document, segments);
   } else if (info.document != 0 && !features) {

@@ -197,12 +197,11 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   recording.signer_given = !job.signer.empty() || (known && known->signer_given);
   recording.signer = !job.signer.empty() ? job.signer : recording.signer_given ? known->signer : "";
   if (other_face && !options.replace_motion) {
-    throw Error(
-        ErrorCode::conflict,
-        fmt::format("{}: {} recording '{}' was imported with; --replace-motion takes it", job.face->string(),
-                    known->face_fingerprint == face_print ? "lies elsewhere in the motion than the face that"
-                                                          : "is not the face that",
-                    recording.name));
+    throw Error(ErrorCode::conflict,
+                fmt::format("{}: {} recording '{}' was imported with; --replace-motion takes it", job.face->string(),
+                            known->face_fingerprint == face_print ? "lies elsewhere in the motion than the face that"
+                                                                  : "is not the face that",
+                            recording.name));
   }
   if (new_motion && motion_known && !new_face && !options.replace_motion) {
     throw Error(
@@ -273,6 +272,7 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                                   .face_fingerprint = 0,
                                   .face_offset = known->face_offset,
                                   .reading = known->reading,
+                                  .declarations = known->motion_declarations,
                                   .own_tracks = known->own_tracks,
                                   .rounded_within = known->motion->tolerance};
     keep_notices(*known, known->motion_file, recording.notices);
@@ -290,6 +290,7 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                                   .fingerprint = motion_print,
                                   .face_file = {},
                                   .face_fingerprint = 0};
+    recording.motion->declarations = std::move(file.declarations);
     if (!recording.motion->layout) recording.motion->reading = motion_file::told(*job.motion, options.motion);
     recording.motion->own_tracks = recording.motion->motion.tracks().size();
     if (!job.face && known && !known->face_file.empty()) {

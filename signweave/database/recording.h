@@ -27,8 +27,9 @@ struct MotionPart {
   std::uint64_t fingerprint = 0;      ///< checksum of the file's bytes; 0: not known
   std::string face_file;              ///< the same of the face capture whose tracks the motion has; empty: none
   std::uint64_t face_fingerprint = 0;
-  Seconds face_offset{0};      ///< the motion's time of the face's first row
-  std::string reading;         ///< what the file was told to be read with (motion_file::told)
+  Seconds face_offset{0};  ///< the motion's time of the face's first row
+  std::string reading;     ///< what the file was told to be read with (motion_file::told)
+  std::vector<std::pair<std::string, std::string>> declarations;  ///< what the file says of itself; see RecordingInfo
   std::size_t own_tracks = 0;  ///< with a face: so many of the tracks, the first, are the motion file's
   /// Metres: its numbers were rounded within so much when it was stored before. It is then stored as it is, and compact
   /// again. 0: as captured.
@@ -81,7 +82,9 @@ struct RecordingInfo {
   std::vector<Notice> notices;
   RigNames rig;                 ///< what a mapping file said of the skeleton; usually nothing
   std::vector<Defect> defects;  ///< found in the motion when it was put
-  /// What its document says of itself and must not be lost in what is made of it: properties "signweave:…", such as
+  /// What its motion file says of itself, which stays when its document is replaced.
+  std::vector<std::pair<std::string, std::string>> motion_declarations;
+  /// What its files say of themselves and must not be lost in what is made of it: properties "signweave:…", such as
   /// that a demo's shapes are placeholders. Name and value.
   std::vector<std::pair<std::string, std::string>> declarations;
 };

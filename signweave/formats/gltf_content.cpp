@@ -159,6 +159,9 @@ tinygltf::Model model_of(const std::string& file, nlohmann::json json) {
   if (const auto nodes = json.find("nodes"); nodes != json.end()) {
     for (nlohmann::json& node : *nodes) node.erase("extensions");
   }
+  for (const auto& [key, value] : member_of(member_of(json, "asset"), "extras").items()) {
+    if (value.is_string()) content.declarations.emplace_back(key, value.get<std::string>());
+  }
   if (const auto animations = json.find("animations"); animations != json.end()) {
     for (nlohmann::json& animation : *animations) animation.erase("extras");
   }

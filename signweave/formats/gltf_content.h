@@ -39,11 +39,13 @@ struct Content {
   tinygltf::Model model;                          ///< without buffers, meshes, materials and pictures
   std::vector<std::optional<PackedView>> packed;  ///< [view]
   std::vector<MorphMesh> meshes;                  ///< [mesh]
-  std::vector<nlohmann::json> tracks;             ///< [animation] the `tracks` of its extras, or null
-  std::vector<bool> is_light;                     ///< [node]
-  std::vector<std::string_view> buffers;          ///< [buffer] its bytes; none of one that only stands in for others
-  std::deque<std::string> owned;                  ///< those bytes that are not in the file as they are
-  std::uint64_t byte_count = 0;                   ///< of the file and of all buffers outside of it
+  /// What the file declares of itself: extras "signweave:…" of its asset. Name and value.
+  std::vector<std::pair<std::string, std::string>> declarations;
+  std::vector<nlohmann::json> tracks;     ///< [animation] the `tracks` of its extras, or null
+  std::vector<bool> is_light;             ///< [node]
+  std::vector<std::string_view> buffers;  ///< [buffer] its bytes; none of one that only stands in for others
+  std::deque<std::string> owned;          ///< those bytes that are not in the file as they are
+  std::uint64_t byte_count = 0;           ///< of the file and of all buffers outside of it
 
   /// Our own writer made it.
   bool is_ours() const { return model.asset.generator == "signweave"; }

@@ -25,7 +25,7 @@ struct WantedSection {
 };
 
 const WantedSection kWantedSections[] = {
-    {"asset", {"version", "minVersion", "generator"}},
+    {"asset", {"version", "minVersion", "generator", "extras"}},
     {"scene", {}},
     {"scenes", {"name", "nodes"}},
     {"nodes",
@@ -104,6 +104,7 @@ class WantedBuilder {
     const WantedSection* const section = wanted_section(section_name);
     if (section == nullptr) return false;
     const std::string& within = open_.back().key;
+    if (within == "extras" && section_name == "asset") return depth == 3 && name.starts_with("signweave:");
     if (within == "extras") return depth == 4 && name == (section_name == "meshes" ? "targetNames" : "tracks");
     if (within == "extensions") return name == "EXT_meshopt_compression" || name == "KHR_lights_punctual";
     const std::size_t members_at = section_name == "asset" ? 2 : 3;

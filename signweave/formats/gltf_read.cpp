@@ -114,6 +114,7 @@ ReadFile read_content(const Content& content, const ReadOptions& options) {
   const NodeForest forest = forest_of(content);
   Take take = take_of(content, accessors, budget, options.take, file.notices);
   file.take = take.name;
+  file.declarations = content.declarations;
   const std::vector<std::size_t> joints = joints_of(content, forest, take, file.notices);
   const double unit = options.unit.value_or(1.0);
   std::vector<JointPlace> places = joint_places(content, forest, take, joints, unit, file.notices);

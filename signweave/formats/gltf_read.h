@@ -29,6 +29,9 @@ struct ReadFile {
   Motion motion;                ///< frame 0 is the first key of the animation
   std::string take;             ///< the animation's name, or its number where it has none
   std::vector<Notice> notices;  ///< what was guessed, repaired, left out, found odd
+  /// What the file says of itself and must not be lost, such as that its shapes are placeholders: extras "signweave:…"
+  /// of its asset, as our own writer leaves them. Name and value.
+  std::vector<std::pair<std::string, std::string>> declarations;
 };
 
 /// Reads one animation. The joints are those of the skins and all nodes between them, or, where there is no skin, the

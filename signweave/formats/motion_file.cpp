@@ -7,7 +7,9 @@
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/bytes.h"
 #include "signweave/core/text.h"
+#include "signweave/formats/asf.h"
 #include "signweave/formats/file_format.h"
+#include "signweave/formats/gltf_read.h"
 
 namespace signweave::motion_file {
 namespace {
@@ -25,6 +27,37 @@ File read_bvh(const fs::path& path, const ReadOptions& options) {
           .layout = std::move(file.layout),
           .notices = std::move(file.notices),
           .format = {}};
+}
+
+File read_asf(const fs::path& path, const ReadOptions& options) {
+  asf::File file =
+      asf::read(path, {.skeleton = options.skeleton.empty() ? std::nullopt : std::optional(options.skeleton),
+                       .unit = options.unit,
+                       .up = options.up,
+                       .rate = options.rate,
+                       .progress = options.progress});
+  return {.motion = std::move(file.motion), .layout = {}, .notices = std::move(file.notices), .format = {}};
+}
+
+std::vector<fs::path> with_skeleton(const fs::path& path, const ReadOptions& options) {
+  return {path, options.skeleton.empty() ? asf::skeleton_of(path) : options.skeleton};
+}
+
+File read_gltf(const fs::path& path, const ReadOptions& options) {
+  gltf::ReadFile file = gltf::read(
+      path, {.take = options.take, .rate = options.rate, .unit = options.unit, .progress = options.progress});
+  return {.motion = std::move(file.motion),
+          .layout = {},
+          .notices = std::move(file.notices),
+          .format = {},
+          .declarations = std::move(file.declarations)};
+}
+
+std::vector<fs::path> with_buffers(const fs::path& path, const ReadOptions&) {
+  std::vector<fs::path> files = gltf::files_of(path);
+  std::error_code ignored;  // reading tells what is not there
+  std::erase_if(files, [&](const fs::path& file) { return file != path && !fs::is_regular_file(file, ignored); });
+  return files;
 }
 
 std::vector<fs::path> only_itself(const fs::path& path, const ReadOptions&) {
@@ -62,6 +95,9 @@ struct MotionReader {
 
 constexpr MotionReader kMotionReaders[] = {
     {".bvh", " up unit root-unit root-order mirror ", read_bvh, only_itself},
+    {".amc", " up unit source-rate skeleton ", read_asf, with_skeleton},
+    {".glb", " unit source-rate take ", read_gltf, with_buffers},
+    {".gltf", " unit source-rate take ", read_gltf, with_buffers},
 };
 
 const MotionReader& reader_for(const fs::path& path) {

@@ -31,6 +31,8 @@ struct File {
   std::optional<bvh::Layout> layout;  ///< how the file looked, for writing it back; of BVH only
   std::vector<Notice> notices;        ///< what was guessed, mended, found odd
   std::string format;                 ///< "BVH"
+  /// What the file says of itself and must not be lost: "signweave:placeholder" and the like. Name and value.
+  std::vector<std::pair<std::string, std::string>> declarations;
 };
 
 /// Reads a motion file: metres, Y up, right-handed. Throws Error{unsupported} for an ending that no reader has, and as

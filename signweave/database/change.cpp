@@ -226,8 +226,9 @@ void Database::put(const Recording& recording, const Progress& progress) {
     info.reading = recording.motion->reading;
     info.own_tracks = static_cast<std::uint32_t>(
         recording.motion->face_file.empty() ? recording.motion->motion.tracks().size() : recording.motion->own_tracks);
-    const Declarations before = std::exchange(info.motion_declarations, recording.motion->declarations);
-    std::erase_if(info.declarations, [&](const auto& one) { return std::ranges::find(before, one) != before.end(); });
+    const Declarations old_ones = std::exchange(info.motion_declarations, recording.motion->declarations);
+    std::erase_if(info.declarations,
+                  [&](const auto& one) { return std::ranges::find(old_ones, one) != old_ones.end(); });
     add_new(info.motion_declarations, info.declarations);
   }
   if (recording.annotation) {

@@ -159,9 +159,6 @@ tinygltf::Model model_of(const std::string& file, nlohmann::json json) {
   if (const auto nodes = json.find("nodes"); nodes != json.end()) {
     for (nlohmann::json& node : *nodes) node.erase("extensions");
   }
-  for (const auto& [key, value] : member_of(member_of(json, "asset"), "extras").items()) {
-    if (value.is_string()) content.declarations.emplace_back(key, value.get<std::string>());
-  }
   if (const auto animations = json.find("animations"); animations != json.end()) {
     for (nlohmann::json& animation : *animations) animation.erase("extras");
   }
@@ -238,6 +235,9 @@ Content content_of(const std::string& name, std::string_view bytes, const fs::pa
   content.meshes = morph_meshes(json);
   for (const nlohmann::json& node : member_of(json, "nodes")) {
     content.is_light.push_back(!member_of(member_of(node, "extensions"), "KHR_lights_punctual").is_null());
+  }
+  for (const auto& [key, value] : member_of(member_of(json, "asset"), "extras").items()) {
+    if (value.is_string()) content.declarations.emplace_back(key, value.get<std::string>());
   }
   if (const auto animations = json.find("animations"); animations != json.end()) {
     for (nlohmann::json& animation : *animations) {

@@ -18,7 +18,7 @@ constexpr double kLimitSlack = 1e-6;   ///< of what is printed; of a limit's siz
 
 std::string dofs_shown(const std::vector<Dof>& dofs) {
   std::string text;
-  for (const Dof dof : dofs) text += (text.empty() ? "" : " ") + std::string(name_of(dof));
+  for (const Dof dof : dofs) text += fmt::format("{}{}", text.empty() ? "" : " ", name_of(dof));
   return text;
 }
 
@@ -191,7 +191,7 @@ void AmcReader::check_complete() const {
   std::size_t named = 0;
   for (std::size_t i = 0; i < figure_.bones.size() && named < kMostNamed; ++i) {
     if (figure_.bones[i].dofs.empty() || seen_at_[i] > frame_line_) continue;
-    names += (named++ == 0 ? "" : ", ") + in_quotes(figure_.bones[i].name);
+    names += fmt::format("{}{}", named++ == 0 ? "" : ", ", in_quotes(figure_.bones[i].name));
   }
   if (missing > named) names += fmt::format(" and {} more", missing - named);
   lines_.fail_at(frame_line_, fmt::format("frame {} lacks the bone{} {}; restore {}, or name another skeleton with "

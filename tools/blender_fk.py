@@ -7,6 +7,9 @@ Prints "place,FRAME,NAME,X,Y,Z" for each bone and each frame at RATE frames a se
 import sys
 
 import bpy
+import numpy
+
+numpy.bool = bool  # Blender 3.4's importer uses the name, which NumPy has had no longer since 1.24
 
 path, rate, frames = sys.argv[sys.argv.index("--") + 1:]
 bpy.ops.wm.read_factory_settings(use_empty=True)

@@ -62,11 +62,14 @@ void add_numbers(int component, std::string_view bytes, std::size_t stride, std:
 }
 
 /// Millions of numbers are looked at, so in a form that becomes vector instructions.
-bool all_finite(std::span<const float> values) {
+void require_finite_numbers(const Numbers& numbers, const std::string& place) {
   constexpr std::int32_t kInfinity = 0x7F800000;
   std::int32_t most = 0;
-  for (const float value : values) most = std::max(most, std::bit_cast<std::int32_t>(value) & 0x7FFFFFFF);
-  return most < kInfinity;
+  for (const float value : numbers.values) most = std::max(most, std::bit_cast<std::int32_t>(value) & 0x7FFFFFFF);
+  if (most < kInfinity) return;
+  const auto odd = std::ranges::find_if(numbers.values, [](float value) { return !std::isfinite(value); });
+  const auto at = static_cast<std::size_t>(odd - numbers.values.begin());
+  refuse_accessor(place, fmt::format("element {} is not finite; export it again", at / numbers.parts));
 }
 
 }  // namespace
@@ -169,7 +172,11 @@ Numbers Accessors::read(int index, const Wanted& wanted) {
   if (wanted.count && *wanted.count != accessor.count) {
     refuse_accessor(place, fmt::format("{} elements where {} are needed", accessor.count, *wanted.count));
   }
-  if (const auto known = read_.find(index); known != read_.end()) return known->second;
+  const bool look = wanted.type != TINYGLTF_TYPE_MAT4 && !wanted.looked_at_later;
+  if (const auto known = read_.find(index); known != read_.end()) {
+    if (look) require_finite_numbers(known->second, place);
+    return known->second;
+  }
 
   Numbers numbers{.values = {}, .count = accessor.count, .parts = parts};
   const std::size_t element = parts * component_size(accessor.componentType);
@@ -190,11 +197,7 @@ Numbers Accessors::read(int index, const Wanted& wanted) {
     if (accessor.sparse.isSparse) add_sparse(accessor, parts, values, place);
     numbers.values = values;
   }
-  if (wanted.type != TINYGLTF_TYPE_MAT4 && !all_finite(numbers.values)) {
-    const auto odd = std::ranges::find_if(numbers.values, [](float value) { return !std::isfinite(value); });
-    const auto at = static_cast<std::size_t>(odd - numbers.values.begin());
-    refuse_accessor(place, fmt::format("element {} is not finite; export it again", at / parts));
-  }
+  if (look) require_finite_numbers(numbers, place);
   return read_.emplace(index, numbers).first->second;
 }
 

@@ -34,8 +34,9 @@ struct Numbers {
 
 /// What an accessor must be where it is used.
 struct Wanted {
-  int type = 0;                           ///< as tinygltf numbers them
-  bool normalized_too = false;            ///< not floats alone, but also whole numbers that stand for -1 to 1
+  int type = 0;                  ///< as tinygltf numbers them
+  bool normalized_too = false;   ///< not floats alone, but also whole numbers that stand for -1 to 1
+  bool looked_at_later = false;  ///< whether its numbers are finite; else that is looked at here (not of matrices)
   std::optional<std::size_t> count = {};  ///< how many elements, where that is known
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "signweave/motion/kinematics.h"
@@ -63,7 +64,8 @@ class RotationFiller {
         still_(Quaterniond(place.turned * place.rotation).normalized().cast<float>()),
         as_keys_(place.rotation_curve && place.rotation_curve->times->one_a_frame && place.turned.vec().isZero(0)) {}
 
-  /// `out` is the joint's rotation in frame `begin`; that of the next frame lies `stride` farther.
+  /// `out` is the joint's rotation in frame `begin`; that of the next frame lies `stride` farther. Each is in the
+  /// hemisphere of the one before, as `keep_hemisphere` would have it, without going through the motion again.
   void fill(std::int64_t begin, std::int64_t end, Quaternionf* out, std::size_t stride) {
     if (!reader_) {
       for (std::int64_t frame = begin; frame < end; ++frame, out += stride) *out = still_;
@@ -73,20 +75,27 @@ class RotationFiller {
         const Quaternionf rotation(key[3], key[0], key[1], key[2]);
         // What is unit already keeps its bits, so that what we wrote comes back as it was.
         const bool unit = std::abs(rotation.squaredNorm() - 1) < 1e-6f;
-        *out = unit ? rotation : unit_rotation(key).cast<float>();
+        *out = beside_last(unit ? rotation : unit_rotation(key).cast<float>());
       }
     } else {
       for (std::int64_t frame = begin; frame < end; ++frame, out += stride) {
         const Quaterniond rotation = place_->turned * reader_->rotation_at(static_cast<double>(frame));
-        *out = rotation.normalized().cast<float>();
+        *out = beside_last(rotation.normalized().cast<float>());
       }
     }
   }
 
  private:
+  Quaternionf beside_last(Quaternionf rotation) {
+    if (last_.dot(rotation) < 0) rotation.coeffs() = -rotation.coeffs();
+    last_ = rotation;
+    return rotation;
+  }
+
   const JointPlace* place_;
   std::optional<CurveReader> reader_;
   Quaternionf still_;
+  Quaternionf last_ = Quaternionf(0, 0, 0, 0);  ///< of the frame before; none yet
   bool as_keys_;
 };
 
@@ -147,7 +156,7 @@ Motion motion_of(const Content& content, std::vector<JointPlace>& places, const 
     if (translation.allFinite()) continue;
     throw Error(ErrorCode::bad_input, fmt::format("{}: a joint moves too far away for a float", content.name));
   }
-  keep_hemisphere(motion);
+  assert(keeps_hemisphere(motion));
   return motion;
 }
 

@@ -6,6 +6,7 @@
 
 #include "signweave/formats/gltf_joints.h"
 #include "signweave/formats/gltf_take.h"
+#include "signweave/motion/skeleton.h"
 
 namespace signweave::gltf {
 

@@ -128,7 +128,8 @@ class TakeReader {
     const tinygltf::Accessor& of = content_.model.accessors[static_cast<std::size_t>(accessor)];
     const std::string place = fmt::format("accessor {}", accessor);
     // Without a view all is 0 but for the sparse elements, so most times would be the same.
-    const bool zeros = of.bufferView < 0 && of.count > static_cast<std::size_t>(std::max(of.sparse.count, 0)) + 1;
+    const bool zeros = of.bufferView < 0 &&
+                       of.count > (of.sparse.isSparse ? static_cast<std::size_t>(std::max(of.sparse.count, 0)) : 0) + 1;
     if (zeros) refuse(place, "its key times do not ascend; export it again");
     const Numbers numbers = accessors_.read(accessor, {.type = TINYGLTF_TYPE_SCALAR});
     for (std::size_t i = 0; i < numbers.count; ++i) {
@@ -162,6 +163,7 @@ class TakeReader {
     } else if (path == "rotation") {
       curve.parts = 4;
       wanted = {.type = TINYGLTF_TYPE_VEC4, .normalized_too = true, .count = rows};
+      wanted.looked_at_later = curve.interpolation != Interpolation::cubic;  // whose tangents are not
     } else {
       curve.parts = 3;
       wanted = {.type = TINYGLTF_TYPE_VEC3, .count = rows};

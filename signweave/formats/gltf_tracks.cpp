@@ -35,7 +35,8 @@ class TrackList {
   std::unordered_map<std::string, std::size_t> by_name_;
 };
 
-void add_weight_tracks(const Curve& curve, const MorphMesh& mesh, const Timing& timing, TrackList& list) {
+void add_weight_tracks(const std::string& file, const Curve& curve, const MorphMesh& mesh, const Timing& timing,
+                       TrackList& list) {
   const auto frames = static_cast<std::size_t>(timing.frames);
   std::vector<ScalarTrack> tracks(curve.parts);
   for (ScalarTrack& track : tracks) track.values.resize(frames);
@@ -43,6 +44,10 @@ void add_weight_tracks(const Curve& curve, const MorphMesh& mesh, const Timing& 
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const std::span<const double> values = reader.at(static_cast<double>(frame));
     for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i].values[frame] = static_cast<float>(values[i]);
+  }
+  for (const ScalarTrack& track : tracks) {
+    if (std::ranges::all_of(track.values, [](float value) { return std::isfinite(value); })) continue;
+    throw Error(ErrorCode::bad_input, fmt::format("{}: {}: weights too large for a float", file, curve.place));
   }
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const bool named = i < mesh.target_names.size();
@@ -103,7 +108,8 @@ std::vector<ScalarTrack> tracks_of(const Content& content, const Take& take, con
     const Curve* const curve = take.nodes[node].weights;
     if (curve == nullptr) continue;
     budget.spend(static_cast<std::uint64_t>(timing.frames), curve->parts * sizeof(float), "its morph weights");
-    add_weight_tracks(*curve, content.meshes[static_cast<std::size_t>(content.model.nodes[node].mesh)], timing, list);
+    add_weight_tracks(content.name, *curve, content.meshes[static_cast<std::size_t>(content.model.nodes[node].mesh)],
+                      timing, list);
   }
   const nlohmann::json& extras = content.tracks[take.animation];
   if (extras.is_null()) return list.take();

@@ -32,6 +32,15 @@ bool inflate_exactly(std::string_view in, std::vector<char>& out) {
   return whole;
 }
 
+/// The number as it is kept; fails where it measures nothing.
+float measurement(const Source& source, const Record& record, double number) {
+  if (!(std::abs(number) <= 1e9)) {
+    source.fail(record.place,
+                fmt::format("{} holds {}; a measurement is a number up to 1e+09", printable(record.name), number));
+  }
+  return static_cast<float>(number);
+}
+
 }  // namespace
 
 const Value& Arrays::array_of(const Record& record) const {
@@ -120,25 +129,18 @@ std::vector<std::int64_t> Arrays::wholes(const Record& record) {
 std::vector<float> Arrays::reals(const Record& record) {
   const Value& array = array_of(record);
   std::vector<float> numbers;
-  if (array.type == 'f') {
-    numbers = cast<float, float>(record, array);
-  } else if (array.type == 'd' || array.type == 't') {
+  if (array.type == 'd' || array.type == 't') {
     const std::vector<double> exact =
         array.type == 'd' ? cast<double, double>(record, array) : numbers_of_text<double>(record, array);
     numbers.reserve(exact.size());
-    for (const double number : exact) {
-      const bool fits = std::abs(number) <= static_cast<double>(std::numeric_limits<float>::max());
-      numbers.push_back(fits ? static_cast<float>(number) : std::numeric_limits<float>::infinity());
-    }
-  } else {
+    for (const double number : exact) numbers.push_back(measurement(source_, record, number));
+    return numbers;
+  }
+  if (array.type != 'f') {
     source_.fail(record.place, fmt::format("{} should hold numbers with fractions", printable(record.name)));
   }
-  for (const float number : numbers) {
-    if (!(std::abs(number) <= 1e9f)) {
-      source_.fail(record.place, fmt::format("{} holds {}; nothing past 1e+09 is taken for a measurement",
-                                             printable(record.name), number));
-    }
-  }
+  numbers = cast<float, float>(record, array);
+  for (const float number : numbers) measurement(source_, record, static_cast<double>(number));
   return numbers;
 }
 

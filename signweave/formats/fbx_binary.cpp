@@ -119,7 +119,7 @@ class BinaryReader {
   std::uint64_t place_number() { return wide_ ? number<std::uint64_t>("a record") : number<std::uint32_t>("a record"); }
 
   void count_one(std::size_t place) {
-    if (++values_ > kMostValues) source_.fail(place, "more than 8 million values beside meshes; this is no animation");
+    if (++values_ > kMostValues) source_.fail(place, "more than 4 million values beside meshes; this is no animation");
   }
 
   /// Reads a record that must end at or before `limit`; false where the empty record stands that ends a list.

@@ -14,6 +14,8 @@ namespace {
 /// 54 hours: up to here a time in ticks is exact as a double.
 constexpr std::int64_t kMostTicks = std::int64_t{1} << 53;
 
+constexpr std::size_t kKeysAtOnce = 1'000'000;
+
 // Bits of KeyAttrFlags.
 constexpr std::int64_t kConstant = 0x2;
 constexpr std::int64_t kCubic = 0x8;
@@ -104,23 +106,34 @@ Curve checked_curve(const Source& source, const Record& record, Arrays& arrays) 
 
 Curves read_curves(const Source& source, const std::vector<const Record*>& records) {
   Arrays arrays(source);
+  Curves curves;
   std::vector<const Record*> order;
   std::vector<Curve> checked;
-  Curves curves;
+  std::size_t keys = 0;
+  const auto read_checked = [&] {
+    if (checked.empty()) return;
+    std::vector<Curve> read = read_by_assimp(document_of_curves(checked), checked.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (read[i].ticks != checked[i].ticks || read[i].values != checked[i].values) {
+        source.fail(order[i]->place,
+                    "Assimp reads other keys than the file has; this build's Assimp cannot be trusted");
+      }
+      read[i].parts = std::move(checked[i].parts);
+      curves[order[i]] = std::move(read[i]);
+    }
+    order.clear();
+    checked.clear();
+    keys = 0;
+  };
   for (const Record* record : records) {
     if (!curves.emplace(record, Curve()).second) continue;
     order.push_back(record);
     checked.push_back(checked_curve(source, *record, arrays));
+    keys += checked.back().ticks.size();
+    // Assimp takes a hundred bytes a key: not of all at once.
+    if (keys > kKeysAtOnce) read_checked();
   }
-  std::vector<Curve> read = read_by_assimp(document_of_curves(checked), checked.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (read[i].ticks != checked[i].ticks || read[i].values != checked[i].values) {
-      source.fail(order[i]->place,
-                  "Assimp reads other keys than the file has; this build's Assimp is not to be trusted");
-    }
-    read[i].parts = std::move(checked[i].parts);
-    curves[order[i]] = std::move(read[i]);
-  }
+  read_checked();
   return curves;
 }
 

@@ -79,6 +79,17 @@ TEST(FbxRead, BonesStandWhereTheHandComputedPlacesAre) {
   EXPECT_EQ(file.motion.tracks()[0], (ScalarTrack{"jawOpen", {0.0f, 0.5f, 1.0f}}));
 }
 
+// arm_7400.fbx and arm_7700.fbx are arm.fbx in binary, the second with places of 64 bits and compressed arrays.
+TEST(FbxRead, TextAndBinaryAreTheSameMotion) {
+  const File text = read(kArm);
+  for (const char* name : {"arm_7400.fbx", "arm_7700.fbx"}) {
+    const File binary = read(kArm.parent_path() / name);
+    EXPECT_TRUE(same_bits(binary.motion, text.motion)) << name;
+    EXPECT_EQ(binary.take, text.take);
+    EXPECT_EQ(texts_of(binary.notices), texts_of(text.notices));
+  }
+}
+
 TEST(FbxRead, OneTakeIsReadAndTheOthersAreNamed) {
   const File first = read(kArm);
   EXPECT_THAT(texts_of(first.notices), testing::Contains("take 1 'Take 001' is read; others: 2 'wave'"));

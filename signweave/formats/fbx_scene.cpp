@@ -12,15 +12,27 @@
 namespace signweave::fbx {
 namespace {
 
+/// The properties of a template by name: every node asks for them, so they are not looked for again each time.
+using Template = std::unordered_map<std::string_view, const Record*>;
+
 /// A property of an object, else of its kind's template.
 struct Properties {
   const Source& source;
   const Record* own = nullptr;
-  const Record* otherwise = nullptr;
+  const Template* otherwise = nullptr;
 
-  const Record* find(std::string_view name) const noexcept {
+  const Record* find(std::string_view name) const {
     const Record* found = property(own, name);
-    return found != nullptr ? found : property(otherwise, name);
+    if (found == nullptr && otherwise != nullptr) {
+      const auto place = otherwise->find(name);
+      if (place != otherwise->end()) found = place->second;
+    }
+    if (found == nullptr) return nullptr;
+    for (std::size_t i = 4; i < found->values.size(); ++i) {
+      if (found->values[i].kind == Value::Kind::whole || found->values[i].kind == Value::Kind::real) continue;
+      source.fail(found->place, fmt::format("{} should be numbers", printable(name)));
+    }
+    return found;
   }
   double number(std::string_view name, double fallback) const {
     const Record* found = find(name);
@@ -50,18 +62,22 @@ struct Properties {
   }
 };
 
-const Record* node_template(const Record& root) noexcept {
+Template node_template(const Record& root) {
+  Template properties;
   const Record* definitions = root.child("Definitions");
-  if (definitions == nullptr) return nullptr;
+  if (definitions == nullptr) return properties;
   for (const Record& type : definitions->children) {
     if (type.name != "ObjectType" || type.text(0) != "Model") continue;
-    return type.child("PropertyTemplate");
+    const Record* first = type.child("PropertyTemplate");
+    const Record* table = first == nullptr ? nullptr : first->child("Properties70");
+    if (table == nullptr) continue;
+    for (const Record& one : table->children) properties.emplace(one.text(0), &one);
   }
-  return nullptr;
+  return properties;
 }
 
-Node node_of(const Source& source, const Record& record, const Record* otherwise) {
-  const Properties from{.source = source, .own = &record, .otherwise = otherwise};
+Node node_of(const Source& source, const Record& record, const Template& otherwise) {
+  const Properties from{.source = source, .own = &record, .otherwise = &otherwise};
   Node node;
   node.name = object_name(record.text(1));
   node.type = record.text(2);
@@ -158,7 +174,7 @@ Scene scene_of(const Source& source, const Record& root) {
   if (objects == nullptr) {
     throw Error(ErrorCode::bad_input, fmt::format("{}: it has no Objects; export it again", source.name));
   }
-  const Record* otherwise = node_template(root);
+  const Template otherwise = node_template(root);
   ObjectTable table;
   for (const Record& record : objects->children) {
     if (record.values.empty() || record.values[0].kind != Value::Kind::whole || record.values[0].whole == 0) {
@@ -177,7 +193,10 @@ Scene scene_of(const Source& source, const Record& root) {
   for (const Link& link : links) {
     if (link.from->node == kNone || link.to == nullptr || link.to->node == kNone || !link.property.empty()) continue;
     Node& child = scene.nodes[link.from->node];
-    if (child.parent != kNone || link.from == link.to) {
+    if (link.from == link.to) {
+      source.fail(child.place, fmt::format("node '{}' stands above itself; export it again", printable(child.name)));
+    }
+    if (child.parent != kNone) {
       source.fail(child.place, fmt::format("node '{}' hangs from two others; export it again", printable(child.name)));
     }
     child.parent = link.to->node;

@@ -58,7 +58,7 @@ class TextTreeReader {
   }
 
   void count_one() {
-    if (++values_ > kMostValues) source_.fail(at_, "more than 8 million values beside meshes; this is no animation");
+    if (++values_ > kMostValues) source_.fail(at_, "more than 4 million values beside meshes; this is no animation");
   }
 
   Value quoted() {

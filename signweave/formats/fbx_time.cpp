@@ -51,8 +51,11 @@ constexpr std::array<FrameRate, 17> kStandardRates{{{24, 1},
                                                     {1000, 1}}};
 
 /// Bytes that the frames of any file may take, and that each byte of a file adds: sparse keys make long takes.
+// Of each frame: what is sampled of one joint at a time, and what each joint keeps while it is read.
 constexpr double kPlainRoom = 256.0 * (1 << 20);
 constexpr double kRoomPerByte = 64;
+constexpr double kBytesPerFrame = 200;
+constexpr double kBytesPerJoint = 64;
 
 double frames_between(std::int64_t from, std::int64_t to, FrameRate rate) noexcept {
   return static_cast<double>(to - from) / static_cast<double>(kTicks) * rate.hertz();
@@ -119,7 +122,7 @@ Frames frames_of(const Source& source, const Scene& scene, const Take& take, con
   }
   const double count = std::floor(frames_between(start, stop, frames.rate) + 1e-3) + 1;
   const double room = kPlainRoom + kRoomPerByte * static_cast<double>(source.bytes.size());
-  if (count * static_cast<double>(joints) * 16 > room) {
+  if (count * (kBytesPerFrame + kBytesPerJoint * static_cast<double>(joints)) > room) {
     throw Error(ErrorCode::bad_input,
                 fmt::format("{}: take '{}' lasts {:.0f} frames, too many for {} bones and a file of its size; cut it",
                             source.name, printable(take.name), count, joints));

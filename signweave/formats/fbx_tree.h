@@ -54,7 +54,7 @@ struct Record {
 Record read_tree(Source& source);
 
 /// How many records and values one file may have; an animation has far fewer.
-inline constexpr std::size_t kMostValues = 8'000'000;
+inline constexpr std::size_t kMostValues = 4'000'000;
 /// How deep records may lie in each other.
 inline constexpr int kMostDepth = 32;
 

@@ -17,7 +17,7 @@ class BinaryReader {
 
   Record root() {
     Record root;
-    at_ = 23;
+    take(23, "its head");
     const auto version = number<std::uint32_t>("the version");
     // From 7.5 on places and counts are of 64 bits.
     wide_ = version >= 7500;

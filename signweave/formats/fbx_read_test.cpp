@@ -280,6 +280,9 @@ TEST(FbxRead, OfSeveralTreesTheLargestIsReadAndTheOthersAreNamed) {
   EXPECT_EQ(read.motion.skeleton().joint_count(), 2u);
   EXPECT_THAT(texts_of(read.notices),
               testing::ElementsAre("2 trees of bones; the one of 'Arm' with 2 bones is read, without 'Ball'"));
+  std::rotate(file.nodes.begin(), file.nodes.begin() + 1, file.nodes.end());
+  file.nodes[1].parent = 0;
+  EXPECT_TRUE(same_bits(read_bytes("made", test::text_of(file)).motion, read.motion));
 }
 
 TEST(FbxRead, NullsAreBonesOnlyWhereNothingElseIs) {

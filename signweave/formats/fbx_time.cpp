@@ -66,8 +66,6 @@ double frames_between(std::int64_t from, std::int64_t to, FrameRate rate) noexce
 std::optional<FrameRate> rate_of(const Settings& settings) {
   if (settings.time_mode == 14) {
     if (!(settings.custom_rate >= 1e-3)) return std::nullopt;
-    const auto snapped = snap_frame_time(fmt::format("{:.9f}", 1 / settings.custom_rate));
-    if (snapped && snapped->snapped) return snapped->rate;
     return parse_frame_rate(fmt::format("{:.6f}", settings.custom_rate));
   }
   if (settings.time_mode <= 0 || settings.time_mode >= static_cast<std::int64_t>(kTimeModes.size()))

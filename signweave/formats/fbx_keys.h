@@ -10,11 +10,11 @@
 
 /// The keys of curves, which Assimp reads.
 ///
-/// Assimp 5.2.5 is not given the file: broken ones end the program, and of whole ones it gets much wrong (post-rotation
-/// turned the wrong way, pre-rotation applied twice, components without a curve at 0, keys outside of the take's range
-/// dropped, nodes of one name mixed, pivots below a thousandth left out, tangents ignored). It is given a small
+/// Assimp 5.2.5 is not given the file: nodes in a circle or records nested deep end the program, and of whole files it
+/// gets much wrong (post-rotation turned the wrong way, parts without a curve at 0 where there are pivots, keys outside
+/// of the take's range dropped, nodes of one name mixed, short pivots left out, tangents ignored). It is given a small
 /// document with nothing but curves, each alone on a node of its own that has no transform, written from arrays that
-/// were checked: there it reads each key as it stands. What lies between keys, and what they turn, is ours.
+/// were checked: there it reads each key as it stands, and must. What lies between keys, and what they turn, is ours.
 namespace signweave::fbx {
 
 /// Curves by their record.

@@ -14,6 +14,8 @@ constexpr FileFormat kFileFormats[] = {
     {".amc", "ASF/AMC", FileKind::motion, true, false, kPlainText, "motion; its skeleton is in an .asf file",
      "written as another"},
     {".asf", "ASF/AMC", FileKind::motion_part, true, false, kPlainText, "skeleton of .amc files", "motion"},
+    {".fbx", "FBX", FileKind::motion, true, false, "application/octet-stream", "skeleton and motion",
+     "written as another"},
     {".glb", "glTF", FileKind::motion, true, true, "model/gltf-binary",
      "skeleton and motion; written with a simple body and face", "annotation"},
     {".gltf", "glTF", FileKind::motion, true, true, "model/gltf+json", "the same as text", "annotation"},

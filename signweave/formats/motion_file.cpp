@@ -8,6 +8,7 @@
 #include "signweave/core/bytes.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/asf.h"
+#include "signweave/formats/fbx.h"
 #include "signweave/formats/file_format.h"
 #include "signweave/formats/gltf_read.h"
 
@@ -41,6 +42,12 @@ File read_asf(const fs::path& path, const ReadOptions& options) {
 
 std::vector<fs::path> with_skeleton(const fs::path& path, const ReadOptions& options) {
   return {path, options.skeleton.empty() ? asf::skeleton_of(path) : options.skeleton};
+}
+
+File read_fbx(const fs::path& path, const ReadOptions& options) {
+  fbx::File file =
+      fbx::read(path, {.take = options.take, .rate = options.rate, .unit = options.unit, .progress = options.progress});
+  return {.motion = std::move(file.motion), .layout = {}, .notices = std::move(file.notices), .format = {}};
 }
 
 File read_gltf(const fs::path& path, const ReadOptions& options) {
@@ -96,6 +103,7 @@ struct MotionReader {
 constexpr MotionReader kMotionReaders[] = {
     {".bvh", " up unit root-unit root-order mirror ", read_bvh, only_itself},
     {".amc", " up unit source-rate skeleton ", read_asf, with_skeleton},
+    {".fbx", " unit source-rate take ", read_fbx, only_itself},
     {".glb", " unit source-rate take ", read_gltf, with_buffers},
     {".gltf", " unit source-rate take ", read_gltf, with_buffers},
 };

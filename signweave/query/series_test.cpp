@@ -251,7 +251,7 @@ float plain_answer(const MovementTerm& term, const Movement& movement, std::uint
   return static_cast<float>(sum / static_cast<double>(all.size()));
 }
 
-RC_GTEST_PROP(Series, ASearchFindsWhatLookingAtEveryFrameFinds, (std::uint32_t seed)) {
+RC_GTEST_PROP(SeriesProperty, ASearchFindsWhatLookingAtEveryFrameFinds, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const Segments segments = weather_corpus().table();
   static const std::unique_ptr<TestMovement> movement = weather_movement(segments);

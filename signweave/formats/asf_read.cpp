@@ -87,7 +87,7 @@ File read_pair(TextReader& asf, TextReader& amc, const ReadOptions& options) {
   if (!options.rate) {
     file.notices.push_back(
         {amc.name(), fmt::format("the format does not tell the frame rate; {} frames a second taken, "
-                                 "--rate overrides",
+                                 "--source-rate overrides",
                                  to_string(kAcclaimRate))});
   }
   const bvh::UpAxis up = options.up.value_or(bvh::UpAxis::y);

@@ -130,7 +130,7 @@ Settings settings_of(const Source& source, const Record& root) {
   settings.has_unit = from.find("UnitScaleFactor") != nullptr;
   settings.unit_factor = from.number("UnitScaleFactor", 1);
   if (!(settings.unit_factor >= 1e-6)) {
-    source.fail(record->place, fmt::format("UnitScaleFactor is {}; --unit says the unit", settings.unit_factor));
+    source.fail(record->place, fmt::format("UnitScaleFactor is {}; export it again with a unit", settings.unit_factor));
   }
   settings.time_mode = from.whole("TimeMode", 0);
   settings.custom_rate = from.number("CustomFrameRate", 0);

@@ -90,7 +90,7 @@ void tell_of_loss(const Content& content, const Take& take, const std::vector<Jo
                   rate_told ? "its keys do not stand" : "its keys stand unevenly and were read", to_string(timing.rate),
                   turn.text(content, "degrees", 1), place.text(content, "mm", 1000));
   if (weight.node != kNoNode) text += fmt::format(", its weights by {:.2g}", weight.most);
-  if (!rate_told) text += "; --rate overrides";
+  if (!rate_told) text += "; --source-rate overrides";
   notices.push_back({content.name, std::move(text)});
 }
 

@@ -63,7 +63,7 @@ void tell_of_timing(const std::string& name, const Timing& timing, const ReadOpt
         {name, fmt::format("its first key is at {:.6g} seconds; that is the motion's first frame", timing.start)});
   }
   if (one_pose && !options.rate) {
-    notices.push_back({name, fmt::format("it has one key only, so its rate is taken to be {}; --rate overrides",
+    notices.push_back({name, fmt::format("it has one key only, so its rate is taken to be {}; --source-rate overrides",
                                          to_string(timing.rate))});
   }
 }

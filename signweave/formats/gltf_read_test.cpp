@@ -103,7 +103,7 @@ TEST(GltfRead, UnevenKeysAreReadAt120AndTheLossIsTold) {
               ElementsAre("its first key is at 0.1 seconds; that is the motion's first frame",
                           "its keys stand unevenly and were read at 120 frames a second, so at its keys the motion is "
                           "off by up to 1.3 degrees (node 1 'Someone:LeftArm') and 0.025 mm (node 1 "
-                          "'Someone:LeftArm'); --rate overrides"));
+                          "'Someone:LeftArm'); --source-rate overrides"));
   ASSERT_EQ(file.motion.frame_count(), 37);
   EXPECT_NEAR(turn_of(file.motion, "Someone:LeftArm", 36), 90, 1e-4);
   EXPECT_NEAR(turn_of(file.motion, "Someone:LeftArm", 4), 30 * 4 / 4.44, 1e-4);

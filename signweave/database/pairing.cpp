@@ -125,6 +125,12 @@ Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
       notices.push_back({input.string(), fmt::format("{} of other kinds passed over",
                                                      others == 1 ? "1 file" : fmt::format("{} files", others))});
   }
+  for (const fs::path& input : inputs) {
+    if (files.motions.empty() && kind_of(input) == FileKind::motion_part) {
+      notices.push_back({input.string(), fmt::format("holds no motion of its own; name the motion files beside it {}",
+                                                     readable_endings(FileKind::motion))});
+    }
+  }
   for (std::vector<fs::path>* list : {&files.motions, &files.annotations, &files.faces}) {
     std::sort(list->begin(), list->end());
     list->erase(std::unique(list->begin(), list->end()), list->end());

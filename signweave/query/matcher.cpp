@@ -120,6 +120,7 @@ Matcher::Matcher(const Expression& expression, const Segments::Member& member, c
       scopes_(scopes_of(expression, tier_names_)) {
   for (const std::string& name : tier_names_) tiers_.push_back(tiers_called(name, *table_));
   root_ = bind(expression);
+  reads_motion_ = reads_motion(root_);
 }
 
 BoundExpression Matcher::bind(const Expression& expression) {
@@ -217,6 +218,7 @@ bool Matcher::accepts(RowId row) {
              fits(condition, table_->label(row));
     }
   }
+  if (reads_motion_ && !scopes_.has(scopes_of_row(row))) return false;
   const Scopes found = holds(root_, row);
   return !found.empty() && found.has(scopes_of_row(row));
 }

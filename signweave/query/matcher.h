@@ -110,6 +110,7 @@ class Matcher {
   std::vector<std::vector<std::uint32_t>> tiers_;
   Scopes scopes_;
   BoundExpression root_;
+  bool reads_motion_ = false;  ///< so what a row is, is looked at before
 };
 
 }  // namespace signweave

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "signweave/core/error.h"
+#include "signweave/core/text.h"
 #include "signweave/features/hand_points.h"
 #include "signweave/retarget/body_match.h"
 
@@ -39,7 +40,7 @@ JointIndex carrier_of(const Skeleton& skeleton, const RigMap& rig) {
   return joint;
 }
 
-/// The median; 0 of nothing.
+/// The value below which so much of them lies; 0 of nothing.
 float quantile_of(std::vector<float> values, double share) {
   if (values.empty()) return 0;
   const auto which = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -133,7 +134,7 @@ std::vector<float> astray(const RecordedBody& source, const Motion& shown, const
 std::string joints_at_rest(const Skeleton& skeleton, const Drives& drives) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
-    if (!drives.joints[i].driven()) names.push_back(skeleton.joints()[i].name);
+    if (!drives.joints[i].driven()) names.push_back(printable(skeleton.joints()[i].name));
   }
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kNamedJoints); ++i) text += (i > 0 ? ", " : "") + names[i];

@@ -120,7 +120,11 @@ inline Motion without_joints(const Motion& motion, const std::vector<std::string
       if (now[i] != kNoJoint)
         less.pose(frame).rotations[static_cast<std::size_t>(now[i])] = motion.pose(frame).rotations[i];
     }
-    std::ranges::copy(motion.pose(frame).translations, less.pose(frame).translations.begin());
+    for (std::size_t i = 0; i < skeleton.translation_count(); ++i) {
+      const JointIndex joint = now[static_cast<std::size_t>(skeleton.translated_joints()[i])];
+      if (joint == kNoJoint) continue;
+      less.pose(frame).translations[*less.skeleton().translation_of(joint)] = motion.pose(frame).translations[i];
+    }
   }
   for (const ScalarTrack& track : motion.tracks()) less.add_track(track);
   return less;

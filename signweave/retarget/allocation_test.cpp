@@ -1,4 +1,4 @@
-// A pose is put onto a character without allocating: streams do it frame by frame.
+// A pose is put onto another body without allocating: streams do it frame by frame.
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <new>
 
 #include "signweave/retarget/retarget.h"
+#include "signweave/retarget/retargeted_source.h"
 #include "signweave/retarget/test_character.h"
 
 namespace {
@@ -53,6 +54,19 @@ TEST(RetargetAllocations, NoneAreMadeForAPose) {
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
     retargeter.pose(motion.pose(frame), pose.view());
   }
+  counting = false;
+  EXPECT_EQ(allocations, 0U);
+}
+
+TEST(RetargetAllocations, NoneAreMadeForFramesOfAnotherSkeleton) {
+  const auto motion = std::make_shared<MemorySource>(moving(whole_person(), 100));
+  const MemorySource onto(moving(whole_person(0.9f), 100, 2));
+  const RetargetedSource shown(
+      motion, std::make_shared<const BodyMapping>(map_body(recorded_body("b", *motion), recorded_body("a", onto))));
+  Motion out(shown.skeleton(), shown.rate(), 70);
+  allocations = 0;
+  counting = true;
+  shown.read({20, 90}, out.poses({0, 70}));
   counting = false;
   EXPECT_EQ(allocations, 0U);
 }

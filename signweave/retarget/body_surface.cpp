@@ -74,7 +74,9 @@ Vector3f way_out_of(const Vector3f& start, const Vector3f& half) noexcept {
 
 }  // namespace
 
-BodySurface::BodySurface(const Character& character, const RigAxes& axes) : scale_(character.height / kHeight) {
+BodySurface::BodySurface(const Character& character, const RigAxes& axes) {
+  if (character.height <= 0) return;
+  scale_ = character.height / kHeight;
   const RigMap& rig = character.rig;
   // Columns: left, up, forward, of the trunk's x up and y left.
   Matrix3f columns;

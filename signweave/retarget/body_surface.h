@@ -11,7 +11,7 @@ namespace signweave {
 
 /// Roughly where a character's clothes and face are, so that hands stay outside: the trunk down to the thighs as
 /// sections that round off to the sides, the head as one such body. Told from height, shoulders and eyes alone, with
-/// the proportions of the characters of studio/avatar. (ours)
+/// the proportions of the characters of studio/avatar. Of a character without height nothing is known. (ours)
 class BodySurface {
  public:
   BodySurface(const Character& character, const RigAxes& axes);

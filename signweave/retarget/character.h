@@ -32,6 +32,7 @@ struct CharacterFinger {
   std::array<float, 3> rest_flexion = {0, 0, 0};            ///< radians
   std::array<AngleLimits, 3> flexion;
   AngleLimits spread;
+  float slack = 0.35f;  ///< beside flexion and spread a joint may turn so much, radians
 
   bool known() const noexcept { return joints[0] != kNoJoint; }
 };
@@ -53,9 +54,14 @@ struct Character {
   std::optional<SignerBody> body;                  ///< at rest; none where a shoulder is missing
   std::array<CharacterHand, 2> hands;              ///< [Side]
   Eigen::Vector3f eyes = Eigen::Vector3f::Zero();  ///< the middle between them at rest, metres, model space
-  float height = 0;                                ///< top of the head, metres
+  float height = 0;                                ///< top of the head, metres; 0: nothing is known of its surface
   std::vector<std::string> face_units;             ///< names of its morph targets, ascending
+  /// [joint] how joints stand that nothing drives, relative to their parents; empty: as at rest.
+  std::vector<Eigen::Quaternionf> still;
 
+  Eigen::Quaternionf still_turn(std::size_t joint) const noexcept {
+    return still.empty() ? Eigen::Quaternionf::Identity() : still[joint];
+  }
   const CharacterHand& hand(Side side) const noexcept { return hands[static_cast<std::size_t>(side)]; }
 };
 

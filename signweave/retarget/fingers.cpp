@@ -22,8 +22,6 @@ constexpr float kPinched = 0.018f;
 constexpr float kApart = 0.055f;
 /// Of what is missing, what the thumb does.
 constexpr float kThumbShare = 0.5f;
-/// Beside flexion and spread a joint may turn so much, radians.
-constexpr float kSlack = 0.35f;
 
 float smooth_fall(float value, float from, float to) {
   const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
@@ -34,6 +32,7 @@ float smooth_fall(float value, float from, float to) {
 
 CharacterFingers::CharacterFingers(const Character& character, const RigMap& source_rig, Side side)
     : fingers_(character.hand(side).fingers) {
+  for (std::size_t i = 0; i < character.skeleton->joint_count(); ++i) still_.push_back(character.still_turn(i));
   const RigMap& rig = character.rig;
   const JointIndex wrist = rig[of(side, Part::left_hand)].joint;
   const Skeleton& skeleton = *character.skeleton;
@@ -62,7 +61,7 @@ void CharacterFingers::bound(const CharacterFinger& finger, std::size_t i, const
                                    finger.flexion[i].greatest - finger.rest_flexion[i]);
   // What is left beside the flexion: spread, and what no finger does.
   Quaternionf swing = local * Quaternionf(AngleAxisf(-flexion, finger.flexion_axis));
-  const AngleLimits sideways = i == 0 ? finger.spread : AngleLimits{-kSlack, kSlack};
+  const AngleLimits sideways = i == 0 ? finger.spread : AngleLimits{-finger.slack, finger.slack};
   const float spread = twist_about(swing, finger.spread_axis);
   const float held = std::clamp(spread, sideways.least, sideways.greatest);
   if (bounded == flexion && held == spread) return;
@@ -81,7 +80,7 @@ void CharacterFingers::place(const CharacterFinger& finger, const Skeleton& skel
 void CharacterFingers::lay(const Skeleton& skeleton, const Drives& drives, ModelPose& pose) const noexcept {
   for (const JointIndex joint : below_) {
     const auto parent = at(skeleton.joint(joint).parent);
-    if (!drives.joints[at(joint)].driven()) pose.rotations[at(joint)] = pose.rotations[parent];
+    if (!drives.joints[at(joint)].driven()) pose.rotations[at(joint)] = pose.rotations[parent] * still_[at(joint)];
     for (const CharacterFinger& finger : fingers_) {
       for (std::size_t i = 0; i < 3; ++i) {
         if (finger.joints[i] == joint && drives.joints[at(joint)].driven()) bound(finger, i, skeleton, pose);

@@ -44,7 +44,8 @@ class CharacterFingers {
   std::array<std::optional<Point>, kFingers.size()> tips_;
   std::array<Point, kMostPoints> points_;
   std::size_t count_ = 0;
-  std::vector<JointIndex> below_;  ///< the hand's joints beyond the wrist, ascending
+  std::vector<JointIndex> below_;          ///< the hand's joints beyond the wrist, ascending
+  std::vector<Eigen::Quaternionf> still_;  ///< [joint] as the character has them where nothing drives
 };
 
 }  // namespace signweave

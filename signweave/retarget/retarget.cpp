@@ -138,6 +138,16 @@ Retargeter::Retargeter(const Skeleton& source, const SignerModel& signer, const 
     head_->eyes = character.eyes - axes_.place(Part::head);
     head_->size = kHeadOfEyesToTop * (character.height - character.eyes.y());
   }
+  // What nothing turns stands as it does against its parent, wherever that was laid. Collar bones are laid by the arm.
+  for (std::size_t i = 0; i < character.skeleton->joint_count(); ++i) loose_.push_back(!drives_.joints[i].driven());
+  for (const Side side : kSides) {
+    const PartPlace& collar = rig[of(side, Part::left_clavicle)];
+    if (!collar.known()) continue;
+    for (const JointIndex joint :
+         path_between(*character.skeleton, collar.joint, rig[of(side, Part::left_upper_arm)].joint)) {
+      loose_[at(joint)] = false;
+    }
+  }
   // The soles of the character stand at y = 0 at rest; a source's ankles are as high for the length of its legs.
   if (rig.has(Part::left_foot)) ankle_ = axes_.place(Part::left_foot).y();
   source_ankle_ = ankle_ / scale_;
@@ -160,7 +170,8 @@ void Retargeter::turn_joints() noexcept {
     if (drives_.joints[i].driven()) {
       to_.rotations[i] = drives_.joints[i].turn(from_).normalized();
     } else {
-      to_.rotations[i] = joint.parent == kNoJoint ? Quaternionf::Identity() : to_.rotations[at(joint.parent)];
+      const Quaternionf still = character_->still_turn(i);
+      to_.rotations[i] = joint.parent == kNoJoint ? still : to_.rotations[at(joint.parent)] * still;
     }
     to_.positions[i] = joint.parent == kNoJoint
                            ? joint.offset
@@ -250,7 +261,7 @@ void Retargeter::lay_arms() noexcept {
 }
 
 void Retargeter::rest(MutablePoseView out) const noexcept {
-  for (Quaternionf& turn : out.rotations) turn = Quaternionf::Identity();
+  for (std::size_t i = 0; i < out.rotations.size(); ++i) out.rotations[i] = character_->still_turn(i);
   for (std::size_t i = 0; i < out.translations.size(); ++i) {
     out.translations[i] = character_->skeleton->joint(character_->skeleton->translated_joints()[i]).offset;
   }
@@ -274,7 +285,7 @@ void Retargeter::pose(PoseView source, MutablePoseView out) noexcept {
     const JointIndex parent = skeleton.joints()[i].parent;
     const Quaternionf local =
         parent == kNoJoint ? to_.rotations[i] : Quaternionf(to_.rotations[at(parent)].conjugate() * to_.rotations[i]);
-    out.rotations[i] = local.normalized();
+    out.rotations[i] = loose_[i] ? character_->still_turn(i) : local.normalized();
     finite = finite && out.rotations[i].coeffs().allFinite();
   }
   for (std::size_t i = 0; i < out.translations.size(); ++i) {

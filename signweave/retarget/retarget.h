@@ -46,6 +46,8 @@ class Retargeter {
   /// Metres of the character's signing space for one of the source's: the ratio of shoulder widths, as far as the ratio
   /// of arm lengths lets it be.
   float unit_ratio() const noexcept { return unit_ratio_; }
+  /// What drives the character's joints.
+  const Drives& drives() const noexcept { return drives_; }
 
   /// What is missing or approximate for this source: a line each. Such parts stay at rest.
   const std::vector<Notice>& notices() const noexcept { return notices_; }
@@ -65,6 +67,7 @@ class Retargeter {
   RigAxes source_axes_;
   RigAxes axes_;
   Drives drives_;
+  std::vector<bool> loose_;  ///< [the character's joint] stands against its parent as it always does
   std::vector<Notice> notices_;
   std::array<std::optional<CharacterCollar>, 2> collars_;  ///< those that take a share
   std::array<std::optional<CharacterLeg>, 2> legs_;        ///< where the source has them, too

@@ -5,7 +5,9 @@
 
 #include "signweave/core/error.h"
 #include "signweave/core/text.h"
+#include "signweave/retarget/retargeted_source.h"
 #include "signweave/stream/growing_utterance.h"
+#include "signweave/synthesis/on_skeleton.h"
 #include "signweave/synthesis/select.h"
 
 // How places are decided and signed; where their frames come to lie is in growing_utterance.cpp.
@@ -96,12 +98,38 @@ Stretch GrowingUtterance::stretch_of(const Decision& decision, Milliseconds paus
   const Candidate& candidate = decision.candidate;
   const RecordingInfo& info = decision.contents->recordings[candidate.recording];
   return {.recording = info.name,
-          .source = std::make_shared<RecordingSource>(open_, info),
+          .source = on_skeleton(info, std::make_shared<RecordingSource>(open_, info)),
           .whole = candidate.whole,
           .core = candidate.core,
           .clock = info.clock,
           .signs = candidate.signs,
           .pause_before = pause};
+}
+
+/// A recording's motion on the stream's skeleton.
+std::shared_ptr<const MotionSource> GrowingUtterance::on_skeleton(const RecordingInfo& info,
+                                                                  std::shared_ptr<const MotionSource> source) {
+  if (!header_ || !difference(*header_->skeleton, *source->skeleton())) return source;
+  std::weak_ptr<const MotionSource>& known = retargeted_[info.motion->generation];
+  std::shared_ptr<const MotionSource> shown = known.lock();
+  if (!shown) {
+    auto mapping = base_.mapping(open_.snapshot(), info.name, header_->layout_from, *header_->skeleton);
+    known = shown = std::make_shared<RetargetedSource>(std::move(source), std::move(mapping));
+  }
+  return shown;
+}
+
+/// How a recording of another skeleton is shown, once.
+void GrowingUtterance::tell_mapping(const Entry& entry) {
+  const auto* const shown = dynamic_cast<const RetargetedSource*>(entry.woven->stretch.source.get());
+  if (shown == nullptr || !told_.insert(entry.woven->stretch.recording).second) return;
+  for (const Notice& notice : shown->mapping().notices) {
+    events_.push_back({.kind = PlayerEvent::Kind::notice,
+                       .frame = static_cast<std::uint64_t>(entry.woven->laid.core),
+                       .place = entry.first + forgotten_,
+                       .recording = notice.where,
+                       .text = notice.text});
+  }
 }
 
 /// What the first stretch decides for the whole stream.
@@ -218,6 +246,7 @@ void GrowingUtterance::sign_next() {
   tail_ = last_sign_ = std::move(woven);
   last_signs_ = std::move(signs);
   state_ = State::at_core;
+  tell_mapping(entries_.back());
   tell_places(entries_.back(), 0);
 }
 

@@ -180,7 +180,10 @@ GrowingUtterance::WovenPtr GrowingUtterance::history_of(std::int64_t next, const
 void GrowingUtterance::cut(std::int64_t end) {
   while (!segments_.empty() && segments_.back().frames.begin >= end) segments_.pop_back();
   if (!segments_.empty()) segments_.back().frames.end = std::min(segments_.back().frames.end, end);
-  while (!events_.empty() && events_.back().frame >= static_cast<std::uint64_t>(end)) events_.pop_back();
+  while (!events_.empty() && events_.back().frame >= static_cast<std::uint64_t>(end)) {
+    if (events_.back().kind == PlayerEvent::Kind::notice) told_.erase(events_.back().recording);
+    events_.pop_back();
+  }
   end_ = std::min(end_, end);
 }
 

@@ -2,9 +2,12 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "signweave/stream/frame_ring.h"
@@ -110,6 +113,9 @@ class GrowingUtterance {
   bool decided_well(std::size_t place) const noexcept;
   bool goes_on(const Candidate& candidate, std::size_t place);
   Stretch stretch_of(const Decision& decision, Milliseconds pause);
+  std::shared_ptr<const MotionSource> on_skeleton(const RecordingInfo& info,
+                                                  std::shared_ptr<const MotionSource> source);
+  void tell_mapping(const Entry& entry);
   void begin_header(const Stretch& stretch, const std::shared_ptr<const Contents>& contents);
   void sign_next();
   void go_to_rest();
@@ -150,6 +156,10 @@ class GrowingUtterance {
   std::optional<Weaver> weaver_;
   std::shared_ptr<const LivingRest> living_;
   std::string settings_key_;  ///< what all its transitions depend on
+
+  /// Recordings of other skeletons as they are shown, by the generation of their motion.
+  std::map<std::uint64_t, std::weak_ptr<const MotionSource>> retargeted_;
+  std::set<std::string> told_;  ///< recordings of which was told how they are shown
 
   State state_ = State::nothing;
   WovenPtr tail_;                        ///< what was laid last

@@ -1,10 +1,13 @@
 #include "signweave/stream/signing_base.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
 #include "signweave/core/error.h"
 #include "signweave/stream/open_recordings.h"
+#include "signweave/synthesis/on_skeleton.h"
 
 namespace signweave {
 namespace {
@@ -12,6 +15,7 @@ namespace {
 /// Glosses whose tokens are kept. A database may have more glosses than anybody asks for.
 constexpr std::size_t kMostKept = 8192;
 constexpr std::size_t kMostRigs = 1024;
+constexpr std::size_t kMostMappings = 256;
 /// So many glosses of an utterance that nobody asked for before are looked up with all that is known of their tokens;
 /// of more it is only told whether they are there, so that the first frame does not wait for the last gloss.
 constexpr std::size_t kLookedAtWhole = 8;
@@ -168,6 +172,29 @@ std::shared_ptr<const KnownRest> SigningBase::rest(const Snapshot& snapshot, con
   if (auto known = look()) return known;
   of(snapshot.shared_contents()).rests.push_back(made);
   return made;
+}
+
+std::shared_ptr<const BodyMapping> SigningBase::mapping(const Snapshot& snapshot, const std::string& recording,
+                                                        const std::string& onto, const Skeleton& skeleton) {
+  return look_up<BodyMapping>(
+      snapshot.shared_contents(),
+      [&](Known & known) -> auto& {
+        if (known.mappings.size() > kMostMappings) known.mappings.clear();
+        return known.mappings[{recording, onto}];
+      },
+      [&] {
+        const Contents& contents = snapshot.contents();
+        const RecordingInfo* const info = contents.find(onto);
+        const std::unique_ptr<MotionSource> home = info != nullptr && info->motion ? snapshot.motion(*info) : nullptr;
+        if (home == nullptr || *home->skeleton() != skeleton) {
+          throw Error(
+              ErrorCode::conflict,
+              fmt::format("recording '{}', whose skeleton is shown, was replaced or removed while it was signed",
+                          onto));
+        }
+        const std::unique_ptr<MotionSource> motion = snapshot.motion(contents.at(recording));
+        return map_body(body_of(contents, recording, *motion), body_of(contents, onto, *home));
+      });
 }
 
 std::vector<std::string> SigningBase::tracks(const Contents& contents, const std::string& recording) const {

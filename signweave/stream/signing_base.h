@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "signweave/database/database.h"
+#include "signweave/retarget/body_mapping.h"
 #include "signweave/stream/rest_pose.h"
 #include "signweave/stream/transition_cache.h"
 #include "signweave/synthesis/candidate.h"
@@ -58,6 +59,10 @@ class SigningBase {
   std::shared_ptr<const CapturedSpans> spans(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
   /// Where the signer of a recording rests, in one of the signer's recordings.
   std::shared_ptr<const KnownRest> rest(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
+  /// How a recording's motion is put onto the skeleton of `onto`, which has other joints. Throws what `map_body`
+  /// throws; Error{conflict} where `onto` was removed since, or has no longer that skeleton.
+  std::shared_ptr<const BodyMapping> mapping(const Snapshot& snapshot, const std::string& recording,
+                                             const std::string& onto, const Skeleton& skeleton);
   /// The names of all scalar tracks of the database, those of `recording` first.
   std::vector<std::string> tracks(const Contents& contents, const std::string& recording) const;
   /// What all recordings declare of themselves, each once.
@@ -80,7 +85,9 @@ class SigningBase {
     std::map<std::tuple<std::string, std::int64_t, std::int64_t>, std::shared_ptr<const SignerRig>>
         rigs;  ///< recording, first frame and count of those that it is told from
     std::map<std::string, std::shared_ptr<const CapturedSpans>> spans;  ///< by recording
-    std::vector<std::shared_ptr<const KnownRest>> rests;                ///< few: of each signer one for each skeleton
+    std::map<std::pair<std::string, std::string>, std::shared_ptr<const BodyMapping>>
+        mappings;                                         ///< by recording, and that whose skeleton it is put onto
+    std::vector<std::shared_ptr<const KnownRest>> rests;  ///< few: of each signer one for each skeleton
     std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> declarations;
   };
   /// What is known of these contents; of others than the newest nothing is kept. Call it with the lock held.

@@ -119,7 +119,8 @@ struct ConcatenateOptions {
 /// goes over in each transition from where it was to where it will be.
 ///
 /// `used` is an older result whose memory may be used again. Throws Error{bad_input} where skeletons differ in more
-/// than offsets (naming the joint), or nothing is to be joined; Error{corrupt} where frames are damaged.
+/// than offsets (naming the joint; see put_on_skeleton), or nothing is to be joined; Error{corrupt} where frames are
+/// damaged.
 Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOptions& options, Synthesis used = {});
 
 }  // namespace signweave

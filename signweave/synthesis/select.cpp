@@ -44,8 +44,8 @@ class PoseReader {
 
 /// Radians, mean over the joints.
 double rotation_between(const Pose& a, const Pose& b) {
-  // Skeletons of one corpus may differ; what cannot be compared is as far as can be. Joining them is refused later, by
-  // joint name.
+  // Skeletons of one corpus may differ; what cannot be compared is as far as can be. Where nothing is known of the
+  // rigs, joining them is refused later.
   if (a.rotations.size() != b.rotations.size()) return 3.2;
   double sum = 0;
   for (std::size_t i = 1; i < a.rotations.size(); ++i) {  // without the root, which is aligned away

@@ -9,6 +9,7 @@
 
 #include "signweave/core/error.h"
 #include "signweave/synthesis/captured_spans.h"
+#include "signweave/synthesis/on_skeleton.h"
 
 namespace signweave {
 namespace {
@@ -110,6 +111,7 @@ Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<
   for (std::size_t i = stretches.size(); i-- > 0;) {
     if (stretches[i].recording == edited) reference = i;
   }
+  put_on_skeleton(stretches, reference, contents, notices);
   const SignerRig rig = signer_rig_of(stretches[reference], contents.at(stretches[reference].recording).rig);
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
   CapturedSpans captured;

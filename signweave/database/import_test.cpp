@@ -320,7 +320,8 @@ TEST_F(ImportTest, AFaceGoesWithTheMotionBesideItAndNoOther) {
   ASSERT_EQ(pairing.notices.size(), 2u);
   EXPECT_THAT(pairing.notices[0].text, HasSubstr("1 file of other kinds"));
   EXPECT_THAT(pairing.notices[1].where, HasSubstr("y/c.face.csv"));
-  EXPECT_THAT(pairing.notices[1].text, HasSubstr("a face without its motion, passed over; put it beside the motion file 'c' (.bvh"));
+  EXPECT_THAT(pairing.notices[1].text,
+              HasSubstr("a face without its motion, passed over; put it beside the motion file 'c' (.bvh"));
 }
 
 TEST_F(ImportTest, AFaceGoesWithAMotionThatATablePairs) {

@@ -51,12 +51,12 @@ class JointChoice {
     std::vector<std::size_t> joints;
     std::ranges::copy_if(forest_.order, std::back_inserter(joints), [&](std::size_t node) { return kept[node]; });
     if (joints.size() > kMostStoredJoints) {
-      throw Error(ErrorCode::unsupported,
-                  fmt::format("{}: {} joints; at most {} can be stored", content_.name, joints.size(), kMostStoredJoints));
+      throw Error(ErrorCode::unsupported, fmt::format("{}: {} joints; at most {} can be stored", content_.name,
+                                                      joints.size(), kMostStoredJoints));
     }
     // The file's own order where it has parents first, so that what we wrote comes back as it was.
-    const bool ordered = std::ranges::all_of(
-        joints, [&](std::size_t node) { return node == joints[0] || forest_.parent[node] < node; });
+    const bool ordered =
+        std::ranges::all_of(joints, [&](std::size_t node) { return node == joints[0] || forest_.parent[node] < node; });
     if (ordered) std::ranges::sort(joints);
     return joints;
   }

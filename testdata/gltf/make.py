@@ -230,7 +230,7 @@ def morph():
 def quantised():
     file = arm()
     root = round(32767 * math.sqrt(0.5))
-    times = file.channel(1, "rotation", [0, 1 / 60, 2 / 60], [[0, 0, 0, 32767], [0, 0, root, root], [0, 0, -32768, 0]],
+    times = file.channel(1, "rotation", [0, 1 / 60, 2 / 60], [[0, 0, 0, 32767], [0, 0, root, root], [0, 0, -32768, 32767]],
                          component=SHORT)
     file.channel(2, "rotation", times, [[0, 0, 0, 127], [0, 90, 0, 90], [0, 127, 0, 0]], component=BYTE)
     file.json["extensionsUsed"] = ["KHR_mesh_quantization", "KHR_draco_mesh_compression"]

@@ -183,11 +183,13 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   // A face is a part of the motion. One that comes to a motion without replaces nothing, so it needs no leave.
   const std::uint64_t face_print = job.face ? file_checksum(*job.face) : 0;
   const bool new_face = job.face && same_motion && known->face_file.empty();
-  const std::optional<Seconds> face_offset =
+  const Seconds face_before = known ? known->face_offset : Seconds(0);
+  const Seconds face_start =
       job.face
           ? given_face_offset(*job.face, job.face_offset ? job.face_offset : options.face_offset, options.face_timecode)
-          : std::nullopt;
-  const bool moved_face = face_offset && known && std::abs((*face_offset - known->face_offset).count()) > 1e-9;
+                .value_or(face_before)
+          : face_before;
+  const bool moved_face = std::abs((face_start - face_before).count()) > 1e-9;
   const bool other_face = job.face && same_motion && !new_face && (known->face_fingerprint != face_print || moved_face);
   const bool new_motion = job.motion && (!same_motion || new_face || other_face || options.replace_motion);
 
@@ -301,11 +303,10 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     keep_notices(*known, known->face_file, recording.notices);
   }
   if (new_motion && job.face) {
-    const Seconds start = face_offset ? *face_offset : known ? known->face_offset : Seconds(0);
-    recording.motion->own_tracks = add_face(*job.face, start, recording.motion->motion, recording.notices);
+    recording.motion->own_tracks = add_face(*job.face, face_start, recording.motion->motion, recording.notices);
     recording.motion->face_file = job.face->filename().string();
     recording.motion->face_fingerprint = face_print;
-    recording.motion->face_offset = start;
+    recording.motion->face_offset = face_start;
   }
   if (new_annotation) {
     recording.notices.insert(recording.notices.end(), annotation_notices.begin(), annotation_notices.end());

@@ -60,7 +60,7 @@ std::string table_of(const EvaluatedTask& task, const std::vector<ReportGroup>& 
     }
     if (any) rows.push_back(std::move(row));
   }
-  return rows.size() > 1 ? "\n" + format_table(rows) : std::string();
+  return rows.size() > 1 ? fmt::format("\n{}", format_table(rows)) : std::string();
 }
 
 std::size_t recordings_of(const EvaluatedTask& task, const ReportGroup& group) {
@@ -190,7 +190,7 @@ std::string default_text(const EvaluatedTask& task, Bootstrap& bootstrap) {
       return ratio_to(task, method, yardstick, group, HandChoice::moving, info.measure, bootstrap);
     });
   }
-  return "\n" + format_table(rows);
+  return fmt::format("\n{}", format_table(rows));
 }
 
 std::string full_text(const EvaluatedTask& task, Bootstrap& bootstrap) {

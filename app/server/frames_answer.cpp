@@ -18,14 +18,14 @@ std::string head_text(const Motion& motion, const FramesHead& head) {
                       .layout_from = head.recording,
                       .declarations = head.declarations};
   for (const ScalarTrack& track : motion.tracks()) header.tracks.push_back(track.name);
-  nlohmann::ordered_json json =
+  nlohmann::ordered_json document =
       nlohmann::ordered_json::parse(header_text(header, {.database = head.database, .character = head.character}));
-  json["type"] = "frames";
-  json["frames"] = motion.frame_count();
-  json["origin_ms"] = head.origin_ms;
-  json["rig"] = head.rig;
-  if (!head.report.is_null()) json["report"] = head.report;
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  document["type"] = "frames";
+  document["frames"] = motion.frame_count();
+  document["origin_ms"] = head.origin_ms;
+  document["rig"] = head.rig;
+  if (!head.report.is_null()) document["report"] = head.report;
+  return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::span<std::byte> bytes_at(std::string& text, std::size_t at, std::size_t size) {
@@ -35,19 +35,19 @@ std::span<std::byte> bytes_at(std::string& text, std::size_t at, std::size_t siz
 }  // namespace
 
 std::string frames_text(const Motion& motion, const FramesHead& head) {
-  const std::string json = head_text(motion, head);
+  const std::string head_json = head_text(motion, head);
   const FrameShape shape{motion.skeleton().joint_count(), motion.skeleton().translation_count(),
                          motion.tracks().size()};
   const std::size_t frame_bytes = bytes_of(shape);
   const std::int64_t frames = motion.frame_count();
   const std::int64_t messages = (frames + kFramesOfAMessage - 1) / kFramesOfAMessage;
-  std::size_t at = 4 + json.size();
+  std::size_t at = 4 + head_json.size();
   std::string text(
       at + static_cast<std::size_t>(messages) * kMessageHeaderBytes + static_cast<std::size_t>(frames) * frame_bytes,
       '\0');
-  const auto length = static_cast<std::uint32_t>(json.size());
+  const auto length = static_cast<std::uint32_t>(head_json.size());
   for (int i = 0; i < 4; ++i) text[static_cast<std::size_t>(i)] = static_cast<char>(length >> (8 * i) & 0xFF);
-  std::memcpy(text.data() + 4, json.data(), json.size());
+  std::memcpy(text.data() + 4, head_json.data(), head_json.size());
   std::vector<float> tracks(shape.tracks);
   for (std::int64_t first = 0; first < frames; first += kFramesOfAMessage) {
     const std::int64_t count = std::min(kFramesOfAMessage, frames - first);

@@ -40,13 +40,13 @@ AmcReader::AmcReader(TextReader& reader, const Figure& figure, std::function<voi
     if (!figure.bones[i].dofs.empty()) ++moving_;
   }
   numbers_.resize(columns);
-  read_header(notices);
+  read_header();
 }
 
-void AmcReader::read_header(std::vector<Notice>& notices) {
+void AmcReader::read_header() {
   if (!lines_.next()) lines_.fail("the file is empty, expected the frames of a recording; export it again");
   std::optional<Notice> unknown;
-  for (; lines_.is_keyword();) {
+  while (lines_.is_keyword()) {
     const std::string_view word = lines_.first();
     const bool degrees = same_word(word, ":degrees");
     if (degrees || same_word(word, ":radians")) {
@@ -57,7 +57,7 @@ void AmcReader::read_header(std::vector<Notice>& notices) {
     }
     if (!lines_.next()) lines_.fail("the file ends before its first frame; export it again");
   }
-  if (unknown) notices.push_back(*unknown);
+  if (unknown) notices_.push_back(*unknown);
   if (lines_.words().size() != 1 || !whole_number(lines_.first())) {
     const bool bone = bones_.contains(lines_.first()) || same_word(lines_.first(), "root");
     lines_.fail(fmt::format("expected the number of the first frame, found {}; {}", in_quotes(lines_.first()),

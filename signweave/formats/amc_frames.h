@@ -40,7 +40,7 @@ class AmcReader {
   void report();
 
  private:
-  void read_header(std::vector<Notice>& notices);
+  void read_header();
   void read_number();
   void read_bone();
   std::size_t bone_of(std::string_view name);

@@ -28,8 +28,8 @@ double settle_unit(const Motion& motion, const Figure& figure, const ReadOptions
   if (options.unit) return *options.unit;
   const bvh::Guess guess = bvh::guess_space(motion, up);
   const std::string divided =
-      figure.length_unit == 1 ? "" : fmt::format(", lengths divided by the {:g} of :units,", figure.length_unit);
-  notices.push_back({name, fmt::format("unit {}{} guessed; --unit overrides", bvh::unit_reason(guess), divided)});
+      figure.length_unit == 1 ? "" : fmt::format(" for lengths divided by the {:g} of :units", figure.length_unit);
+  notices.push_back({name, fmt::format("unit {} guessed{}; --unit overrides", bvh::unit_reason(guess), divided)});
   if (guess.upside_down) notices.push_back({name, "the head is below the feet; look at the motion and check --up"});
   return guess.unit;
 }

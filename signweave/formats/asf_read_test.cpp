@@ -1,14 +1,11 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "signweave/core/atomic_file.h"
 #include "signweave/formats/asf.h"
 #include "signweave/formats/asf_test_text.h"
 #include "signweave/motion/kinematics.h"
@@ -272,7 +269,7 @@ TEST(AsfRead, SeveralRecordingsShareASkeleton) {
 TEST(AsfRead, TheUnitOfCmuIsGuessedFromTheStature) {
   const File file = read(kGoodFiles / "07_01.amc");
   EXPECT_TRUE(tells(file.notices, "07.asf: unit inch (stature 1.")) << file.notices[0].text;
-  EXPECT_TRUE(tells(file.notices, "lengths divided by the 0.45 of :units, guessed; --unit overrides"));
+  EXPECT_TRUE(tells(file.notices, "guessed for lengths divided by the 0.45 of :units; --unit overrides"));
   const Places at = places(file.motion, 0);
   EXPECT_NEAR(at["root"].y(), 0.97, 1e-4);
   EXPECT_NEAR((at["lradius"] - at["lhumerus"]).norm(), 0.28, 1e-4);

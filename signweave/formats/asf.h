@@ -26,7 +26,7 @@ struct ReadOptions {
   std::optional<std::filesystem::path> skeleton{};  ///< the .asf; `skeleton_of` finds it where not given
   /// Metres per unit of the file's lengths after they are divided by the `length` of :units, which is what the format
   /// means by it: 0.0254 for the files of CMU, whose `length 0.45` makes inches of their numbers. Guessed from the
-  /// body's stature where not given, as for BVH.
+  /// body's stature where not given, as for BVH; of more than 1000 bones it must be given.
   std::optional<double> unit{};
   std::optional<bvh::UpAxis> up{};                  ///< y where not given
   std::optional<FrameRate> rate{};                  ///< the file does not tell; 120 with a notice where not given

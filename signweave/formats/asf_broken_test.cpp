@@ -121,6 +121,21 @@ TEST(AsfBroken, MoreBonesThanAMotionHoldsAreRefused) {
   EXPECT_EQ(fault, "a:327674: more than 65534 bones; split the skeleton");
 }
 
+// Guessing goes from each head to each foot, and every bone here is called like both.
+TEST(AsfBroken, ASkeletonOfThousandsOfBonesNeedsAUnit) {
+  std::string asf = ":root\norder TX\n:bonedata\n";
+  std::string hierarchy = ":hierarchy\nbegin\n";
+  for (int i = 0; i < 5000; ++i) {
+    const std::string name = "headfoot" + std::to_string(i);
+    asf += "begin\nname " + name + "\ndirection 0 1 0\nlength 1\nend\n";
+    hierarchy += (i == 0 ? "root" : "headfoot" + std::to_string(i - 1)) + " " + name + "\n";
+  }
+  asf += hierarchy + "end\n";
+  EXPECT_EQ(fault_of_read([&] { read_text("a", asf, "b", "1\nroot 0\n"); }),
+            "a: 5001 bones are no body whose unit can be guessed; give --unit");
+  EXPECT_EQ(read_text("a", asf, "b", "1\nroot 0\n", {.unit = 1.0}).motion.frame_count(), 1);
+}
+
 TEST(AsfBroken, AUnitThatIsNoneIsRefused) {
   for (const double unit : {0.0, -1.0, 1e7, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(read(kTestdata / "asf" / "two.amc", {.unit = unit}), Error) << unit;

@@ -15,6 +15,8 @@ namespace signweave::asf {
 namespace {
 
 constexpr FrameRate kAcclaimRate{120, 1};
+/// The guess looks at each way from a head to a foot; whoever names thousands of bones so would have it look for hours.
+constexpr std::size_t kMostBonesOfAGuess = 1000;
 
 void check_unit_option(const ReadOptions& options) {
   if (options.unit && !(*options.unit >= 1e-6 && *options.unit <= 1e6)) {
@@ -26,6 +28,10 @@ void check_unit_option(const ReadOptions& options) {
 double settle_unit(const Motion& motion, const Figure& figure, const ReadOptions& options, bvh::UpAxis up,
                    const std::string& name, std::vector<Notice>& notices) {
   if (options.unit) return *options.unit;
+  if (figure.bones.size() > kMostBonesOfAGuess) {
+    throw Error(ErrorCode::bad_input, fmt::format("{}: {} bones are no body whose unit can be guessed; give --unit",
+                                                  name, figure.bones.size()));
+  }
   const bvh::Guess guess = bvh::guess_space(motion, up);
   const std::string divided =
       figure.length_unit == 1 ? "" : fmt::format(" for lengths divided by the {:g} of :units", figure.length_unit);

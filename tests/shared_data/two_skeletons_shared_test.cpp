@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "signweave/annotation/tier_name.h"
@@ -10,6 +11,7 @@
 #include "signweave/formats/bvh.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/kv/test_folder.h"
+#include "signweave/retarget/body_mapping.h"
 #include "signweave/synthesis/on_skeleton.h"
 #include "signweave/synthesis/synthesizer.h"
 #include "tests/retarget_figures.h"
@@ -93,7 +95,7 @@ TEST_P(AcrossRigs, HandsPointBendAndLieAsTheyDid) {
       place.push_back((space_a.to_signer(palm_of(hand_a)) - space_b.to_signer(palm_of(hand_b))).norm());
     }
   }
-  ASSERT_GT(place.size(), 20u);
+  ASSERT_GT(place.size(), 10u);
   EXPECT_LT(quantile(palm, 1), 0.1f);
   EXPECT_LT(quantile(fingers, 1), 0.1f);
   EXPECT_LT(quantile(shape, 1), 0.06f);

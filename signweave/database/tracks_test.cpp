@@ -8,6 +8,7 @@
 
 #include "signweave/database/import.h"
 #include "signweave/database/test_recording.h"
+#include "signweave/features/gaze.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/formats/face_csv.h"
 #include "signweave/query/parse.h"

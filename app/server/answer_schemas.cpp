@@ -71,7 +71,7 @@ constexpr const char* kDatabaseAnswers = R"json({
   "Check": {"type": "object", "required": ["recordings", "faults"], "properties": {
     "recordings": {"type": "integer"}, "faults": {"type": "array", "items": {"type": "string"}}}},
   "FileFormats": {"type": "array", "items": {"type": "object",
-    "required": ["ending", "reads", "writes", "holds", "lost"], "properties": {"ending": {"type": "string"},
+    "required": ["ending", "name", "reads", "writes", "holds", "lost"], "properties": {"ending": {"type": "string"}, "name": {"type": "string"},
       "reads": {"type": "boolean"}, "writes": {"type": "boolean"},
       "holds": {"type": "string"}, "lost": {"type": "string"}}}},
   "OpenApi": {"type": "object", "required": ["openapi", "info", "paths"], "properties": {

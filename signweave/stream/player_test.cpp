@@ -92,7 +92,8 @@ TEST_P(PlayerBeside, ConcurrentPlayersGoOnWhileTheDatabaseIsChanged) {
       constexpr int kMostRoundsThatAppend = 50'000;
       for (int round = 0; !stop; ++round) {
         try {
-          if (round % 50 == 49 && round < kMostRoundsThatAppend) player.append(parse_utterance(i == 0 ? "DEUX UN" : "TROIS DEUX"));
+          if (round % 50 == 49 && round < kMostRoundsThatAppend)
+            player.append(parse_utterance(i == 0 ? "DEUX UN" : "TROIS DEUX"));
           const std::size_t ready = player.prepare(16);
           for (std::size_t k = 0; k < ready; ++k) ASSERT_TRUE(taker.take(player));
           while (const auto event = player.take_event()) {

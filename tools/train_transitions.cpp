@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iostream>
 
+#include "app/calls/evaluation_input.h"
 #include "app/cli/command.h"
-#include "app/cli/evaluation_input.h"
 #include "signweave/evaluation/spans.h"
 #include "signweave/evaluation/training.h"
 #include "signweave/transition/learned.h"
@@ -44,7 +44,8 @@ int main(int argc, char** argv) {
   }
   try {
     cli::Io io{.out = std::cout, .err = std::cerr};
-    const cli::EvaluationInput input = cli::read_evaluation_input({argv + 2, argv + argc}, {}, io);
+    const calls::EvaluationInput input =
+        calls::read_evaluation_input({argv + 2, argv + argc}, {}, cli::listener_of(io));
     const SpanChoice choice = choose_spans(input.recordings);
     const auto model = train(input.recordings, choice.spans).model();
     std::ofstream out(argv[1]);

@@ -140,7 +140,8 @@ BoundExpression Matcher::bind(const Expression& expression) {
     result.top = top_scope(expression, tier_names_);
     for (const Expression& operand : expression.operands) result.operands.push_back(bind(operand));
     if (expression.kind == Expression::Kind::all) {
-      std::ranges::stable_partition(result.operands, [](const auto& operand) { return !reads_motion(operand); });
+      std::stable_partition(result.operands.begin(), result.operands.end(),
+                            [](const BoundExpression& operand) { return !reads_motion(operand); });
     }
   }
   return result;

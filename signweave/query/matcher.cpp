@@ -141,7 +141,7 @@ BoundExpression Matcher::bind(const Expression& expression) {
     for (const Expression& operand : expression.operands) result.operands.push_back(bind(operand));
     if (expression.kind == Expression::Kind::all) {
       std::stable_partition(result.operands.begin(), result.operands.end(),
-                            [](const auto& operand) { return !reads_motion(operand); });
+                            [](const BoundExpression& operand) { return !reads_motion(operand); });
     }
   }
   return result;

@@ -45,6 +45,19 @@ std::optional<fs::path> annotation_beside(const fs::path& motion) {
   return std::nullopt;
 }
 
+/// Throws where a file that is read would be written over.
+void keep_inputs(const ImportJob& job, const std::optional<fs::path>& annotation,
+                 const std::vector<std::string>& outputs) {
+  for (const std::optional<fs::path>& input : {job.motion, job.annotation, job.face, annotation}) {
+    if (!input) continue;
+    for (const std::string& output : outputs) {
+      std::error_code ignored;
+      if (!fs::equivalent(*input, output, ignored)) continue;
+      throw Error(ErrorCode::bad_input, output + ": is what is converted; write to another file");
+    }
+  }
+}
+
 void read_motion_half(const ImportJob& job, const ConvertCall& call, const std::function<void(double)>& progress,
                       Exported& made) {
   motion_file::ReadOptions options = read_options(call.reading);
@@ -77,12 +90,20 @@ Exported run(const std::vector<fs::path>& inputs, const ConvertCall& call, const
   const std::optional<fs::path> annotation = job.annotation ? job.annotation
                                              : job.motion   ? annotation_beside(*job.motion)
                                                             : std::nullopt;
+  keep_inputs(job, annotation, outputs);
   if (annotation) {
-    annotation_file::File file = annotation_file::read(*annotation);
-    made.info.declarations = declarations_of(file.document);
-    if (std::ranges::any_of(outputs, is_document)) {
-      made.notices.insert(made.notices.end(), file.notices.begin(), file.notices.end());
-      made.document = std::move(file.document);
+    const bool asked = job.annotation || std::ranges::any_of(outputs, is_document);
+    try {
+      annotation_file::File file = annotation_file::read(*annotation);
+      made.info.declarations = declarations_of(file.document);
+      if (std::ranges::any_of(outputs, is_document)) {
+        made.notices.insert(made.notices.end(), file.notices.begin(), file.notices.end());
+        made.document = std::move(file.document);
+      }
+    } catch (const Error& error) {
+      if (asked) throw;
+      made.notices.push_back(
+          {{}, fmt::format("what the annotation beside it declares is not known: {}", error.what())});
     }
   }
   if (job.motion && !std::ranges::all_of(outputs, is_document)) read_motion_half(job, call, progress, made);

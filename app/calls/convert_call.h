@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/calls/export_call.h"
+#include "app/calls/import_call.h"
 #include "app/calls/motion_reading.h"
 #include "app/calls/motion_writing.h"
 
@@ -29,7 +30,9 @@ void fields(Visit& visit, ConvertCall& call) {
   fields(visit, call.reading);
   visit(Field{.name = "face_offset_ms", .help = "the motion's time of a face capture's first row; else 0"},
         call.face_offset_ms);
-  visit(Field{.name = "face_timecode", .help = "HH:MM:SS:FF of the motion's frame 0, on the clock of the face capture"},
+  visit(Field{.name = "face_timecode",
+              .help = "HH:MM:SS:FF of the motion's frame 0, on the clock of the face capture",
+              .check = check_timecode},
         call.face_timecode);
   visit(Field{.name = "rig",
               .help = "mapping file: lines 'part = joint' for what the joints' names do not tell",

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "signweave/formats/face_csv.h"
+
 namespace signweave::calls {
 
 using nlohmann::json;
@@ -45,6 +47,10 @@ std::optional<SyncPoint> parse_sync(const std::string& text) {
 }
 
 }  // namespace
+
+std::string check_timecode(const std::string& text) {
+  return face_csv::seconds_of(text, {60, 1}) ? std::string() : "expected HH:MM:SS:FF, such as 10:20:30:15";
+}
 
 std::string check_sync(const std::string& text) {
   return parse_sync(text) ? std::string() : "expected FRAME@MS, such as 120@4010";

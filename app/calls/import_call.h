@@ -29,6 +29,9 @@ struct ImportCall {
   bool replace_motion = false;
 };
 
+/// Empty, or why `text` is no timecode.
+std::string check_timecode(const std::string& text);
+
 /// Empty, or why `text` is no FRAME@MS.
 std::string check_sync(const std::string& text);
 
@@ -48,7 +51,9 @@ void fields(Visit& visit, ImportCall& call) {
   visit(Field{.name = "sync", .help = "FRAME@MS, given twice: sets offset and drift", .check = check_sync}, call.syncs);
   visit(Field{.name = "face_offset_ms", .help = "the motion's time of a face capture's first row; else 0"},
         call.face_offset_ms);
-  visit(Field{.name = "face_timecode", .help = "HH:MM:SS:FF of the motion's frame 0, on the clock of the face capture"},
+  visit(Field{.name = "face_timecode",
+              .help = "HH:MM:SS:FF of the motion's frame 0, on the clock of the face capture",
+              .check = check_timecode},
         call.face_timecode);
   visit(Field{.name = "rig",
               .help = "mapping file: lines 'part = joint' for what the joints' names do not tell; remembered, an empty "

@@ -195,6 +195,10 @@ Run info(CLI::App& verb) {
       info_of_annotation(options->path, io);
     } else if (kind == FileKind::face) {
       info_of_face(options->path, io);
+    } else if (kind == FileKind::motion_part) {
+      throw Error(ErrorCode::unsupported, options->path +
+                                              ": holds no motion of its own; name a motion file beside it " +
+                                              readable_endings(FileKind::motion));
     } else {
       throw Error(ErrorCode::unsupported,
                   options->path + ": of a kind that cannot be read; signweave formats lists those that can");

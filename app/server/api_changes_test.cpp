@@ -89,6 +89,13 @@ TEST(ApiChanges, NamesThatAreNoPlainFileNameAreRefused) {
   EXPECT_EQ(api.put(at({"uploads", id, "files", "été 天気.bvh"}), "x").status, 200);
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"pairs", "../../x"}})), StartsWith("400"));
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"rig", "none"}})), StartsWith("404"));
+  for (const char* field : {"pairs", "phase_labels", "rig", "skeleton"}) {  // nothing outside of the upload is opened
+    for (const char* path : {"/etc/passwd", "../x", "/dev/zero"}) {
+      EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{field, path}})), StartsWith("400"))
+          << field << ' ' << path;
+    }
+  }
+  EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"skeleton", "none.asf"}})), StartsWith("404"));
   EXPECT_EQ(api.put(at({"uploads", id, "files", "pairs.csv"}), "/etc/passwd,,x,0\n").status, 200);
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"pairs", "pairs.csv"}})),
               HasSubstr("without folders"));

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <cassert>
+#include <type_traits>
+
 #include <algorithm>
 
 #include "app/calls/import_call.h"
@@ -21,6 +24,20 @@ void resolve(std::string& file, const std::filesystem::path& folder, std::string
   }
   file = path.string();
 }
+
+/// Does so with every field of a call that names a file, whatever fields it has.
+struct ResolveFiles {
+  const std::filesystem::path& folder;
+
+  template <class Member>
+  void operator()(const calls::Field& field, Member& member) const {
+    if constexpr (std::is_same_v<Member, std::string>) {
+      if (field.is_file) resolve(member, folder, field.name);
+    } else {
+      assert(!field.is_file);
+    }
+  }
+};
 
 /// A table of pairs tells paths; one that comes over the network may only name files beside it.
 void require_plain_table(const std::string& table) {
@@ -109,9 +126,8 @@ ApiResponse import_upload(Call& call) {
   Uploads& uploads = call.state.uploads;
   const std::filesystem::path folder = uploads.hold(served.name(), upload);
   try {
-    resolve(parameters.pairs, folder, "pairs");
-    resolve(parameters.phase_labels, folder, "phase_labels");
-    resolve(parameters.rig, folder, "rig");
+    const ResolveFiles resolve_files{folder};
+    fields(resolve_files, parameters);
     require_plain_table(parameters.pairs);
     const ImportOptions options = calls::options_of(parameters);
     const Pairing pairing = calls::pairing_of(

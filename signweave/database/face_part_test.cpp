@@ -7,6 +7,7 @@
 
 #include "signweave/database/import.h"
 #include "signweave/database/test_recording.h"
+#include "signweave/formats/gltf.h"
 
 namespace signweave {
 namespace {
@@ -93,6 +94,33 @@ TEST_F(FacePart, ItsTracksStandInsteadOfTheMotionsOwnOfTheSameName) {
   EXPECT_NEAR(motion.tracks()[1].values[50], 0.5f, 1e-6f);
   EXPECT_THAT(notices.at(0).text, HasSubstr("the face ends 1.0 s before"));
   EXPECT_THAT(notices.at(1).text, HasSubstr("1 track of the motion file take their values from the face"));
+}
+
+TEST_F(FacePart, OfAMotionWithTracksOfItsOwnTheyComeBackWhenAnotherFaceLacksThem) {
+  Motion motion = small_motion(200, 1);
+  motion.add_track({"jawOpen", std::vector<float>(200, 0.75f)});
+  gltf::write(folder_ / "g.glb", motion, {.name = "g"});
+  const auto import_g = [&](const ImportOptions& options) {
+    Database database(folder_ / "db", kv::Access::read_write);
+    return import_recording(database, pair_files({folder_ / "g.glb"}).jobs.at(0), options).outcome;
+  };
+  const auto track = [&](std::string_view name) -> std::optional<float> {
+    const Motion stored = Database(folder_ / "db", kv::Access::read_only).read("g");
+    for (const ScalarTrack& one : stored.tracks()) {
+      if (one.name == name) return one.values.at(100);
+    }
+    return std::nullopt;
+  };
+  EXPECT_EQ(import_g({}), ImportOutcome::added);
+  EXPECT_NEAR(track("jawOpen").value(), 0.75f, 1e-6f);
+  std::ofstream(folder_ / "g.face.csv") << kFaceText;
+  EXPECT_EQ(import_g({}), ImportOutcome::face_added);
+  EXPECT_NEAR(track("jawOpen").value(), 1.0f, 1e-6f);
+  std::ofstream(folder_ / "g.face.csv") << "Timecode,BlendShapeCount,TongueOut\n10:00:10:00,1,0.5\n";
+  EXPECT_EQ(import_g({.replace_motion = true}), ImportOutcome::motion_replaced);
+  EXPECT_NEAR(track("jawOpen").value(), 0.75f, 1e-6f);
+  EXPECT_NEAR(track("tongueOut").value(), 0.5f, 1e-6f);
+  EXPECT_EQ(import_g({}), ImportOutcome::unchanged);
 }
 
 TEST_F(FacePart, ATablePairsItWithAnOffset) {

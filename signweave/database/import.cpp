@@ -262,7 +262,9 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   // The motion.
   FrameRate rate = motion_known ? known->motion->rate : FrameRate{};
   report.frames = motion_known ? known->motion->frames : 0;
-  if (new_face || other_face) {  // to the motion as it was read then, whatever it was read with
+  // A motion without a layout may have tracks of its own, which a face before may have stood instead of: it is read
+  // anew.
+  if ((new_face || other_face) && known->layout) {  // to the motion as it was read then, whatever it was read with
     Motion stored = database.read(recording.name);
     std::vector<ScalarTrack> tracks = stored.take_tracks();
     for (std::size_t i = 0; i < known->own_tracks; ++i) stored.add_track(std::move(tracks[i]));
@@ -280,6 +282,10 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     keep_notices(*known, known->motion_file, recording.notices);
   } else if (new_motion) {
     motion_file::ReadOptions read_options = options.motion;
+    if (known && !known->layout && motion_file::told(*job.motion, options.motion).empty()) {  // as it was told before
+      read_options = motion_file::options_told(known->reading);
+      read_options.skeleton = options.motion.skeleton;
+    }
     read_options.progress = half(progress, 0);
     motion_file::File file = motion_file::read(*job.motion, read_options);
     rate = file.motion.rate();
@@ -293,7 +299,7 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                                   .face_file = {},
                                   .face_fingerprint = 0};
     recording.motion->declarations = std::move(file.declarations);
-    if (!recording.motion->layout) recording.motion->reading = motion_file::told(*job.motion, options.motion);
+    if (!recording.motion->layout) recording.motion->reading = motion_file::told(*job.motion, read_options);
     recording.motion->own_tracks = recording.motion->motion.tracks().size();
     if (!job.face && known && !known->face_file.empty()) {
       recording.notices.push_back({known->face_file, "was not given again, so its face is gone"});

@@ -42,7 +42,34 @@ Layout default_layout(const Skeleton& skeleton) {
   return layout;
 }
 
+namespace {
+
+/// A turn of all axes takes what one column held to others: a joint with some positions or rotations gets all three.
+void widen(std::vector<Channel>& channels) {
+  const auto some = [&](bool rotations) {
+    return std::any_of(channels.begin(), channels.end(), [&](Channel c) { return is_rotation(c) == rotations; });
+  };
+  const auto add = [&](std::initializer_list<Channel> all, std::ptrdiff_t at) {
+    for (const Channel channel : all) {
+      if (std::find(channels.begin(), channels.end(), channel) != channels.end()) continue;
+      channels.insert(channels.begin() + at++, channel);
+    }
+  };
+  if (some(false)) {  // behind the last position, before what follows
+    const auto last = std::find_if(channels.rbegin(), channels.rend(), [](Channel c) { return !is_rotation(c); });
+    add({Channel::x_position, Channel::y_position, Channel::z_position}, last.base() - channels.begin());
+  }
+  if (some(true)) {
+    add({Channel::z_rotation, Channel::x_rotation, Channel::y_rotation}, std::ssize(channels));
+  }
+}
+
+}  // namespace
+
 Layout with(Layout layout, const LayoutWishes& wishes) {
+  if (wishes.up && *wishes.up != layout.up) {
+    for (std::vector<Channel>& channels : layout.channels) widen(channels);
+  }
   if (wishes.order) {
     for (std::vector<Channel>& channels : layout.channels) {
       std::erase_if(channels, is_rotation);

@@ -53,5 +53,19 @@ TEST(MotionFiles, SayWhichOptionsTheyPassOver) {
   EXPECT_EQ(motion_file::told(file, options), "unit=0.01");
 }
 
+TEST(MotionFiles, WhatTheyWereToldIsToldBack) {
+  motion_file::ReadOptions options;
+  options.unit = 0.0254;
+  options.rate = FrameRate{30'000, 1001};
+  options.take = "walk;unit=3=x";
+  const std::string line = motion_file::told("a.glb", options);
+  const motion_file::ReadOptions back = motion_file::options_told(line);
+  EXPECT_EQ(back.unit, options.unit);
+  EXPECT_EQ(back.rate, options.rate);
+  EXPECT_EQ(back.take, options.take);
+  EXPECT_EQ(motion_file::told("a.glb", back), line);
+  EXPECT_EQ(motion_file::told("a.glb", motion_file::options_told("")), "");
+}
+
 }  // namespace
 }  // namespace signweave

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <map>
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
@@ -190,6 +191,7 @@ std::string outside_bytes(const std::string& place, const fs::path& path) {
 void add_buffers(Content& content, nlohmann::json& json, const GlbParts& parts, const fs::path& folder) {
   const auto list = json.find("buffers");
   if (list == json.end()) return;
+  std::map<fs::path, std::string_view> outside;  // each file is read once, however many buffers it is
   for (std::size_t i = 0; i < list->size(); ++i) {
     nlohmann::json& buffer = (*list)[i];
     const std::string place = fmt::format("{}: buffer {}", content.name, i);
@@ -199,11 +201,16 @@ void add_buffers(Content& content, nlohmann::json& json, const GlbParts& parts, 
       const std::string text = std::move(uri->get_ref<std::string&>());
       if (is_data_uri(text)) {
         content.owned.push_back(data_of_uri(place, text));
+        bytes = content.owned.back();
       } else {
-        content.owned.push_back(outside_bytes(place, path_of_uri(place, text, folder)));
-        content.byte_count += content.owned.back().size();
+        const fs::path path = path_of_uri(place, text, folder);
+        const auto known = outside.find(path);
+        if (known == outside.end()) {
+          content.owned.push_back(outside_bytes(place, path));
+          content.byte_count += content.owned.back().size();
+        }
+        bytes = known == outside.end() ? outside.emplace(path, content.owned.back()).first->second : known->second;
       }
-      bytes = content.owned.back();
     } else if (i == 0 && parts.bytes) {
       bytes = *parts.bytes;
     } else {
@@ -237,7 +244,7 @@ Content content_of(const std::string& name, std::string_view bytes, const fs::pa
     content.is_light.push_back(!member_of(member_of(node, "extensions"), "KHR_lights_punctual").is_null());
   }
   for (const auto& [key, value] : member_of(member_of(json, "asset"), "extras").items()) {
-    if (value.is_string()) content.declarations.emplace_back(key, value.get<std::string>());
+    if (value.is_string()) content.declarations.emplace_back(printable(key), printable(value.get<std::string>()));
   }
   if (const auto animations = json.find("animations"); animations != json.end()) {
     for (nlohmann::json& animation : *animations) {

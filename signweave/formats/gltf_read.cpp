@@ -154,8 +154,9 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files = {path};
   const std::string bytes = read_file(path);
   try {
+    std::set<std::filesystem::path> known = {path};
     for (std::filesystem::path& buffer : outside_buffers(path.string(), bytes, folder_of(path))) {
-      if (std::ranges::find(files, buffer) == files.end()) files.push_back(std::move(buffer));
+      if (known.insert(buffer).second) files.push_back(std::move(buffer));
     }
   } catch (const Error&) {
     // What is wrong with it is told when it is read.

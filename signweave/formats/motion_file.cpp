@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/bytes.h"
@@ -89,8 +90,8 @@ std::vector<Telling> tellings(const ReadOptions& options) {
           {"root-order", options.root_columns == bvh::RootColumns::rotation_first ? "rotation_first" : ""},
           {"mirror", options.mirror ? "yes" : ""},
           {"source-rate", options.rate ? to_string(*options.rate) : ""},
-          {"take", options.take},
-          {"skeleton", options.skeleton.empty() ? "" : "given"}};
+          {"skeleton", options.skeleton.empty() ? "" : "given"},
+          {"take", options.take}};  // the last, for a name may hold anything
 }
 
 struct MotionReader {
@@ -152,6 +153,31 @@ std::string told(const fs::path& path, const ReadOptions& options) {
     line += fmt::format("{}{}={}", line.empty() ? "" : ";", one.option, one.text);
   }
   return line;
+}
+
+ReadOptions options_told(std::string_view line) {
+  ReadOptions options;
+  while (!line.empty()) {
+    const std::size_t equals = line.find('=');
+    const std::string_view option = line.substr(0, equals);
+    const std::string_view rest = equals == line.npos ? std::string_view() : line.substr(equals + 1);
+    const std::size_t end = option == "take" ? rest.size() : std::min(rest.find(';'), rest.size());
+    const std::string text(rest.substr(0, end));
+    line = end < rest.size() ? rest.substr(end + 1) : std::string_view();
+    const auto number = [&] {
+      double value = 0;
+      std::from_chars(text.data(), text.data() + text.size(), value);
+      return value;
+    };
+    if (option == "up") options.up = text == "z" ? bvh::UpAxis::z : bvh::UpAxis::y;
+    if (option == "unit") options.unit = number();
+    if (option == "root-unit") options.root_unit = number();
+    if (option == "root-order") options.root_columns = bvh::RootColumns::rotation_first;
+    if (option == "mirror") options.mirror = true;
+    if (option == "source-rate") options.rate = parse_frame_rate(text);
+    if (option == "take") options.take = text;
+  }
+  return options;
 }
 
 }  // namespace signweave::motion_file

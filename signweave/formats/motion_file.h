@@ -46,4 +46,7 @@ std::uint64_t fingerprint(const std::filesystem::path& path, const ReadOptions& 
 /// formats without a layout: of a BVH file the layout tells it.
 std::string told(const std::filesystem::path& path, const ReadOptions& options);
 
+/// What such a line says, in options.
+ReadOptions options_told(std::string_view line);
+
 }  // namespace signweave::motion_file

@@ -65,8 +65,8 @@ void read_motion_half(const ImportJob& job, const ConvertCall& call, const std::
   motion_file::File file = motion_file::read(*job.motion, options);
   made.notices.insert(made.notices.end(), file.notices.begin(), file.notices.end());
   if (job.face) {
-    const auto given = call.face_offset_ms ? std::optional(Seconds(*call.face_offset_ms / 1000.0)) : std::nullopt;
-    const auto timecode = call.face_timecode.empty() ? std::nullopt : std::optional(call.face_timecode);
+    const auto given = call.face.offset_ms ? std::optional(Seconds(*call.face.offset_ms / 1000.0)) : std::nullopt;
+    const auto timecode = call.face.timecode.empty() ? std::nullopt : std::optional(call.face.timecode);
     add_face(*job.face, given_face_offset(*job.face, given, timecode).value_or(Seconds(0)), file.motion, made.notices);
   }
   made.frames = {0, file.motion.frame_count()};

@@ -16,8 +16,7 @@ namespace signweave::calls {
 /// Writes the files of one recording as files of other formats, without a database.
 struct ConvertCall {
   MotionReading reading;
-  std::optional<double> face_offset_ms;
-  std::string face_timecode;
+  FacePlacing face;
   std::string rig;
   std::string character;
   bool signing_space = false;
@@ -28,12 +27,7 @@ struct ConvertCall {
 template <class Visit>
 void fields(Visit& visit, ConvertCall& call) {
   fields(visit, call.reading);
-  visit(Field{.name = "face_offset_ms", .help = "the motion's time of a face capture's first row; else 0"},
-        call.face_offset_ms);
-  visit(Field{.name = "face_timecode",
-              .help = "HH:MM:SS:FF of the motion's frame 0, on the clock of the face capture",
-              .check = check_timecode},
-        call.face_timecode);
+  fields(visit, call.face);
   visit(Field{.name = "rig",
               .help = "mapping file: lines 'part = joint' for what the joints' names do not tell",
               .is_file = true,

@@ -3,8 +3,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "signweave/formats/face_csv.h"
-
 namespace signweave::calls {
 
 using nlohmann::json;
@@ -48,10 +46,6 @@ std::optional<SyncPoint> parse_sync(const std::string& text) {
 
 }  // namespace
 
-std::string check_timecode(const std::string& text) {
-  return face_csv::seconds_of(text, {60, 1}) ? std::string() : "expected HH:MM:SS:FF, such as 10:20:30:15";
-}
-
 std::string check_sync(const std::string& text) {
   return parse_sync(text) ? std::string() : "expected FRAME@MS, such as 120@4010";
 }
@@ -87,8 +81,8 @@ ImportOptions options_of(const ImportCall& call) {
   options.phase_tiers = call.phase_tiers;
   if (!call.phase_labels.empty()) options.phase_labels = read_phase_labels(call.phase_labels);
   if (call.offset_ms) options.offset = Seconds(*call.offset_ms / 1000.0);
-  if (call.face_offset_ms) options.face_offset = Seconds(*call.face_offset_ms / 1000.0);
-  if (!call.face_timecode.empty()) options.face_timecode = call.face_timecode;
+  if (call.face.offset_ms) options.face_offset = Seconds(*call.face.offset_ms / 1000.0);
+  if (!call.face.timecode.empty()) options.face_timecode = call.face.timecode;
   for (const std::string& sync : call.syncs) options.sync.push_back(*parse_sync(sync));
   if (!call.rig.empty()) options.rig = read_rig_names(call.rig);
   options.replace_motion = call.replace_motion;

@@ -23,14 +23,10 @@ struct ImportCall {
   MotionReading reading;
   std::optional<double> offset_ms;
   std::vector<std::string> syncs;
-  std::optional<double> face_offset_ms;
-  std::string face_timecode;
+  FacePlacing face;
   std::string rig;
   bool replace_motion = false;
 };
-
-/// Empty, or why `text` is no timecode.
-std::string check_timecode(const std::string& text);
 
 /// Empty, or why `text` is no FRAME@MS.
 std::string check_sync(const std::string& text);
@@ -49,12 +45,7 @@ void fields(Visit& visit, ImportCall& call) {
   fields(visit, call.reading);
   visit(Field{.name = "offset_ms", .help = "annotation time of frame 0"}, call.offset_ms);
   visit(Field{.name = "sync", .help = "FRAME@MS, given twice: sets offset and drift", .check = check_sync}, call.syncs);
-  visit(Field{.name = "face_offset_ms", .help = "the motion's time of a face capture's first row; else 0"},
-        call.face_offset_ms);
-  visit(Field{.name = "face_timecode",
-              .help = "HH:MM:SS:FF of the motion's frame 0, on the clock of the face capture",
-              .check = check_timecode},
-        call.face_timecode);
+  fields(visit, call.face);
   visit(Field{.name = "rig",
               .help = "mapping file: lines 'part = joint' for what the joints' names do not tell; remembered, an empty "
                       "file forgets",

@@ -1,6 +1,12 @@
 #include "app/calls/motion_reading.h"
 
+#include "signweave/formats/face_csv.h"
+
 namespace signweave::calls {
+std::string check_timecode(const std::string& text) {
+  return face_csv::seconds_of(text, {60, 1}) ? std::string() : "expected HH:MM:SS:FF, such as 10:20:30:15";
+}
+
 motion_file::ReadOptions read_options(const MotionReading& reading) {
   motion_file::ReadOptions result;
   if (!reading.up.empty()) result.up = reading.up == "z" ? bvh::UpAxis::z : bvh::UpAxis::y;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/calls/field.h"
@@ -52,6 +53,25 @@ void fields(Visit& visit, MotionReading& reading) {
               .is_file = true,
               .type_name = "FILE"},
         reading.skeleton);
+}
+
+/// Empty, or why `text` is no timecode.
+std::string check_timecode(const std::string& text);
+
+/// Where a face capture begins in its motion. Without either: with it.
+struct FacePlacing {
+  std::optional<double> offset_ms;
+  std::string timecode;
+};
+
+template <class Visit>
+void fields(Visit& visit, FacePlacing& face) {
+  visit(Field{.name = "face_offset_ms", .help = "the motion's time of a face capture's first row; else 0"},
+        face.offset_ms);
+  visit(Field{.name = "face_timecode",
+              .help = "HH:MM:SS:FF of the motion's frame 0, on the clock of the face capture",
+              .check = check_timecode},
+        face.timecode);
 }
 
 /// Of checked fields.

@@ -33,14 +33,7 @@ Run convert(CLI::App& verb) {
         calls::run(inputs, options->call, options->outputs, [&](double fraction) { progress.show(fraction); });
     progress.hide();
     if (character && made.motion) show_on(made, calls::stance_of(*made.motion, made.info.rig), character);
-    print_notices(io, made.notices);
-    for (const std::string& path : options->outputs) write_recording(path, made.outgoing());
-    for (const auto& [name, value] : made.info.declarations) io.err << "signweave: " << value << '\n';
-    if (io.json) {
-      nlohmann::json report = json_of(made);
-      report["files"] = options->outputs;
-      io.out << text_of(report);
-    }
+    deliver(made, options->outputs, io);
   };
 }
 

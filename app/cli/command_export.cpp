@@ -27,14 +27,7 @@ Run export_recording(CLI::App& verb) {
     const calls::SharedCharacter character = character_of(options->call.character);
     calls::Exported made = calls::run(database, options->call, options->outputs);
     if (character) show_on(made, stance_of(database, made.info), character);
-    print_notices(io, made.notices);
-    for (const std::string& path : options->outputs) write_recording(path, made.outgoing());
-    for (const auto& [name, value] : made.info.declarations) io.err << "signweave: " << value << '\n';
-    if (io.json) {
-      nlohmann::json report = json_of(made);
-      report["files"] = options->outputs;
-      io.out << text_of(report);
-    }
+    deliver(made, options->outputs, io);
   };
 }
 

@@ -68,6 +68,16 @@ void add_outputs(CLI::App& verb, std::vector<std::string>& outputs) {
       ->check([](const std::string& path) { return check_output(path); });
 }
 
+void deliver(const calls::Exported& made, const std::vector<std::string>& outputs, Io& io) {
+  print_notices(io, made.notices);
+  for (const std::string& path : outputs) write_recording(path, made.outgoing());
+  for (const auto& [name, value] : made.info.declarations) io.err << "signweave: " << value << '\n';
+  if (!io.json) return;
+  nlohmann::json report = json_of(made);
+  report["files"] = outputs;
+  io.out << text_of(report);
+}
+
 calls::SharedCharacter character_of(const std::string& file) {
   return file.empty() ? nullptr : calls::read_character_file(file);
 }

@@ -9,6 +9,14 @@
 
 #include "signweave/stream/test_allocations.h"
 
+// Clang's thread sanitizer has an operator new of its own, which tells of every allocation.
+#ifdef __has_feature
+#if __has_feature(thread_sanitizer)
+#define SIGNWEAVE_TOLD_OF_ALLOCATIONS
+#include <sanitizer/allocator_interface.h>
+#endif
+#endif
+
 #if defined(__GNUC__) && !defined(__clang__)
 // What is allocated here is freed here; at some levels of optimisation GCC sees only one of the two.
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
@@ -17,6 +25,18 @@
 namespace {
 std::atomic<bool> counting = false;
 std::atomic<std::size_t> allocations = 0;
+
+#ifdef SIGNWEAVE_TOLD_OF_ALLOCATIONS
+
+void on_allocation(const volatile void*, std::size_t) {
+  if (counting) ++allocations;
+}
+void on_release(const volatile void*) {}
+[[maybe_unused]] const int installed = __sanitizer_install_malloc_and_free_hooks(on_allocation, on_release);
+
+}  // namespace
+
+#else
 
 void* counted(std::size_t size) {
   if (counting) ++allocations;
@@ -52,6 +72,8 @@ void operator delete(void* memory, std::size_t) noexcept {
 void operator delete[](void* memory, std::size_t) noexcept {
   std::free(memory);
 }
+
+#endif
 
 namespace signweave {
 

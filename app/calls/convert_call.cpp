@@ -5,9 +5,11 @@
 #include <algorithm>
 
 #include "signweave/core/text.h"
+#include "signweave/database/declarations.h"
 #include "signweave/database/face_part.h"
 #include "signweave/database/import.h"
 #include "signweave/formats/annotation_file.h"
+#include "signweave/formats/file_format.h"
 #include "signweave/formats/motion_file.h"
 
 namespace signweave::calls {
@@ -26,20 +28,12 @@ ImportJob only_job(const std::vector<fs::path>& inputs, std::vector<Notice>& not
                           printable(pairing.jobs[0].name), printable(pairing.jobs[1].name)));
 }
 
-/// What an annotation says of its recording and must not be lost.
-std::vector<std::pair<std::string, std::string>> declarations_of(const AnnotationDocument& document) {
-  std::vector<std::pair<std::string, std::string>> declarations;
-  for (const auto& property : document.properties) {
-    if (property.first.starts_with("signweave:")) declarations.push_back(property);
-  }
-  return declarations;
-}
-
 /// The annotation file of a motion's name beside it; or none.
 std::optional<fs::path> annotation_beside(const fs::path& motion) {
   std::error_code ignored;
-  for (const char* ending : {".eaf", ".anvil"}) {
-    const fs::path path = fs::path(motion).replace_extension(ending);
+  for (const FileFormat& format : file_formats()) {
+    if (format.kind != FileKind::annotation || !format.reads) continue;
+    const fs::path path = fs::path(motion).replace_extension(format.ending);
     if (fs::is_regular_file(path, ignored)) return path;
   }
   return std::nullopt;
@@ -71,10 +65,7 @@ void read_motion_half(const ImportJob& job, const ConvertCall& call, const std::
   }
   made.frames = {0, file.motion.frame_count()};
   made.info.layout = std::move(file.layout);
-  for (auto& declaration : file.declarations) {
-    if (std::ranges::find(made.info.declarations, declaration) != made.info.declarations.end()) continue;
-    made.info.declarations.push_back(std::move(declaration));
-  }
+  add_new(file.declarations, made.info.declarations);
   made.motion = at_rate(std::move(file.motion), call.rate, job.motion->string(), made.notices);
 }
 

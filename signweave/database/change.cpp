@@ -7,6 +7,7 @@
 #include "signweave/core/text.h"
 #include "signweave/database/catalogue.h"
 #include "signweave/database/database.h"
+#include "signweave/database/declarations.h"
 #include "signweave/database/measure.h"
 #include "signweave/database/movement.h"
 #include "signweave/database/tables.h"
@@ -53,15 +54,6 @@ void Database::require_writable() const {
 }
 
 namespace {
-
-using Declarations = std::vector<std::pair<std::string, std::string>>;
-
-/// Adds those that are not there.
-void add_new(const Declarations& more, Declarations& declarations) {
-  for (const auto& one : more) {
-    if (std::ranges::find(declarations, one) == declarations.end()) declarations.push_back(one);
-  }
-}
 
 /// Throws Error{io} unless what was stored reads back as the motion, to the bit.
 void verify(const kv::ReadTransaction& snapshot, const motion_db::StoredMotion& stored, const Motion& motion) {
@@ -240,10 +232,7 @@ void Database::put(const Recording& recording, const Progress& progress) {
     info.tiers = recording.annotation->tiers;
     info.annotation_file = recording.annotation->file;
     info.annotation_fingerprint = recording.annotation->fingerprint;
-    info.declarations.clear();
-    for (const auto& property : recording.annotation->document.properties) {
-      if (property.first.starts_with("signweave:")) info.declarations.push_back(property);
-    }
+    info.declarations = declarations_of(recording.annotation->document);
     add_new(info.motion_declarations, info.declarations);
     semantic_db::put_document(*transaction, info.document, source, specification, head.documents);
     semantic_db::put(*transaction, info.document, segments);

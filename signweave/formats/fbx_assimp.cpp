@@ -33,33 +33,15 @@ class RecordWriter {
 
   template <typename Values, typename Children>
   void record(std::string_view name, const Values& values, const Children& children) {
-    const std::size_t head = text_.size();
-    text_.append(12, '\0');
-    text_.push_back(static_cast<char>(name.size()));
-    text_.append(name);
-    count_ = 0;
-    const std::size_t begin = text_.size();
-    values();
-    const std::uint32_t count = count_;
-    const std::size_t size = text_.size() - begin;
+    const std::size_t head = open(name, values);
     children();
     text_.append(13, '\0');
     put(head, text_.size());
-    put(head + 4, count);
-    put(head + 8, size);
   }
   template <typename Values>
   void leaf(std::string_view name, const Values& values) {
-    const std::size_t head = text_.size();
-    text_.append(12, '\0');
-    text_.push_back(static_cast<char>(name.size()));
-    text_.append(name);
-    count_ = 0;
-    const std::size_t begin = text_.size();
-    values();
+    const std::size_t head = open(name, values);
     put(head, text_.size());
-    put(head + 4, count_);
-    put(head + 8, text_.size() - begin);
   }
 
   void whole(std::int64_t value) {
@@ -89,6 +71,21 @@ class RecordWriter {
   }
 
  private:
+  /// Writes a record up to its values; where its end belongs, which is known later, is the answer.
+  template <typename Values>
+  std::size_t open(std::string_view name, const Values& values) {
+    const std::size_t head = text_.size();
+    text_.append(12, '\0');
+    text_.push_back(static_cast<char>(name.size()));
+    text_.append(name);
+    count_ = 0;
+    const std::size_t begin = text_.size();
+    values();
+    put(head + 4, count_);
+    put(head + 8, text_.size() - begin);
+    return head;
+  }
+
   void type(char of) {
     text_.push_back(of);
     ++count_;

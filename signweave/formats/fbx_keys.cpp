@@ -112,7 +112,12 @@ Curves read_curves(const Source& source, const std::vector<const Record*>& recor
   std::size_t keys = 0;
   const auto read_checked = [&] {
     if (checked.empty()) return;
-    std::vector<Curve> read = read_by_assimp(document_of_curves(checked), checked.size());
+    std::vector<Curve> read;
+    try {
+      read = read_by_assimp(document_of_curves(checked), checked.size());
+    } catch (const Error& error) {  // it knows no file
+      source.fail(order[0]->place, error.what());
+    }
     for (std::size_t i = 0; i < order.size(); ++i) {
       if (read[i].ticks != checked[i].ticks || read[i].values != checked[i].values) {
         source.fail(order[i]->place,

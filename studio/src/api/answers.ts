@@ -44,3 +44,22 @@ export interface ReportSign {
 }
 /** What `sign` and `edit` tell of what they made. */
 export interface Report { readonly signs: readonly ReportSign[] }
+
+/** What is in a database, for completion. */
+export interface Vocabulary {
+  /** In the order of the alphabet, with the number of tokens that can be found. */
+  readonly glosses: readonly { readonly gloss: string; readonly tokens: number }[]
+  readonly tiers: readonly string[]
+  readonly recordings: readonly string[]
+  readonly signers: readonly string[]
+  /** The words of the query language, by what they are. */
+  readonly language: Readonly<Record<'fields' | 'links' | 'phases' | 'hands' | 'functions', readonly string[]>>
+}
+export interface JobBegun { readonly job: string }
+export interface JobState<Result> {
+  readonly state: 'waiting' | 'running' | 'done' | 'failed' | 'cancelled'
+  /** 0 to 1. */
+  readonly fraction: number
+  readonly result?: Result
+  readonly error?: { readonly message: string; readonly code: string }
+}

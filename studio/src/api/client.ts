@@ -1,9 +1,16 @@
 import { readFrames, type FrameTaker } from '../motion/frames_body'
 import type { Declarations } from '../motion/source'
-import type { CharacterRow, DatabaseRow, GlossRow, MediaRow, RecordingInfo, RecordingRow, Statistics } from './answers'
+import type { CharacterRow, DatabaseRow, GlossRow, JobBegun, JobState, MediaRow, RecordingInfo, RecordingRow, Statistics, Vocabulary } from './answers'
 import { ApiError, StudioFault } from './fault'
 
 type Query = Readonly<Record<string, string | number | undefined>>
+
+/** Which piece of a recording, in ms of annotation time, and what is made anew in it. */
+export interface PieceWishes {
+  readonly from: number; readonly to: number; readonly character?: string
+  /** `FROM..TO` in ms: captured frames that are cut out and made again by the method `transition`. */
+  readonly remake?: string; readonly transition?: string
+}
 
 /** The calls of docs/http.md that the studio makes. */
 export class Api {
@@ -61,6 +68,29 @@ export class Api {
   async made(database: string, call: 'sign' | 'edit', body: object, character: string | undefined, taker: FrameTaker, signal?: AbortSignal): Promise<void> {
     const response = await this.post(path('databases', database, call), { ...body, character, format: 'frames' }, signal)
     await readFrames(response.body!, taker)
+  }
+  /** A piece of a recording, as `motion` gives it. */
+  async piece(database: string, recording: string, wishes: PieceWishes, taker: FrameTaker, signal?: AbortSignal): Promise<void> {
+    const response = await this.call(path('databases', database, 'recordings', recording, 'motion') + query({ format: 'frames', ...wishes }), { signal })
+    await readFrames(response.body!, taker)
+  }
+  /** What can be asked for and signed: for completion. */
+  vocabulary(database: string): Promise<Vocabulary> {
+    return this.json(path('databases', database, 'vocabulary'))
+  }
+  job<Result>(id: string): Promise<JobState<Result>> {
+    return this.json(path('jobs', id))
+  }
+  /** Waits until a job is over, and gives its result; throws what it failed with. `told` hears how far it is. */
+  async result<Result>({ job }: JobBegun, told: (state: JobState<Result>) => void = () => {}, signal?: AbortSignal): Promise<Result> {
+    for (let wait = 100; ; wait = Math.min(1000, wait * 1.3)) {
+      const state = await this.job<Result>(job)
+      told(state)
+      if (state.state === 'done') return state.result!
+      if (state.state === 'failed' || state.state === 'cancelled') throw new ApiError(state.error?.message ?? state.state, 500, state.error?.code ?? state.state)
+      await new Promise((resolve) => setTimeout(resolve, wait))
+      if (signal?.aborted) throw signal.reason
+    }
   }
   streamUrl(database: string): string {
     const url = this.address(`stream${query({ database, token: this.token || undefined })}`)

@@ -1,5 +1,5 @@
 import type { MotionSource } from '../motion/source'
-import type { Strand } from './session.svelte'
+import type { Strand } from '../viewer/showing'
 
 /** Motions that are opened together, in one character's joints, and given up together. */
 export class Opening {

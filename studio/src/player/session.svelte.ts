@@ -6,27 +6,21 @@ import { readEaf } from '../annotation/eaf'
 import { beside, stepsOfSigns, type Steps } from '../motion/in_step'
 import { MadeSource } from '../motion/made_source'
 import { RecordingSource } from '../motion/recording_source'
-import type { Declarations, MotionSource, OpenedMotion } from '../motion/source'
+import type { Declarations, MotionSource } from '../motion/source'
 import { StreamSource } from '../motion/stream_source'
 import type { Route } from '../ui/route'
+import type { Showing, Strand } from '../viewer/showing'
 import { Transport } from '../viewer/transport'
 import { Opening } from './opening'
 
 /** What the player can show. */
 export type Shown = Extract<Route, { page: 'recording' | 'sign' | 'edit' }>
 
-/** One motion of the player; the second and later ones go along with the first. */
-export interface Strand {
-  readonly role: 'only' | 'original' | 'made' | 'beside'
-  readonly source: MotionSource
-  readonly motion: OpenedMotion
-}
-
 const kTellMs = 200
 const kEmpty: AnnotationDocument = { tiers: [] }
 
 /** Opens what a route asks for, and keeps what the player shows of it. Nothing here is touched for every picture. */
-export class Session {
+export class Session implements Showing {
   readonly transport = new Transport()
   status = $state<'opening' | 'open' | 'failed'>('opening')
   /** Why there is nothing to show. */

@@ -27,6 +27,10 @@ export const kIcons = {
   open: 'M3 6h6l2 2h10v11H3z',
   list: 'M8 6h13M8 12h13M8 18h13M3 6v.01M3 12v.01M3 18v.01',
   sign: 'M12 5v14M5 12h14',
+  compose: 'M3 7h6v10H3zM15 7h6v10h-6zM9 12c2-4 4 4 6 0',
+  search: 'M10.5 4a6.5 6.5 0 1 1 0 13 6.5 6.5 0 0 1 0-13zM15.5 15.5L21 21',
+  evaluate: 'M4 20V10M10 20V4M16 20v-7M21 20H3',
+  guide: 'M12 3a9 9 0 1 1 0 18 9 9 0 0 1 0-18zM15.5 8.5l-2 5-5 2 2-5z',
   figure: 'M12 2a3.5 4 0 1 1 0 8 3.5 4 0 0 1 0-8zM5 22v-5c0-3 2-5 7-5s7 2 7 5v5',
 } as const
 export type IconName = keyof typeof kIcons

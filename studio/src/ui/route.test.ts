@@ -4,7 +4,8 @@ import { addressOf, parseRoute, type Route } from './route'
 it('says in the address what is shown, and reads it back', () => {
   const routes: Route[] = [
     { page: 'recordings', database: 'demo' },
-    { page: 'make', database: 'demo' },
+    { page: 'compose', database: 'demo', recording: undefined, state: { u: 'VANNES "LE MANS"' } },
+    { page: 'phases', database: 'demo', recording: 'a/b', state: {} },
     { page: 'recording', database: 'a/b', recording: 'ISL Thanks?', beside: 'été', at: 1.5 },
     { page: 'sign', database: 'demo', utterance: 'VANNES , "LE MANS"#2', pace: 'live' },
     { page: 'edit', database: 'demo', recording: 'meteo', replace: ['A=B', 'MATIN#2="LE MANS"'], swap: undefined },

@@ -1,10 +1,16 @@
 /** What is shown, as the address says it behind `#`, so that every view can be linked and the back key works. */
 export type Route =
   | { readonly page: 'recordings'; readonly database?: string }
-  | { readonly page: 'make'; readonly database?: string }
   | { readonly page: 'recording'; readonly database: string; readonly recording: string; readonly beside?: string; readonly at: number }
   | { readonly page: 'sign'; readonly database: string; readonly utterance: string; readonly pace: 'fast' | 'live' }
+  | Working
   | { readonly page: 'edit'; readonly database: string; readonly recording: string; readonly replace: readonly string[]; readonly swap?: string }
+
+/** A page that one works on. What it holds stands in the address as the page itself writes it, so that it can be linked, too. */
+export interface Working { readonly page: WorkPage; readonly database: string; /** Of `phases`, the recording. */ readonly recording?: string; readonly state: WorkState }
+export type WorkState = Readonly<Record<string, string>>
+export type WorkPage = (typeof kWorkPages)[number]
+export const kWorkPages = ['compose', 'search', 'import', 'phases', 'evaluate', 'compare', 'guide'] as const
 
 export function parseRoute(hash: string): Route {
   const [path, query = ''] = hash.replace(/^#\/?/, '').split('?', 2)
@@ -25,7 +31,9 @@ export function parseRoute(hash: string): Route {
   if (database && page === 'edit' && name) {
     return { page, database, recording: name, replace: parameters.getAll('replace'), swap: parameters.get('swap') ?? undefined }
   }
-  return { page: page === 'make' ? 'make' : 'recordings', database }
+  const work = kWorkPages.find((one) => one === page)
+  if (database && work) return { page: work, database, recording: name, state: Object.fromEntries(parameters) }
+  return { page: 'recordings', database }
 }
 
 export function addressOf(route: Route): string {
@@ -33,7 +41,8 @@ export function addressOf(route: Route): string {
   const query = new URLSearchParams()
   switch (route.page) {
     case 'recordings': return parts(...(route.database ? [route.database] : []))
-    case 'make': return route.database ? parts(route.database, 'make') : parts()
+    case 'compose': case 'search': case 'import': case 'phases': case 'evaluate': case 'compare': case 'guide':
+      return withQuery(parts(route.database, route.page, ...(route.recording ? [route.recording] : [])), new URLSearchParams(route.state))
     case 'recording':
       if (route.beside) query.set('beside', route.beside)
       if (route.at) query.set('at', String(route.at))

@@ -23,7 +23,7 @@ const kViews = [
   { name: 'drawn_face', hash: '#/demo/recording/meteo?at=2.2', body: 'drawn', keys: ['5'] },
   { name: 'two_recordings', hash: '#/demo/recording/meteo?at=2.2&beside=villes' },
   { name: 'scenario_1', hash: kEdit, seek: 29.4, keys: ['+', '+', '+'] },
-  { name: 'new_signing', hash: '#/demo/make' },
+  { name: 'new_signing', hash: '#/demo/compose' },
   { name: 'signed', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN , "LE MANS" PLUIE'), keys: ['Space'], seek: 1.4 },
   { name: 'live', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN') + '?pace=live' },
   { name: 'help', hash: '#/demo/recording/meteo?at=2.2', keys: ['?'] },

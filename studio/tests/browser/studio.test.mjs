@@ -264,7 +264,7 @@ test('shows an edited recording beside the original, sign by sign', async () => 
 })
 
 test('signs glosses that were typed', async () => {
-  await visit('#/demo/make')
+  await visit('#/demo/compose')
   await page.getByLabel('Glosses in order').fill('VANNES MATIN , "LE MANS" PLUIE')
   await page.keyboard.press('Enter')
   await opened(page, '#/demo/sign/x', true)
@@ -403,7 +403,7 @@ for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
       if (!page) await visit('')
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
       const found = []
-      for (const hash of ['#/demo', '#/demo/make', '#/demo/recording/meteo', '#/demo/recording/villes', '#/demo/edit/meteo?replace=BRETAGNE%3DVANNES', '#/demo/sign/VANNES', '#/demo/recording/nobody']) {
+      for (const hash of ['#/demo', '#/demo/compose', '#/demo/recording/meteo', '#/demo/recording/villes', '#/demo/edit/meteo?replace=BRETAGNE%3DVANNES', '#/demo/sign/VANNES', '#/demo/recording/nobody']) {
         await visit(hash, { size })
         if (hash === '#/demo/recording/meteo') await page.keyboard.press('g')
         found.push(...(await axeFaults(page, kAxe)).map((fault) => `${hash}: ${fault}`))

@@ -15,6 +15,7 @@ import { Opening } from './opening'
 
 /** What the player can show. */
 export type Shown = Extract<Route, { page: 'recording' | 'sign' | 'edit' }>
+export const isShown = (route: Route): route is Shown => route.page === 'recording' || route.page === 'sign' || route.page === 'edit'
 
 const kTellMs = 200
 const kEmpty: AnnotationDocument = { tiers: [] }

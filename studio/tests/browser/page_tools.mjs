@@ -1,3 +1,8 @@
+import { readFileSync } from 'node:fs'
+import { createRequire } from 'node:module'
+
+const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8')
+
 /** What the browser tests ask of a page; `window.signweaveStage` is the stage that draws. */
 
 export const transport = (page) => page.evaluate(() => {
@@ -30,8 +35,8 @@ export async function colorAtJoint(page, joint, pane = 0) {
 export const isSkin = ([red, green, blue]) => red > 60 && red > green * 1.12 && green > blue * 0.95
 
 /** Faults that axe finds, one line each. */
-export async function axeFaults(page, source) {
-  await page.evaluate(source)
+export async function axeFaults(page) {
+  await page.evaluate(kAxe)
   const found = await page.evaluate(() => window.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] }))
   return found.violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join(' | ')}`)
 }

@@ -11,10 +11,10 @@ const kCharacters = process.env.SIGNWEAVE_CHARACTERS ?? resolve(kStudio, '../bui
 
 /**
  * Runs `work(address, folder)` with a server of its own, which serves the built studio, the characters and a demo corpus of two
- * minutes (or `minutes`), and leaves nothing of it behind. Films that the annotation links are looked for in `folder`/films.
+ * minutes (or `minutes`), and leaves nothing of it behind. With `mine` an empty database `mine` is served beside it, and both may be changed. Films that the annotation links are looked for in `folder`/films.
  * `prepare(corpus)` may change the corpus before it is imported.
  */
-export async function withServer(site, work, prepare = () => {}, minutes = 2) {
+export async function withServer(site, work, prepare = () => {}, { minutes = 2, mine = false } = {}) {
   for (const program of ['signweave', 'synthetic_signer']) {
     if (!existsSync(join(kBin, program))) throw new Error(`${join(kBin, program)} is not there; scripts/build makes it, SIGNWEAVE_BIN names another folder`)
   }
@@ -28,7 +28,8 @@ export async function withServer(site, work, prepare = () => {}, minutes = 2) {
     prepare(corpus)
     execFileSync(join(kBin, 'signweave'), ['create', database], { stdio: 'ignore' })
     execFileSync(join(kBin, 'signweave'), ['import', database, corpus], { stdio: 'ignore' })
-    server = spawn(join(kBin, 'signweave'), ['serve', database, '--listen', '127.0.0.1:0', '--files', site, '--characters', kCharacters, '--media', films], { stdio: ['ignore', 'ignore', 'pipe'] })
+    if (mine) execFileSync(join(kBin, 'signweave'), ['create', join(folder, 'mine.db')], { stdio: 'ignore' })
+    server = spawn(join(kBin, 'signweave'), ['serve', database, ...(mine ? [join(folder, 'mine.db'), '--writable'] : []), '--listen', '127.0.0.1:0', '--files', site, '--characters', kCharacters, '--media', films], { stdio: ['ignore', 'ignore', 'pipe'] })
     const address = await new Promise((resolve, reject) => {
       let said = ''
       server.stderr.on('data', (data) => {

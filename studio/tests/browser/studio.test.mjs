@@ -1,46 +1,11 @@
-// The studio by keyboard and mouse, against a real server and a demo corpus: SITE names the built studio.
+// The player and the list of recordings, by keyboard and mouse.
 import assert from 'node:assert/strict'
-import { readFileSync, writeFileSync } from 'node:fs'
-import { createRequire } from 'node:module'
+import { writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { after, before, test as run } from 'node:test'
-import { withBrowser } from './chromium.mjs'
 import { axeFaults, azimuth, colorAtJoint, isSkin, smallVideo, transport } from './page_tools.mjs'
-import { linkVideo, withServer } from './server.mjs'
+import { address, folder, kDeclared, page, test, visit } from './suite.mjs'
 import { drawn, opened } from './waits.mjs'
 
-const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8')
-/** A test that must end in four minutes also where everything is drawn by software on a busy machine. */
-const test = (name, work) => run(name, { timeout: 240_000 }, work)
-const kDeclared = /placeholder shapes, not LSF/
-let address, folder, context, page, over
-const faults = []
-
-before(async () => {
-  await new Promise((ready, broken) => {
-    withServer(process.env.SITE, (at, made) => withBrowser(async (opened) => {
-      address = at
-      folder = made
-      context = opened
-      await new Promise((end) => {
-        over = end
-        ready()
-      })
-    }, { locale: 'en-GB', colorScheme: 'dark' }), linkVideo).catch(broken)
-  })
-})
-after(() => over?.())
-
-/** Opens a page. What is not about characters is asked of the drawn body, which software draws quickly; null is what was chosen before. */
-async function visit(hash, { size = { width: 1280, height: 720 }, whole = false, body = 'drawn' } = {}) {
-  await page?.close()
-  page = await context.newPage()
-  if (body) await page.addInitScript((who) => localStorage.setItem('signweave.body', who), body)
-  page.on('pageerror', (error) => faults.push(error.message))
-  await page.setViewportSize(size)
-  await page.goto(`${address}/${hash}`)
-  await opened(page, hash, whole)
-}
 const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not ${wanted}`)
 const button = (name) => page.getByRole('button', { name, exact: true })
 
@@ -406,16 +371,14 @@ for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
       for (const hash of ['#/demo', '#/demo/compose', '#/demo/recording/meteo', '#/demo/recording/villes', '#/demo/edit/meteo?replace=BRETAGNE%3DVANNES', '#/demo/sign/VANNES', '#/demo/recording/nobody']) {
         await visit(hash, { size })
         if (hash === '#/demo/recording/meteo') await page.keyboard.press('g')
-        found.push(...(await axeFaults(page, kAxe)).map((fault) => `${hash}: ${fault}`))
+        found.push(...(await axeFaults(page)).map((fault) => `${hash}: ${fault}`))
         assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth), `${hash} is wider than the screen`)
         if (hash === '#/demo/recording/meteo') {
           await page.keyboard.press('?')
-          found.push(...(await axeFaults(page, kAxe)).map((fault) => `help: ${fault}`))
+          found.push(...(await axeFaults(page)).map((fault) => `help: ${fault}`))
         }
       }
       assert.deepEqual(found, [])
     })
   }
 }
-
-test('no view threw anything', () => assert.deepEqual(faults, []))

@@ -1,0 +1,6 @@
+// Every view of the studio in one browser: SITE names the built studio.
+import assert from 'node:assert/strict'
+import { faults, test } from './suite.mjs'
+import './studio.test.mjs'
+
+test('no view threw anything', () => assert.deepEqual(faults, []))

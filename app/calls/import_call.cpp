@@ -1,7 +1,12 @@
 #include "app/calls/import_call.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "signweave/core/text.h"
 
 namespace signweave::calls {
 
@@ -90,7 +95,20 @@ ImportOptions options_of(const ImportCall& call) {
 }
 
 Pairing pairing_of(const ImportCall& call, const std::vector<std::filesystem::path>& inputs) {
-  return pair_files(inputs, call.pairs.empty() ? std::nullopt : std::optional<std::filesystem::path>(call.pairs));
+  Pairing pairing =
+      pair_files(inputs, call.pairs.empty() ? std::nullopt : std::optional<std::filesystem::path>(call.pairs));
+  if (call.recordings.empty()) return pairing;
+  std::vector<std::string> known;
+  for (const ImportJob& job : pairing.jobs) known.push_back(job.name);
+  for (const std::string& name : call.recordings) {
+    if (std::ranges::find(known, name) != known.end()) continue;
+    throw Error(ErrorCode::not_found, fmt::format("recordings: there is no '{}' among these files{}", printable(name),
+                                                  did_you_mean(name, known)));
+  }
+  std::erase_if(pairing.jobs, [&](const ImportJob& job) {
+    return std::ranges::find(call.recordings, job.name) == call.recordings.end();
+  });
+  return pairing;
 }
 
 void run(Database& database, const Pairing& pairing, const ImportOptions& options, const Listener& listener,

@@ -26,6 +26,7 @@ struct ImportCall {
   FacePlacing face;
   std::string rig;
   bool replace_motion = false;
+  std::vector<std::string> recordings;  ///< none: all
 };
 
 /// Empty, or why `text` is no FRAME@MS.
@@ -55,12 +56,17 @@ void fields(Visit& visit, ImportCall& call) {
   visit(Field{.name = "replace_motion",
               .help = "take motion and face files again, changed or not: instead of what was imported, or over damage"},
         call.replace_motion);
+  visit(Field{.name = "recordings",
+              .help = "only these of what was found, by the names that the recordings would get",
+              .several_words = true},
+        call.recordings);
 }
 
 /// Of checked fields. Reads the call's own files, and throws as their readers do.
 ImportOptions options_of(const ImportCall& call);
 
-/// What belongs together of some files and folders. Throws as pair_files does.
+/// What belongs together of some files and folders, of it the recordings that are wanted. Throws as pair_files does,
+/// and Error{not_found} with near matches for a recording that is not among them.
 Pairing pairing_of(const ImportCall& call, const std::vector<std::filesystem::path>& inputs);
 
 /// What became of one recording.

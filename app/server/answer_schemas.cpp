@@ -56,6 +56,13 @@ constexpr const char* kDatabaseAnswers = R"json({
       "defects": {"type": "array", "items": {"type": "object", "required": ["kind", "joint", "value", "text"],
         "properties": {"kind": {"type": "string"}, "joint": {"type": ["string", "null"]}, "value": {"type": "number"},
           "text": {"type": "string"}, "first_frame": {"type": "integer"}, "end_frame": {"type": "integer"}}}}}},
+  "Vocabulary": {"type": "object", "required": ["glosses", "tiers", "recordings", "signers", "language"], "properties": {
+    "glosses": {"type": "array", "items": {"type": "object", "required": ["gloss", "tokens"], "properties": {
+      "gloss": {"type": "string"}, "tokens": {"type": "integer"}}}},
+    "tiers": {"type": "array", "items": {"type": "string"}},
+    "recordings": {"type": "array", "items": {"type": "string"}},
+    "signers": {"type": "array", "items": {"type": "string"}},
+    "language": {"type": "object", "additionalProperties": {"type": "array", "items": {"type": "string"}}}}},
   "Characters": {"type": "object", "required": ["characters"], "properties": {"characters": {"type": "array",
     "items": {"type": "object", "required": ["name", "file", "height", "face_units"], "properties": {
       "name": {"type": "string"}, "file": {"type": "string"},
@@ -200,11 +207,11 @@ constexpr const char* kMadeAnswers = R"json({
   "Discarded": {"type": "object", "required": ["discarded"], "properties": {"discarded": {"type": "string"}}},
   "JobBegun": {"type": "object", "required": ["job"], "properties": {"job": {"type": "string"}}},
   "Changed": {"type": "object", "properties": {
-    "recordings": {"description": "of an import what became of each, as far as it is; of a relayout how many"},
+    "recordings": {"description": "of an import what became of each, of an inspect what it would become, as far as it is; of a relayout how many"},
     "changed": {"type": "array", "items": {"type": "string"}}, "notices": {"$ref": "#/components/schemas/Notices"},
     "faults": {"type": "array", "items": {"type": "string"}}}},
   "Job": {"type": "object", "required": ["job", "kind", "database", "state", "fraction"], "properties": {
-    "job": {"type": "string"}, "kind": {"enum": ["import", "relayout", "evaluate"]}, "database": {"type": "string"},
+    "job": {"type": "string"}, "kind": {"enum": ["inspect", "import", "relayout", "evaluate"]}, "database": {"type": "string"},
     "state": {"enum": ["waiting", "running", "done", "failed", "cancelled"]},
     "fraction": {"type": "number", "minimum": 0, "maximum": 1},
     "result": {"anyOf": [{"$ref": "#/components/schemas/Changed"}, {"$ref": "#/components/schemas/Evaluation"}]},

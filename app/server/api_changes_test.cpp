@@ -69,6 +69,71 @@ TEST(ApiChanges, AnUploadIsImported) {
   EXPECT_THAT(fault_of(api.get(at({"uploads", id}))), StartsWith("404"));  // what was imported is not kept twice
 }
 
+json inspect(TestApi& api, const std::string& upload, const json& parameters = json::object()) {
+  const ApiResponse begun = api.send("POST", at({"uploads", upload, "inspect"}), parameters);
+  EXPECT_EQ(begun.status, 202) << begun.body;
+  return wait_for(api, json_in(begun)["job"]);
+}
+
+TEST(ApiChanges, WhatAnImportWouldStoreIsToldBeforeItIsStored) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {{"soir.bvh", another_bvh()},
+                                         {"soir.eaf", eaf::write_text(another().document)},
+                                         {"meteo.bvh", another_bvh()},
+                                         {"wrong.bvh", "HIERARCHY\nROOT"}});
+  const json job = inspect(api, id);
+  ASSERT_EQ(job["state"], "done") << job;
+  EXPECT_THAT(job.dump(), testing::Not(HasSubstr(api.scratch().string())));
+  const json& found = job["result"]["recordings"];
+  ASSERT_EQ(found.size(), 3u) << found;
+  EXPECT_EQ(found[0]["name"], "meteo");
+  EXPECT_EQ(found[0]["known"], true);
+  EXPECT_EQ(found[0]["files"]["motion"], "meteo.bvh");
+  EXPECT_EQ(found[0]["files"]["face"], nullptr);
+  const json& soir = found[1];
+  EXPECT_EQ(soir["known"], false);
+  EXPECT_EQ(soir["files"]["annotation"], "soir.eaf");
+  EXPECT_EQ(soir["frames"], another().motion.frame_count());
+  EXPECT_EQ(soir["layout"]["up"], "y");
+  EXPECT_EQ(soir["rig"]["parts"]["head"]["joint"], "Head");
+  EXPECT_EQ(soir["joints"].size(), another().motion.skeleton().joint_count());
+  EXPECT_GT(soir["signs"].get<int>(), 0);
+  EXPECT_GT(soir["phases"].get<int>(), soir["signs"].get<int>());
+  std::map<std::string, std::string> roles;
+  for (const json& tier : soir["tiers"]) roles[tier["tier"]] = tier["role"];
+  EXPECT_EQ(roles["Gloss"], "signs");
+  EXPECT_EQ(roles["Phase"], "phases");
+  EXPECT_THAT(soir["declarations"].dump(), HasSubstr("placeholder"));
+  EXPECT_THAT(found[2]["error"].get<std::string>(), StartsWith("wrong.bvh:2: "));
+  EXPECT_EQ(api.database().contents()->recordings.size(), 2u);  // nothing was stored
+  EXPECT_EQ(json_in(api.get(at({"uploads", id})))["files"].size(), 4u);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(api.scratch())) {
+    EXPECT_NE(entry.path().extension(), ".inspected");
+  }
+
+  // Corrected, it is told anew.
+  const json again = inspect(
+      api, id, {{"unit", "m"}, {"sign_tier", json::array({"Gloss:right"})}, {"recordings", json::array({"soir"})}});
+  ASSERT_EQ(again["result"]["recordings"].size(), 1u);
+  EXPECT_EQ(again["result"]["recordings"][0]["layout"]["unit"], 1.0);
+  EXPECT_EQ(again["result"]["recordings"][0]["tiers"][0]["hand"], "right");
+}
+
+TEST(ApiChanges, OfAnUploadSomeRecordingsAreImportedAndTheOthersLater) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {{"a.bvh", another_bvh()}, {"b.bvh", another_bvh()}});
+  EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"recordings", json::array({"c"})}})),
+              HasSubstr("there is no 'c' among these files"));
+  const json first = import(api, id, {{"recordings", json::array({"b"})}});
+  ASSERT_EQ(first["result"]["recordings"].size(), 1u) << first;
+  EXPECT_EQ(first["result"]["recordings"][0]["name"], "b");
+  EXPECT_EQ(import(api, id, {{"recordings", json::array({"a"})}, {"up", "z"}})["result"]["recordings"][0]["name"], "a");
+  EXPECT_EQ(api.database().contents()->recordings.size(), 4u);
+  EXPECT_EQ(api.database().info("a")->layout->up, bvh::UpAxis::z);
+  EXPECT_EQ(api.database().info("b")->layout->up, bvh::UpAxis::y);
+  EXPECT_EQ(api.send("DELETE", at({"uploads", id})).status, 200);
+}
+
 TEST(ApiChanges, WhatIsWrongWithAFileIsToldWithoutTheServersFolders) {
   TestApi api(true);
   const json job = import(api, upload_of(api, {{"soir.bvh", "HIERARCHY\nROOT"}}));

@@ -1,4 +1,5 @@
 #include "app/calls/info_call.h"
+#include "app/calls/vocabulary_call.h"
 #include "app/server/routes.h"
 #include "signweave/database/check.h"
 
@@ -29,6 +30,12 @@ ApiResponse show_recording(Call& call) {
   const auto details = calls::run(call.database().database(), read_parameters<calls::RecordingCall>(call));
   call.declare(details.info.declarations);
   return json_answer(calls::json_of(details));
+}
+
+ApiResponse list_vocabulary(Call& call) {
+  const Database& database = call.database().database();
+  call.declare_all(*database.contents());
+  return json_answer(calls::vocabulary_json(database));
 }
 
 ApiResponse check_database(Call& call) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "app/calls/import_call.h"
+#include "app/calls/inspect_call.h"
 #include "app/server/routes.h"
 #include "signweave/core/atomic_file.h"
 
@@ -47,43 +48,84 @@ void require_plain_table(const std::string& table) {
   }
 }
 
-/// Does the work of an import; tells every recording as soon as it is over.
-json import_files(Database& database, const Pairing& pairing, const ImportOptions& options, const std::string& folder,
-                  JobContext& job) {
-  json recordings = json::array();
-  json faults = json::array();
-  // Of the server's folders nobody needs to know.
-  const auto plain = [&](std::string text) {
+/// Takes the server's folder out of every text: nobody needs to know of it.
+json without_folder(json value, const std::string& folder) {
+  if (value.is_string()) {
+    auto text = value.get<std::string>();
     for (std::size_t at; (at = text.find(folder)) != std::string::npos;) text.erase(at, folder.size());
     return text;
-  };
-  const auto told = [&] {
-    json notices = json::array();
-    for (const Notice& notice : pairing.notices) {
-      notices.push_back({{"where", plain(notice.where)}, {"text", plain(notice.text)}});
-    }
-    return json{{"recordings", recordings}, {"notices", std::move(notices)}, {"faults", faults}};
-  };
-  const calls::Listener listener{.notice = {},
-                                 .fault = [&](const std::string& line) { faults.push_back(plain(line)); },
-                                 .stage = {},
-                                 .progress = [&](double fraction) { job.advance(fraction); }};
+  }
+  if (value.is_structured()) {
+    for (json& one : value) one = without_folder(std::move(one), folder);
+  }
+  return value;
+}
+
+/// What a job over the files of an upload tells: every recording as soon as it is over.
+class Told {
+ public:
+  Told(const Pairing& pairing, std::string folder, JobContext& job) : folder_(std::move(folder)), job_(job) {
+    report_["notices"] = without_folder(calls::json_of(pairing.notices), folder_);
+    job_.tell(report_);
+  }
+  void add(json recording) {
+    report_["recordings"].push_back(without_folder(std::move(recording), folder_));
+    job_.tell(report_);
+  }
+  calls::Listener listener() {
+    return {.notice = {},
+            .fault = [this](const std::string& line) { report_["faults"].push_back(without_folder(line, folder_)); },
+            .stage = {},
+            .progress = [this](double fraction) { job_.advance(fraction); }};
+  }
+  const json& report() const { return report_; }
+
+ private:
+  std::string folder_;
+  JobContext& job_;
+  json report_ = {{"recordings", json::array()}, {"notices", json::array()}, {"faults", json::array()}};
+};
+
+/// Does the work of an import.
+json import_files(Database& database, const Pairing& pairing, const ImportOptions& options, const std::string& folder,
+                  JobContext& job) {
+  Told told(pairing, folder, job);
+  const calls::Listener listener = told.listener();
   calls::run(database, pairing, options, listener, [&](const calls::Imported& imported) {
     json one = calls::json_of(imported);
-    if (one.contains("error")) one["error"] = plain(one["error"].get<std::string>());
-    if (one.contains("notices")) {
-      for (json& notice : one["notices"]) {
-        for (auto& [key, text] : notice.items()) text = plain(text.get<std::string>());
-      }
-    }
-    if (one.contains("not_measured")) one["not_measured"] = plain(one["not_measured"].get<std::string>());
     const std::optional<RecordingInfo> info = database.info(imported.name);
     one["declarations"] = !info ? json::object() : calls::declarations_json(info->declarations);
-    recordings.push_back(std::move(one));
-    job.tell(told());
+    told.add(std::move(one));
   });
   calls::learn(database, listener);
-  return told();
+  return told.report();
+}
+
+/// An upload that a job reads: nobody changes it meanwhile.
+struct HeldUpload {
+  std::filesystem::path folder;
+  ImportOptions options;
+  Pairing pairing;
+};
+
+/// Of checked fields. What is thrown releases the upload.
+HeldUpload hold_upload(Call& call, calls::ImportCall parameters) {
+  const std::string& upload = call.names.at("upload");
+  Uploads& uploads = call.state.uploads;
+  HeldUpload held{.folder = uploads.hold(call.database().name(), upload), .options = {}, .pairing = {}};
+  try {
+    const ResolveFiles resolve_files{held.folder};
+    fields(resolve_files, parameters);
+    require_plain_table(parameters.pairs);
+    held.options = calls::options_of(parameters);
+    held.pairing = calls::pairing_of(
+        parameters, parameters.pairs.empty() ? std::vector{held.folder} : std::vector<std::filesystem::path>{});
+    if (held.pairing.jobs.empty()) throw Error(ErrorCode::bad_input, "the upload has no motion or annotation file");
+    return held;
+  } catch (...) {
+    uploads.release(upload, false);
+    throw;
+  }
 }
 
 bool all_done(const json& result) {
@@ -120,32 +162,53 @@ ApiResponse put_file(Call& call) {
 }
 
 ApiResponse import_upload(Call& call) {
-  auto parameters = read_parameters<calls::ImportCall>(call);
+  const auto parameters = read_parameters<calls::ImportCall>(call);
   ServedDatabase& served = call.database();
   const std::string upload = call.names.at("upload");
   Uploads& uploads = call.state.uploads;
-  const std::filesystem::path folder = uploads.hold(served.name(), upload);
+  const HeldUpload held = hold_upload(call, parameters);
+  const bool some = !parameters.recordings.empty();  // the others may be wanted later
   try {
-    const ResolveFiles resolve_files{folder};
-    fields(resolve_files, parameters);
-    require_plain_table(parameters.pairs);
-    const ImportOptions options = calls::options_of(parameters);
-    const Pairing pairing = calls::pairing_of(
-        parameters, parameters.pairs.empty() ? std::vector{folder} : std::vector<std::filesystem::path>{});
-    if (pairing.jobs.empty()) throw Error(ErrorCode::bad_input, "the upload has no motion or annotation file");
     const std::string id = call.state.jobs.start(
-        {.name = "import"}, served.name(), [&served, &uploads, upload, folder, options, pairing](JobContext& job) {
+        {.name = "import"}, served.name(), [&served, &uploads, upload, held, some](JobContext& job) {
           json result;
           try {
             served.change([&](Database& database) {
-              result = import_files(database, pairing, options, folder.string() + "/", job);
+              result = import_files(database, held.pairing, held.options, held.folder.string() + "/", job);
             });
           } catch (...) {  // it may be tried again, with other parameters
             uploads.release(upload, false);
             throw;
           }
-          uploads.release(upload, all_done(result));
+          uploads.release(upload, !some && all_done(result));
           return result;
+        });
+    return json_answer(json{{"job", id}}, 202);
+  } catch (...) {
+    uploads.release(upload, false);
+    throw;
+  }
+}
+
+ApiResponse inspect_upload(Call& call) {
+  const auto parameters = read_parameters<calls::ImportCall>(call);
+  ServedDatabase& served = call.database();
+  const std::string upload = call.names.at("upload");
+  Uploads& uploads = call.state.uploads;
+  const HeldUpload held = hold_upload(call, parameters);
+  try {
+    const std::string id = call.state.jobs.start(
+        {.name = "inspect", .changes = false}, served.name(), [&served, &uploads, upload, held](JobContext& job) {
+          try {
+            Told told(held.pairing, held.folder.string() + "/", job);
+            calls::inspect(served.database(), held.pairing, held.options, held.folder.string() + ".inspected",
+                           told.listener(), [&](nlohmann::ordered_json one) { told.add(std::move(one)); });
+            uploads.release(upload, false);
+            return told.report();
+          } catch (...) {
+            uploads.release(upload, false);
+            throw;
+          }
         });
     return json_answer(json{{"job", id}}, 202);
   } catch (...) {

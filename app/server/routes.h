@@ -94,6 +94,7 @@ void fields(Visit& visit, WithFormat<Parameters>& wanted) {
 ApiResponse list_databases(Call& call);  // handle_databases.cpp
 ApiResponse show_database(Call& call);
 ApiResponse show_recording(Call& call);
+ApiResponse list_vocabulary(Call& call);
 ApiResponse check_database(Call& call);
 ApiResponse list_formats(Call& call);
 ApiResponse show_openapi(Call& call);
@@ -119,6 +120,7 @@ ApiResponse show_upload(Call& call);
 ApiResponse discard_upload(Call& call);
 ApiResponse put_file(Call& call);
 void require_upload(const Call& call);
+ApiResponse inspect_upload(Call& call);
 ApiResponse import_upload(Call& call);
 ApiResponse list_jobs(Call& call);
 ApiResponse show_job(Call& call);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -49,6 +50,11 @@ enum class Quantity : std::uint8_t {
   gaze,  ///< of an angle of the gaze: the most, or the component
   mean_gaze,
 };
+inline constexpr std::array kQuantities = {
+    Quantity::speed, Quantity::mean_speed,   Quantity::acceleration, Quantity::mean_acceleration,
+    Quantity::path,  Quantity::displacement, Quantity::distance,     Quantity::contact,
+    Quantity::begin, Quantity::end,          Quantity::track,        Quantity::mean_track,
+    Quantity::gaze,  Quantity::mean_gaze};
 /// Whether it is a scalar track or the gaze: one number a frame, without a point.
 constexpr bool is_series(Quantity quantity) noexcept {
   return quantity >= Quantity::track;

@@ -17,11 +17,6 @@ namespace {
 
 using Kind = QueryToken::Kind;
 
-constexpr std::array kQuantities = {
-    Quantity::speed, Quantity::mean_speed,   Quantity::acceleration, Quantity::mean_acceleration,
-    Quantity::path,  Quantity::displacement, Quantity::distance,     Quantity::contact,
-    Quantity::begin, Quantity::end,          Quantity::track,        Quantity::mean_track,
-    Quantity::gaze,  Quantity::mean_gaze};
 constexpr std::array kPlaceComponents = {Component::height, Component::x, Component::forward};
 constexpr std::array kHandComponents = {Component::height, Component::x,       Component::forward, Component::openness,
                                         Component::palm,   Component::fingers, Component::contact};

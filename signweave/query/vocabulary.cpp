@@ -1,0 +1,51 @@
+#include "signweave/query/vocabulary.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "signweave/query/movement_term.h"
+#include "signweave/query/words.h"
+
+namespace signweave {
+
+Vocabulary vocabulary(const Segments& segments) {
+  std::map<std::string, std::size_t, std::less<>> tokens;
+  for (const Segments::Member& member : segments.members()) {
+    const SegmentTable& table = member.table;
+    for (const std::uint32_t label : table.labels_of(RowKind::sign)) {
+      const std::span<const RowId> rows = table.with_label(RowKind::sign, label);
+      const auto counts = [&](RowId row) { return member.numbers[table.recording(row)] != Segments::kNone; };
+      const auto found = member.whole ? std::ssize(rows) : std::ranges::count_if(rows, counts);
+      if (found > 0) tokens[std::string(table.text_at(label))] += static_cast<std::size_t>(found);
+    }
+  }
+  std::set<std::string, std::less<>> signers;
+  for (std::uint32_t recording = 0; recording < segments.recording_count(); ++recording) {
+    const SegmentTable::Part part = segments.part(recording);
+    for (const SegmentTable::TierRows& tier : part.table->tiers_of(part.recording)) {
+      const std::string_view signer = part.table->text_at(tier.signer);
+      if (!signer.empty() && !signers.contains(signer)) signers.emplace(signer);
+    }
+  }
+  Vocabulary result{.glosses = {},
+                    .tiers = segments.tiers(),
+                    .recordings = segments.recordings(),
+                    .signers = {signers.begin(), signers.end()}};
+  result.glosses.reserve(tokens.size());
+  for (const auto& [gloss, count] : tokens) result.glosses.push_back({gloss, count});
+  return result;
+}
+
+LanguageWords language_words() {
+  LanguageWords words{.fields = words_of(kFields),
+                      .links = words_of(kLinks),
+                      .phases = words_of(kPhaseKinds),
+                      .hands = words_of(kHands),
+                      .functions = words_of(kQuantities),
+                      .points = point_words()};
+  words.functions.emplace_back("like");
+  return words;
+}
+
+}  // namespace signweave

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "signweave/semantic_db/segments.h"
+
+namespace signweave {
+
+/// What queries over some segments can name: for completion and for lists.
+struct Vocabulary {
+  struct Gloss {
+    std::string gloss;  ///< match form
+    std::size_t tokens = 0;
+  };
+  std::vector<Gloss> glosses;  ///< each below sorted, once
+  std::vector<std::string> tiers;
+  std::vector<std::string> recordings;
+  std::vector<std::string> signers;  ///< as verbatim as they were given; without the empty one
+};
+
+/// The time it takes grows with glosses and tiers, not with rows; but for recordings that were changed since their
+/// tables were merged, whose rows are counted.
+Vocabulary vocabulary(const Segments& segments);
+
+/// The words of the query language (docs/query.md), by what they are.
+struct LanguageWords {
+  std::vector<std::string> fields;
+  std::vector<std::string> links;      ///< between the segments of a sequence or relation
+  std::vector<std::string> phases;     ///< values of `phase`
+  std::vector<std::string> hands;      ///< values of `hand`
+  std::vector<std::string> functions;  ///< what stands before a parenthesis
+  std::vector<std::string> points;     ///< points of the signer, which functions are asked of
+};
+LanguageWords language_words();
+
+}  // namespace signweave

@@ -2,7 +2,8 @@
 #
 # One module of the library: the folder it is called from. The sources are its table of contents; its tests are found by
 # name (*_test.cpp), never listed. DEPENDS names the modules whose headers it may include; the test `layers` holds it to
-# that. LIBRARIES are third-party targets.
+# that. LIBRARIES are third-party targets. APART are sources whose private names are also those of another's: where sources
+# are compiled together, they are not.
 define_property(GLOBAL PROPERTY SIGNWEAVE_LAYERS BRIEF_DOCS "rows 'module:dependency,dependency'")
 define_property(GLOBAL PROPERTY SIGNWEAVE_MODULES BRIEF_DOCS "library targets, lowest first")
 
@@ -23,14 +24,19 @@ if(SIGNWEAVE_TESTS)
 endif()
 
 function(signweave_module name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;APART;DEPENDS;LIBRARIES" ${ARGN})
   set(target signweave_${name})
   list(TRANSFORM arg_DEPENDS PREPEND signweave:: OUTPUT_VARIABLE depends)
   if(arg_SOURCES)
-    add_library(${target} STATIC ${arg_SOURCES})
+    add_library(${target} STATIC ${arg_SOURCES} ${arg_APART})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:signweave_flags>)
     target_precompile_headers(${target} REUSE_FROM signweave_pch)
+    if(SIGNWEAVE_SANITIZE)
+      # A third of the time of compiling is what files include. The release build compiles each by itself.
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+      set_source_files_properties(${arg_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)

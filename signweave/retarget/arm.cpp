@@ -1,5 +1,7 @@
 #include "signweave/retarget/arm.h"
 
+#include "signweave/retarget/joint_at.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,10 +12,6 @@ namespace {
 using Eigen::AngleAxisf;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-constexpr std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// Of the hand's turn about the forearm, what the forearm's first and last joint take; what lies between is spread.
 constexpr float kTwistAtElbow = 0.2f;

@@ -10,16 +10,13 @@
 #include "signweave/core/text.h"
 #include "signweave/features/hand_points.h"
 #include "signweave/retarget/body_match.h"
+#include "signweave/retarget/joint_at.h"
 
 namespace signweave {
 namespace {
 
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-constexpr std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// So many joints are named in one line.
 constexpr std::size_t kNamedJoints = 6;

@@ -1,5 +1,7 @@
 #include "signweave/retarget/drives.h"
 
+#include "signweave/retarget/joint_at.h"
+
 #include <algorithm>
 #include <string_view>
 
@@ -8,10 +10,6 @@ namespace {
 
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-constexpr std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// A joint on a chain, and how far along the chain it lies, in [0, 1].
 struct Place {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "signweave/retarget/arm.h"
+#include "signweave/retarget/joint_at.h"
 
 namespace signweave {
 namespace {
@@ -11,10 +12,6 @@ namespace {
 using Eigen::AngleAxisf;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-constexpr std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// Tips nearer to the thumb's than the first are brought as near; past the second they go as their bones do. Metres of
 /// a hand of the character's size.

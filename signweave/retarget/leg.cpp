@@ -6,16 +6,13 @@
 
 #include "signweave/retarget/arm.h"
 #include "signweave/retarget/drives.h"
+#include "signweave/retarget/joint_at.h"
 
 namespace signweave {
 namespace {
 
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-constexpr std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// A knee bent less than the first angle does not show its plane; above the second it does.
 constexpr float kPlaneFrom = 12 * std::numbers::pi_v<float> / 180;

@@ -1,5 +1,7 @@
 #include "signweave/retarget/retarget.h"
 
+#include "signweave/retarget/joint_at.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,10 +10,6 @@ namespace {
 
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-constexpr std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// How far the character's signing space may differ from what its arms reach.
 constexpr float kLeastRatio = 0.88f;

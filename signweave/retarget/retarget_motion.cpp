@@ -3,6 +3,8 @@
 
 #include "signweave/retarget/retarget.h"
 
+#include "signweave/retarget/joint_at.h"
+
 namespace signweave {
 namespace {
 
@@ -10,10 +12,6 @@ using Eigen::Quaternionf;
 
 /// Collar bones that turn less against the chest do not move, radians.
 constexpr float kStill = 0.035f;
-
-constexpr std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 }  // namespace
 

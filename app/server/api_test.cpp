@@ -129,6 +129,22 @@ TEST(Api, SignsAReportOrAFile) {
   EXPECT_EQ(reading().api().answer(accepting).content_type, "application/json");
 }
 
+TEST(Api, JunctionsAreMadeAsTold) {
+  const json sign = {{"utterance", "VANNES MATIN PLUIE"}, {"junctions", {"2=sine,450ms,x1.5"}}};
+  const json made = json_in(reading().send("POST", at({"sign"}), sign))["junctions"];
+  ASSERT_EQ(made.size(), 2u);
+  EXPECT_FALSE(made[0].contains("chosen"));
+  EXPECT_EQ(made[1]["number"], 2);
+  EXPECT_EQ(made[1]["method"], "sine");
+  EXPECT_EQ(made[1]["chosen"], (json{{"method", "sine"}, {"duration_ms", 450}, {"tempo", 1.5}}));
+  EXPECT_EQ(made[1]["frames"]["end"].get<int>() - made[1]["frames"]["begin"].get<int>(), 30);
+  const auto fault = [&](const char* junction) {
+    return fault_of(reading().send("POST", at({"sign"}), {{"utterance", "VANNES MATIN"}, {"junctions", {junction}}}));
+  };
+  EXPECT_THAT(fault("1=sin"), StartsWith("400 bad_input: junctions: 'sin' is no method"));
+  EXPECT_THAT(fault("3=sine"), StartsWith("400 bad_input: no junction 3"));
+}
+
 TEST(Api, AGlossThatIsNotThereHasNearMatches) {
   const std::string fault = fault_of(reading().send("POST", at({"sign"}), {{"utterance", "VANES"}}));
   EXPECT_THAT(fault, StartsWith("404 not_found"));

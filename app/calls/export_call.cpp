@@ -61,7 +61,7 @@ Outgoing Exported::outgoing() const {
           .layout = character ? std::nullopt : info.layout,
           .wishes = wishes,
           .document = document ? &*document : nullptr,
-          .title = info.name,
+          .title = remade.empty() ? info.name : fmt::format("{}, in part made by {}", info.name, remade_by->name),
           .signing_space = signing_space,
           .rig = character ? RigNames{} : info.rig,
           .declarations = info.declarations,
@@ -69,9 +69,10 @@ Outgoing Exported::outgoing() const {
 }
 
 Exported run(const Database& database, const ExportCall& call, const std::vector<std::string>& outputs) {
-  const std::shared_ptr<const Contents> contents = database.contents();
-  Exported made{
-      .info = contents->at(call.recording), .signing_space = call.signing_space, .wishes = wishes_of(call.bvh)};
+  const Snapshot snapshot = database.snapshot();
+  Exported made{.info = snapshot.contents().at(call.recording),
+                .signing_space = call.signing_space,
+                .wishes = wishes_of(call.bvh)};
   const RecordingInfo& info = made.info;
   const bool part = call.from || call.to;
   made.frames = {0, info.motion ? info.motion->frames : 0};
@@ -79,6 +80,9 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
   const TimeSpan span{call.from ? Milliseconds(*call.from) : all.begin, call.to ? Milliseconds(*call.to) : all.end};
   if (call.from && call.to && span.begin >= span.end) {
     throw Error(ErrorCode::bad_input, "--from must be before --to");
+  }
+  if (!call.transition.empty() && call.remake.empty()) {
+    throw Error(ErrorCode::bad_input, "--transition says how --remake makes what it cuts out: give both");
   }
   const auto is_document = [](const std::string& path) { return fold_case(path).ends_with(".eaf"); };
   if (info.motion && !std::ranges::all_of(outputs, is_document)) {
@@ -89,7 +93,20 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
                                                     all.begin.count(), all.end.count()));
     }
     const JointSet joints = call.joints.empty() ? JointSet{} : joints_named(call.joints, *database.skeleton(info.name));
-    made.motion = at_rate(database.read(info.name, made.frames, joints), call.rate, info.name, made.notices);
+    Motion motion = database.read(info.name, made.frames, joints);
+    if (!call.remake.empty()) {
+      made.remade = gaps_of(call.remake, info, made.frames);
+      made.remade_by =
+          call.transition.empty() ? &transition_methods().front() : find_transition_method(call.transition);
+      remake(snapshot,
+             {.info = info, .shown = made.frames, .joints = joints, .gaps = made.remade, .method = *made.remade_by},
+             motion, made.notices);
+    }
+    made.motion = at_rate(std::move(motion), call.rate, info.name, made.notices);
+  }
+  if (!call.remake.empty() && !made.motion) {
+    throw Error(ErrorCode::bad_input, info.motion ? "--remake makes motion: ask for a file of motion"
+                                                  : fmt::format("--remake: '{}' has no motion", info.name));
   }
   if (info.document != 0 && std::ranges::any_of(outputs, is_document)) made.document = database.document(info.name);
   if (made.document && part) {
@@ -108,9 +125,22 @@ void show_on(Exported& made, const SignerStance& stance, SharedCharacter charact
   made.character = std::move(character);
 }
 
+nlohmann::json json_of_remade(const Exported& exported) {
+  nlohmann::json remade = nlohmann::json::array();
+  for (const FrameRange& frames : exported.remade) {
+    nlohmann::json one = span_json(span_of(frames, exported.info.clock));
+    one["recorded_frames"] = frames_json(frames);
+    one["method"] = exported.remade_by->name;
+    remade.push_back(std::move(one));
+  }
+  return remade;
+}
+
 nlohmann::json json_of(const Exported& exported) {
-  return {{"recording", exported.info.name},
-          {"frames", exported.motion ? exported.motion->frame_count() : exported.frames.size()}};
+  nlohmann::json report = {{"recording", exported.info.name},
+                           {"frames", exported.motion ? exported.motion->frame_count() : exported.frames.size()}};
+  if (!exported.remade.empty()) report["remade"] = json_of_remade(exported);
+  return report;
 }
 
 }  // namespace signweave::calls

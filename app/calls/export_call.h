@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,8 @@
 #include "app/calls/files.h"
 #include "app/calls/json.h"
 #include "app/calls/motion_writing.h"
+#include "app/calls/remake.h"
+#include "app/calls/synthesis_call.h"
 #include "signweave/database/database.h"
 
 namespace signweave::calls {
@@ -18,6 +22,8 @@ struct ExportCall {
   std::string recording;
   std::optional<std::int64_t> from;
   std::optional<std::int64_t> to;
+  std::vector<std::string> remake;
+  std::string transition;
   std::string joints;
   bool signing_space = false;
   std::string character;
@@ -31,6 +37,16 @@ void fields(Visit& visit, ExportCall& call) {
         call.recording);
   visit(Field{.name = "from", .help = "annotation time in ms to begin at"}, call.from);
   visit(Field{.name = "to", .help = "annotation time in ms to end at"}, call.to);
+  visit(Field{.name = "remake",
+              .help = "FROM..TO in ms of annotation time: what was captured there is cut out and made again, as "
+                      "'evaluate' does; may be given several times",
+              .check = check_span},
+        call.remake);
+  visit(Field{.name = "transition",
+              .help = fmt::format("of remake, {} where not given; {}", transition_methods().front().name,
+                                  transition_help()),
+              .one_of = transition_names()},
+        call.transition);
   visit(Field{.name = "joints", .help = "joint names, separated by commas; the others are left at rest"}, call.joints);
   visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, call.signing_space);
   visit(Field{.name = "character", .help = kCharacterHelp}, call.character);
@@ -46,7 +62,9 @@ struct Exported {
   std::optional<AnnotationDocument> document;
   bool signing_space = false;
   bvh::LayoutWishes wishes;
-  SharedCharacter character;  ///< whose joints the motion has; none: those of the recording
+  SharedCharacter character;                    ///< whose joints the motion has; none: those of the recording
+  std::vector<FrameRange> remade;               ///< of the recording's frames those that were cut out and made again
+  const TransitionMethod* remade_by = nullptr;  ///< where any were
   std::vector<Notice> notices;
 
   Outgoing outgoing() const;
@@ -60,7 +78,9 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
 /// Puts what is to be written on a character.
 void show_on(Exported& made, const SignerStance& stance, SharedCharacter character);
 
-/// Recording, and how many frames; the command line adds its files.
+/// What was made again: when, which frames of the recording, and how.
+nlohmann::json json_of_remade(const Exported& exported);
+/// Recording, how many frames, and what of them was made again; the command line adds its files.
 nlohmann::json json_of(const Exported& exported);
 
 }  // namespace signweave::calls

@@ -52,6 +52,20 @@ TEST(ReadCall, ANumberMayStandForATextOnlyWhereTheFieldSaysSo) {
   EXPECT_EQ(fault_of<SignCall>(json{{"utterance", 3}}), "utterance: expected a text, not 3");
 }
 
+TEST(ReadCall, JunctionsAreAListOfWhatTheCommandLineSays) {
+  const SignCall call = read_call<SignCall>(json{{"utterance", "A B C"}, {"junctions", {"1=sine", "2=450ms,x1.5"}}});
+  const SynthesisOptions options = options_of(call.how);
+  ASSERT_EQ(options.junctions.size(), 2u);
+  EXPECT_EQ(options.junctions.at(1).method, find_transition_method("sine"));
+  EXPECT_EQ(options.junctions.at(2), (JunctionChoice{nullptr, Milliseconds(450), 1.5}));
+  EXPECT_TRUE(options_of(read_call<SignCall>(json{{"utterance", "A"}}).how).junctions.empty());
+  EXPECT_THAT(fault_of<SignCall>(json{{"utterance", "A"}, {"junctions", {"1=hermit"}}}),
+              HasSubstr("junctions: 'hermit' is no method"));
+  EXPECT_THAT(fault_of<EditCall>(json{{"recording", "x"}, {"junctions", {1}}}),
+              HasSubstr("junctions: expected a list of texts, not 1 in it"));
+  EXPECT_THROW(options_of(read_call<SignCall>(json{{"utterance", "A"}, {"junctions", {"1=sine", "1=x2"}}}).how), Error);
+}
+
 TEST(ReadCall, FaultsNameTheField) {
   EXPECT_THAT(fault_of<QueryCall>(json{{"limit", 3}}), HasSubstr("text: missing"));
   EXPECT_THAT(fault_of<QueryCall>(json{{"text", "x"}, {"limit", -1}}),

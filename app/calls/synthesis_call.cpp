@@ -18,7 +18,7 @@ std::optional<Milliseconds> parse_duration(const std::string& text) {
   int ms = 0;
   const char* end = text.data() + text.size();
   const auto [parsed, error] = std::from_chars(text.data(), end, ms);
-  if (error != std::errc{} || parsed != end || ms < 0 || ms > 60'000) return std::nullopt;
+  if (error != std::errc{} || parsed != end || ms < 0 || ms > kLongestTransition.count()) return std::nullopt;
   return Milliseconds(ms);
 }
 
@@ -52,11 +52,21 @@ std::string check_duration(const std::string& text) {
   return fmt::format("'{}' is neither corpus, nor fitted, nor 0 to 60000 ms", printable(text));
 }
 
+std::string check_junction(const std::string& text) {
+  try {
+    parse_junction(text);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
 SynthesisOptions options_of(const SynthesisChoices& choices) {
   SynthesisOptions options;
   options.method = find_transition_method(choices.transition);
   options.duration = {.fixed = parse_duration(choices.duration), .fitted = choices.duration == "fitted"};
   options.tempo = choices.tempo;
+  options.junctions = parse_junctions(choices.junctions);
   options.explain = choices.explain;
   if (!choices.rate.empty()) options.rate = parse_frame_rate(choices.rate);
   options.alignment = choices.align == "ground" ? Alignment::ground

@@ -17,6 +17,7 @@ struct SynthesisChoices {
   std::string transition = std::string(transition_methods().front().name);
   std::string duration = "fitted";
   double tempo = 1;
+  std::vector<std::string> junctions;
   std::string rate;
   std::string align = "auto";
   bool signing_space = false;
@@ -30,6 +31,7 @@ std::vector<std::string> transition_names();
 std::string transition_help();
 /// Empty, or what is wrong with the value.
 std::string check_duration(const std::string& text);
+std::string check_junction(const std::string& text);
 
 /// What says how the signing goes, but for its frame rate.
 template <class Visit>
@@ -58,6 +60,14 @@ void signing_fields(Visit& visit, SynthesisChoices& choices) {
 template <class Visit>
 void fields(Visit& visit, SynthesisChoices& choices) {
   signing_fields(visit, choices);
+  visit(
+      Field{.name = "junctions",
+            .help = "N=PART[,PART...]: how junction N is made, counted from 1 between the first two signs: a method, a "
+                    "duration (450ms), a tempo of this transition alone (x1.5); made even between recorded "
+                    "neighbours; may be given several times",
+            .words = "--junction",
+            .check = check_junction},
+      choices.junctions);
   visit(Field{.name = "rate",
               .help = "frames a second of the result; the highest of its sources where not given",
               .or_number = true,
@@ -106,7 +116,7 @@ void fields(Visit& visit, EditCall& call) {
   fields(visit, call.how);
 }
 
-/// Of checked fields.
+/// Of checked fields. Throws Error{bad_input} where a junction is named twice.
 SynthesisOptions options_of(const SynthesisChoices& choices);
 
 /// `most_frames`: a result that would have more is refused. Both throw what `synthesize` and the parsers of utterances

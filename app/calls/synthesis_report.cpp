@@ -6,6 +6,19 @@ namespace signweave::calls {
 
 using nlohmann::json;
 
+namespace {
+
+/// What was told for one junction alone.
+json chosen_json(const JunctionChoice& chosen) {
+  json told = json::object();
+  if (chosen.method != nullptr) told["method"] = chosen.method->name;
+  if (chosen.duration) told["duration_ms"] = chosen.duration->count();
+  if (chosen.tempo) told["tempo"] = *chosen.tempo;
+  return told;
+}
+
+}  // namespace
+
 json describe(const Synthesis& synthesis) {
   json signs = json::array();
   for (const PlacedSign& placed : synthesis.signs) {
@@ -39,7 +52,8 @@ json describe(const Synthesis& synthesis) {
                                            {"preparation_frames", cut.preparation_frames},
                                            {"waits", cut.waits}};
     }
-    junctions.push_back({{"from", junction.from},
+    junctions.push_back({{"number", junction.number},
+                         {"from", junction.from},
                          {"to", junction.to},
                          {"method", junction.method},
                          {"frames", frames_json(junction.frames)},
@@ -47,6 +61,7 @@ json describe(const Synthesis& synthesis) {
                          {"preparation_frames", junction.cut.preparation_frames},
                          {"blend_frames", junction.cut.blend_frames},
                          {"parts", std::move(parts)}});
+    if (!junction.chosen.empty()) junctions.back()["chosen"] = chosen_json(junction.chosen);
   }
   return {{"frames", synthesis.motion.frame_count()},
           {"frames_per_second", synthesis.motion.rate().hertz()},

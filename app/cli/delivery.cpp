@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -46,14 +47,17 @@ std::string captured_of(const Synthesized& made) {
 void print_junctions(const Synthesized& made, Io& io) {
   std::vector<std::vector<std::string>> rows = {
       {"junction", "from", "to", "method", "ms", "m_i", "m_j", "p", "body", "left", "right"}};
+  const bool any_chosen =
+      std::ranges::any_of(made.result.junctions, [](const Junction& one) { return !one.chosen.empty(); });
+  if (any_chosen) rows.front().emplace_back("chosen");
   const FrameClock clock{made.result.motion.rate().frame_time(), Seconds(0)};
-  for (std::size_t i = 0; i < made.result.junctions.size(); ++i) {
-    const Junction& junction = made.result.junctions[i];
-    rows.push_back({std::to_string(i + 1), junction.from, junction.to, junction.method,
+  for (const Junction& junction : made.result.junctions) {
+    rows.push_back({std::to_string(junction.number), junction.from, junction.to, junction.method,
                     std::to_string(span_of(junction.frames, clock).duration().count()),
                     std::to_string(junction.cut.retraction_frames), std::to_string(junction.cut.preparation_frames),
                     std::to_string(junction.cut.blend_frames), part_of(junction.cuts[0]), part_of(junction.cuts[1]),
                     part_of(junction.cuts[2])});
+    if (any_chosen) rows.back().push_back(junction.chosen.empty() ? "-" : to_string(junction.chosen));
   }
   if (rows.size() == 1) return;
   io.out << '\n' << format_table(rows) << timing_of(made.durations) << captured_of(made);

@@ -187,12 +187,15 @@ constexpr const char* kMadeAnswers = R"json({
           "recording": {"type": "string"}, "frames": {"$ref": "#/components/schemas/Frames"},
           "kept_frames": {"$ref": "#/components/schemas/Frames"}, "kept_from_recorded_frame": {"type": "number"},
           "recorded_frames_per_frame": {"type": "number"}}}},
-      "junctions": {"type": "array", "items": {"type": "object", "required": ["from", "to", "method", "frames",
-        "retraction_frames", "preparation_frames", "blend_frames", "parts"], "properties": {
+      "junctions": {"type": "array", "items": {"type": "object", "required": ["number", "from", "to", "method",
+        "frames", "retraction_frames", "preparation_frames", "blend_frames", "parts"], "properties": {
+          "number": {"type": "integer", "minimum": 1, "description": "by which `junctions` names it"},
           "from": {"type": "string"}, "to": {"type": "string"}, "method": {"type": "string"},
           "frames": {"$ref": "#/components/schemas/Frames"}, "retraction_frames": {"type": "integer"},
           "preparation_frames": {"type": "integer"}, "blend_frames": {"type": "integer"},
-          "parts": {"type": "object"}}}},
+          "parts": {"type": "object"},
+          "chosen": {"type": "object", "description": "what `junctions` told of it", "properties": {
+            "method": {"type": "string"}, "duration_ms": {"type": "integer"}, "tempo": {"type": "number"}}}}}},
       "timings": {"type": "object", "additionalProperties": {"type": "number"}},
       "places": {"type": "array", "items": {"type": "object", "required": ["candidates", "chosen", "join_cost"]}},
       "weights": {"$ref": "#/components/schemas/Weights"}, "captured_transitions": {"type": "integer"},

@@ -129,6 +129,22 @@ TEST(Api, SignsAReportOrAFile) {
   EXPECT_EQ(reading().api().answer(accepting).content_type, "application/json");
 }
 
+TEST(Api, JunctionsAreMadeAsTold) {
+  const json sign = {{"utterance", "VANNES MATIN PLUIE"}, {"junctions", {"2=sine,450ms,x1.5"}}};
+  const json made = json_in(reading().send("POST", at({"sign"}), sign))["junctions"];
+  ASSERT_EQ(made.size(), 2u);
+  EXPECT_FALSE(made[0].contains("chosen"));
+  EXPECT_EQ(made[1]["number"], 2);
+  EXPECT_EQ(made[1]["method"], "sine");
+  EXPECT_EQ(made[1]["chosen"], (json{{"method", "sine"}, {"duration_ms", 450}, {"tempo", 1.5}}));
+  EXPECT_EQ(made[1]["frames"]["end"].get<int>() - made[1]["frames"]["begin"].get<int>(), 30);
+  const auto fault = [&](const char* junction) {
+    return fault_of(reading().send("POST", at({"sign"}), {{"utterance", "VANNES MATIN"}, {"junctions", {junction}}}));
+  };
+  EXPECT_THAT(fault("1=sin"), StartsWith("400 bad_input: junctions: 'sin' is no method"));
+  EXPECT_THAT(fault("3=sine"), StartsWith("400 bad_input: no junction 3"));
+}
+
 TEST(Api, AGlossThatIsNotThereHasNearMatches) {
   const std::string fault = fault_of(reading().send("POST", at({"sign"}), {{"utterance", "VANES"}}));
   EXPECT_THAT(fault, StartsWith("404 not_found"));
@@ -158,6 +174,15 @@ TEST(Api, ExportsARecordingOrAPartOfIt) {
   // The words are those of the API, not of the command line.
   EXPECT_THAT(fault_of(reading().get(at({"recordings", "meteo", "motion"}), {{"from", "2"}, {"to", "1"}})),
               HasSubstr("from must be before to"));
+  const auto remade = [&](const char* remake, const char* transition) {
+    return reading().get(at({"recordings", "meteo", "motion"}),
+                         {{"from", "1000"}, {"to", "2000"}, {"remake", remake}, {"transition", transition}});
+  };
+  EXPECT_THAT(remade("1400..1600", "hermite").body, StartsWith("HIERARCHY"));
+  EXPECT_THAT(fault_of(remade("1400-1600", "hermite")),
+              StartsWith("400 bad_input: remake: '1400-1600': expected FROM"));
+  EXPECT_THAT(fault_of(remade("1400..1600", "hermit")), HasSubstr("did you mean hermite"));
+  EXPECT_THAT(fault_of(remade("1400..2000", "hermite")), StartsWith("400 bad_input: remake 1400..2000: 3 captured"));
 }
 
 TEST(Api, CountsChecksAndEvaluates) {

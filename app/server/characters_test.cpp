@@ -120,6 +120,35 @@ TEST(FramesAnswer, HasTheMotionOfTheDatabase) {
   }
 }
 
+TEST(FramesAnswer, TellsWhatWasMadeAgain) {
+  const auto part = [&](std::map<std::string, std::string> more) {
+    std::map<std::string, std::string> query = {{"format", "frames"}, {"from", "28000"}, {"to", "31000"}};
+    query.merge(more);
+    return frames_in(reading().get(at({"recordings", "meteo", "motion"}), std::move(query)));
+  };
+  const Frames plain = part({});
+  for (const TransitionMethod& method : transition_methods()) {
+    const Frames made = part({{"remake", "28500..28800,29800..30100"}, {"transition", std::string(method.name)}});
+    ASSERT_EQ(made.poses.size(), plain.poses.size());
+    EXPECT_EQ(made.head["report"]["remade"].size(), 2u);
+    EXPECT_EQ(made.head["report"]["remade"][1]["begin_ms"], 29'800);
+    EXPECT_EQ(made.head["report"]["remade"][1]["method"], method.name);
+    std::size_t changed = 0;
+    for (std::size_t frame = 0; frame < plain.poses.size(); ++frame) {
+      const bool inside = (frame >= 50 && frame < 80) || (frame >= 180 && frame < 210);
+      const bool same = std::ranges::equal(made.poses[frame].rotations, plain.poses[frame].rotations,
+                                           [](const auto& a, const auto& b) { return a.coeffs() == b.coeffs(); }) &&
+                        made.poses[frame].translations == plain.poses[frame].translations;
+      EXPECT_TRUE(same || inside) << method.name << ' ' << frame;
+      changed += same ? 0 : 1;
+    }
+    EXPECT_GE(changed, 30u) << method.name;
+  }
+  const Frames shown = part({{"remake", "28500..28800"}, {"character", "woman"}});
+  EXPECT_EQ(shown.poses.size(), plain.poses.size());
+  EXPECT_EQ(shown.head["report"]["remade"].size(), 1u);
+}
+
 TEST(FramesAnswer, TellsOfWhatWasMadeHowItWasMade) {
   const json sign = {{"utterance", "VANNES MATIN"}, {"format", "frames"}};
   const Frames got = frames_in(reading().send("POST", at({"sign"}), sign));

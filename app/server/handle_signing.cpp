@@ -167,13 +167,16 @@ ApiResponse export_motion(Call& call) {
   call.notices.insert(call.notices.end(), made.notices.begin(), made.notices.end());
   if (format == "frames") {
     const double origin = 1e3 * made.info.clock.time_of(made.frames.begin).count();
+    nlohmann::json report;  // of what was captured there is none
+    if (!made.remade.empty()) report = {{"remade", calls::json_of_remade(made)}};
     return file_answer(file, made.info.name,
                        frames_text(*made.motion, {.database = call.database().name(),
                                                   .recording = made.info.name,
                                                   .declarations = made.info.declarations,
                                                   .character = parameters.character,
                                                   .origin_ms = origin,
-                                                  .rig = rig_json(*made.motion, made.info.rig, character.get())}));
+                                                  .rig = rig_json(*made.motion, made.info.rig, character.get()),
+                                                  .report = std::move(report)}));
   }
   return file_answer(file, made.info.name, calls::recording_text(file.ending, made.outgoing(), made.info.name));
 }

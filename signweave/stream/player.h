@@ -22,7 +22,7 @@ enum class Idle {
 };
 
 struct PlayerOptions {
-  SynthesisOptions synthesis;  ///< as for a file; `explain` is not looked at
+  SynthesisOptions synthesis;  ///< as for a file; `explain` and `junctions` are not looked at
   Idle idle =
       Idle::living_rest;       ///< with `end`, an utterance has just the frames that `synthesize` makes of its tokens
   std::size_t look_ahead = 3;  ///< a place is decided once so many more are known, or when its time comes; 1 to 16

@@ -64,11 +64,13 @@ bool add(const MotionSource& source, const JointGroups& groups, FrameRange frame
 
 }  // namespace
 
-CapturedSpans captured_spans(const Snapshot& snapshot, const Skeleton& skeleton, const JointGroups& groups) {
+CapturedSpans captured_spans(const Snapshot& snapshot, const Skeleton& skeleton, const JointGroups& groups,
+                             std::string_view without) {
   const Contents& contents = snapshot.contents();
   std::vector<std::uint32_t> recordings;
   for (std::uint32_t i = 0; i < contents.recordings.size(); ++i) {
     const RecordingInfo& info = contents.recordings[i];
+    if (info.name == without) continue;
     if (info.motion && info.document != 0 && info.motion->joints == skeleton.joint_count()) recordings.push_back(i);
   }
   std::vector<Found> all;

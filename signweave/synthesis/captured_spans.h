@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string_view>
 
 #include "signweave/database/database.h"
 #include "signweave/transition/joint_groups.h"
@@ -24,7 +25,9 @@ struct CapturedSpans {
 /// The annotated transitions (see transitions_in) of recordings with the same joints as `skeleton`, whose groups these
 /// are: each from the last stroke frame of one sign to the first of the next, and once more its middle half, for the
 /// gaps that are left where some of both sides is kept. Read are their frames and kContext on both sides. A recording
-/// that is damaged is left out.
-CapturedSpans captured_spans(const Snapshot& snapshot, const Skeleton& skeleton, const JointGroups& groups);
+/// that is damaged is left out, and so is the one named `without`: a method that is judged by a recording must not have
+/// seen it.
+CapturedSpans captured_spans(const Snapshot& snapshot, const Skeleton& skeleton, const JointGroups& groups,
+                             std::string_view without = {});
 
 }  // namespace signweave

@@ -62,12 +62,11 @@ class TrackCarrier {
 
   void fill_gap(std::int64_t begin, std::int64_t count) {
     if (count <= 0) return;
-    weigh(count);
     for (ScalarTrack& track : tracks_) {
-      float* const values = track.values.data() + (begin - window_.begin);
-      const float left = values[-1];
-      const float right = values[count];
-      for (std::size_t k = 0; k < weights_.size(); ++k) values[k] = left + weights_[k] * (right - left);
+      const std::span<float> values(track.values);
+      const auto at = static_cast<std::size_t>(begin - window_.begin);
+      const auto frames = static_cast<std::size_t>(count);
+      go_over(values[at - 1], values[at + frames], values.subspan(at, frames));
     }
   }
 

@@ -231,7 +231,9 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
                              .frames = {plan.laid[i - 1].core_end(), laid.core},
                              .cut = common_to(plan.cuts[i - 1].parts),
                              .cuts = plan.cuts[i - 1].parts,
-                             .method = std::string(method.name)});
+                             .method = std::string(method_of(settings, plan.laid[i]).name),
+                             .number = i,
+                             .chosen = stretches[i].junction});
     assert(out.junctions.back().frames.size() == plan.cuts[i - 1].tracks.length);
   }
   std::vector<Laid> laid_tracks = plan.laid;

@@ -13,6 +13,7 @@
 #include "signweave/features/hand_motion.h"
 #include "signweave/motion/motion.h"
 #include "signweave/motion/motion_source.h"
+#include "signweave/synthesis/junction_choice.h"
 #include "signweave/synthesis/transition.h"
 #include "signweave/transition/duration.h"
 #include "signweave/transition/joint_groups.h"
@@ -28,6 +29,7 @@ struct Stretch {
   FrameClock clock;         ///< of the recording
   std::vector<Sign> signs;  ///< in the recording's annotation time
   Milliseconds pause_before{0};
+  JunctionChoice junction{};  ///< of the junction before it
 };
 
 /// Where an output frame comes from: of a recording where every part of the body is as captured.
@@ -46,6 +48,8 @@ struct Junction {
   TransitionCut cut;    ///< what is kept of all parts together
   TransitionCuts cuts;  ///< [Timed] what is kept of each
   std::string method;
+  std::size_t number = 0;   ///< by which it is named: 1 is that of the first two stretches, or of their places
+  JunctionChoice chosen{};  ///< what was told for it alone
 };
 
 /// Where a stretch lies in the result.

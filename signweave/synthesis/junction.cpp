@@ -44,14 +44,24 @@ Sides read(const JunctionSettings& settings, const Laid& a, const Laid& b, std::
 
 }  // namespace
 
+const TransitionMethod& method_of(const JunctionSettings& settings, const Laid& laid) noexcept {
+  const TransitionMethod* const own = laid.stretch->junction.method;
+  return own != nullptr ? *own : *settings.method;
+}
+
 JunctionTimer::JunctionTimer(const JunctionSettings& settings) : settings_(settings) {
   if (settings.method->cut == nullptr) chooser_.emplace(*settings.skeleton, settings.rig->groups);
 }
 
 JunctionCuts JunctionTimer::cuts_between(const Laid& a, const Laid& b, Milliseconds pause, JunctionScratch& scratch) {
-  const bool choose = chooser_.has_value();
-  const bool fitted = settings_.fit != nullptr && !settings_.fit->weights.empty();
-  Seconds duration = settings_.fit != nullptr ? settings_.fit->mean : Seconds(settings_.duration);
+  const JunctionChoice& own = b.stretch->junction;
+  const auto cut = method_of(settings_, b).cut;
+  const bool choose = cut == nullptr;
+  if (choose && !chooser_) chooser_.emplace(*settings_.skeleton, settings_.rig->groups);
+  const bool fitted = !own.duration && settings_.fit != nullptr && !settings_.fit->weights.empty();
+  Seconds duration = own.duration               ? Seconds(*own.duration)
+                     : settings_.fit != nullptr ? settings_.fit->mean
+                                                : Seconds(settings_.duration);
   Sides sides;
   if (choose || fitted) {
     sides = read(settings_, a, b, choose ? frames_in(kLongestKept, settings_.rate) : 0, scratch);
@@ -73,7 +83,7 @@ JunctionCuts JunctionTimer::cuts_between(const Laid& a, const Laid& b, Milliseco
     }
     duration = duration_of(*settings_.fit, task);
   }
-  const double seconds = (duration + Seconds(pause)).count() / settings_.tempo;
+  const double seconds = (duration / own.tempo.value_or(1.0) + Seconds(pause)).count() / settings_.tempo;
   const double hertz = settings_.rate.hertz();
   const TransitionRoom room{.length = std::max<std::int64_t>(1, std::llround(seconds * hertz)),
                             .retraction = a.retraction,
@@ -81,7 +91,6 @@ JunctionCuts JunctionTimer::cuts_between(const Laid& a, const Laid& b, Milliseco
                             .frames_per_second = hertz,
                             .pause = pause > Milliseconds(0),
                             .pause_frames = std::llround(Seconds(pause).count() / settings_.tempo * hertz)};
-  const auto cut = settings_.method->cut;
   JunctionCuts cuts{.parts = {}, .tracks = choose ? cut_with_gap(room) : cut(room)};
   if (!choose) {
     cuts.parts.fill(cuts.tracks);
@@ -213,7 +222,7 @@ void JunctionFiller::fill_gap(const Laid& a, const Laid& b, FrameRange frames, G
       find_gap_method("sine");  // from rest to rest, whatever noise the borders have
   Gap gap = gap_at(a, b, frames, window);
   gap.pause = static_cast<double>(cut.pause_frames) * gap.rate.frame_time();
-  const GapMethod& method = cut.waits ? *waiting : *settings_.method->fill;
+  const GapMethod& method = cut.waits ? *waiting : *method_of(settings_, b).fill;
   const TransitionModel& model = settings_.model != nullptr ? *settings_.model : default_transition_model();
   method.fill({.gap = gap, .model = model, .groups = groups, .scratch = scratch}, window.poses(frames));
 }

@@ -21,13 +21,16 @@ inline constexpr std::int64_t kStandingFrames = 16'384;
 struct JunctionSettings {
   std::shared_ptr<const Skeleton> skeleton;
   FrameRate rate;
-  const TransitionMethod* method = nullptr;  ///< not null
+  const TransitionMethod* method = nullptr;  ///< not null; of junctions that have none of their own
   const SignerRig* rig = nullptr;            ///< not null
   const DurationFit* fit = nullptr;          ///< null: each transition has `duration`
   Milliseconds duration{0};                  ///< at tempo 1, without pauses
   double tempo = 1;
   const TransitionModel* model = nullptr;  ///< null: the default
 };
+
+/// How the junction before a stretch that is laid is made.
+const TransitionMethod& method_of(const JunctionSettings& settings, const Laid& laid) noexcept;
 
 struct JunctionCuts {
   TransitionCuts parts;
@@ -51,7 +54,7 @@ class JunctionTimer {
 
  private:
   JunctionSettings settings_;
-  std::optional<CutChooser> chooser_;
+  std::optional<CutChooser> chooser_;  ///< from the first junction on whose method asks for it
 };
 
 /// Lays b where the cuts leave it behind a, and notes what both keep of the transition.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -54,20 +55,52 @@ class TimedSource : public MotionSource {
 };
 
 /// One selected candidate, or several that were neighbours in a recording and stay together.
-std::vector<Candidate> merge_neighbours(const Contents& contents, const std::vector<Choice>& choices,
-                                        const Selection& selection, std::vector<Milliseconds>& pauses) {
-  std::vector<Candidate> merged;
+struct Part {
+  Candidate candidate;
+  std::size_t place = 0;  ///< the first of its places, and so the number of the junction before it
+};
+
+/// Of neighbours whose junction is named the transition is made: who tells how it is to be made wants it so.
+std::vector<Part> merge_neighbours(const Contents& contents, const std::vector<Choice>& choices,
+                                   const Selection& selection, const JunctionChoices& named,
+                                   std::vector<Notice>& notices) {
+  std::vector<Part> merged;
   for (std::size_t place = 0; place < choices.size(); ++place) {
     const Candidate& next = choices[place].candidates[selection.chosen[place]];
-    const Milliseconds pause = choices[place].pause_before;
-    if (!merged.empty() && pause == Milliseconds(0) && are_neighbours(contents, merged.back(), next)) {
-      go_on_with(merged.back(), next);
-    } else {
-      merged.push_back(next);
-      pauses.push_back(pause);
+    const bool goes_on = !merged.empty() && choices[place].pause_before == Milliseconds(0) &&
+                         are_neighbours(contents, merged.back().candidate, next);
+    if (goes_on && !named.contains(place)) {
+      go_on_with(merged.back().candidate, next);
+      continue;
     }
+    if (goes_on) {
+      notices.push_back({contents.recordings[next.recording].name,
+                         fmt::format("'{}' and '{}' were signed one after the other: what lies between is made all the "
+                                     "same, for junction {} is named",
+                                     merged.back().candidate.signs.back().gloss, next.gloss(), place)});
+    }
+    merged.push_back({next, place});
   }
   return merged;
+}
+
+void check_numbers(const JunctionChoices& named, std::size_t places) {
+  if (named.empty() || named.rbegin()->first < places) return;
+  const std::size_t junctions = places - 1;
+  throw Error(ErrorCode::bad_input, fmt::format("no junction {}: there {}", named.rbegin()->first,
+                                                junctions == 0   ? "is none, for nothing is joined"
+                                                : junctions == 1 ? "is one alone, number 1"
+                                                                 : fmt::format("are {}, counted from 1", junctions)));
+}
+
+/// The first method of a junction that asks for captured spans, or null.
+const TransitionMethod* method_with_spans(const std::vector<Stretch>& stretches, const TransitionMethod& of_all) {
+  for (std::size_t i = 1; i < stretches.size(); ++i) {
+    const TransitionMethod* const own = stretches[i].junction.method;
+    const TransitionMethod& method = own != nullptr ? *own : of_all;
+    if (method.fill->needs_spans) return &method;
+  }
+  return nullptr;
 }
 
 /// `edited` names the recording that an edit starts from; empty for an utterance.
@@ -75,22 +108,23 @@ Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<
                 std::string_view edited, const SynthesisOptions& options, Clock::time_point start, Synthesis used) {
   const Contents& contents = snapshot.contents();
   check(options);
+  check_numbers(options.junctions, choices.size());
   Synthesized made;
   made.contents = snapshot.shared_contents();
   made.choices = std::move(choices);
   const auto queried = Clock::now();
   if (made.choices.size() > 1) made.durations = durations_of(database, contents, options.duration);
   made.selection = select(snapshot, made.choices, {.transition = made.durations.mean, .explain = options.explain});
-  std::vector<Milliseconds> pauses;
-  std::vector<Candidate> candidates = merge_neighbours(contents, made.choices, made.selection, pauses);
+  std::vector<Notice> notices;
+  std::vector<Part> parts = merge_neighbours(contents, made.choices, made.selection, options.junctions, notices);
   const auto selected = Clock::now();
 
   Seconds reading{0};
   std::map<std::size_t, std::shared_ptr<const MotionSource>> sources;
   std::vector<Stretch> stretches;
-  std::vector<Notice> notices;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    Candidate& candidate = candidates[i];
+  for (Part& part : parts) {
+    Candidate& candidate = part.candidate;
+    const auto named = options.junctions.find(part.place);
     const RecordingInfo& info = contents.recordings[candidate.recording];
     for (const Sign& sign : candidate.left_out) {
       notices.push_back({info.name, fmt::format("'{}' at {} ms has no stroke and stands at a cut: it is left out",
@@ -104,7 +138,8 @@ Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<
                          .core = candidate.core,
                          .clock = info.clock,
                          .signs = std::move(candidate.signs),
-                         .pause_before = pauses[i]});
+                         .pause_before = made.choices[part.place].pause_before,
+                         .junction = named == options.junctions.end() ? JunctionChoice{} : named->second});
   }
 
   std::size_t reference = 0;
@@ -115,14 +150,14 @@ Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<
   const SignerRig rig = signer_rig_of(stretches[reference], contents.at(stretches[reference].recording).rig);
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
   CapturedSpans captured;
-  if (method.fill->needs_spans && stretches.size() > 1) {
+  if (const TransitionMethod* const asking = method_with_spans(stretches, method)) {
     captured = captured_spans(snapshot, *stretches[reference].source->skeleton(), rig.groups);
     made.captured_transitions = captured.transitions;
     if (captured.transitions == 0) {
       notices.push_back(
           {"", fmt::format("no annotated transition of this skeleton in this database: '{}' goes by none, "
                            "and makes the likeliest way",
-                           method.name)});
+                           asking->name)});
     }
   }
   made.result = concatenate(stretches,
@@ -136,9 +171,12 @@ Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<
                              .most_frames = options.most_frames,
                              .reference = reference},
                             std::move(used));
+  for (std::size_t i = 0; i < made.result.junctions.size(); ++i) made.result.junctions[i].number = parts[i + 1].place;
   made.result.notices = std::move(notices);
   made.layout_from = stretches[reference].recording;
-  if (!options.duration.fixed && made.durations.count == 0 && !made.result.junctions.empty()) {
+  const bool timed =
+      std::ranges::any_of(made.result.junctions, [](const Junction& one) { return !one.chosen.duration; });
+  if (!options.duration.fixed && made.durations.count == 0 && timed) {
     made.result.notices.push_back(
         {"", fmt::format("no transition in this database to measure: {} ms taken; --duration sets it",
                          std::llround(1000.0 * made.durations.mean.count()))});
@@ -156,12 +194,21 @@ Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<
 }  // namespace
 
 void check(const SynthesisOptions& options) {
-  if (!(options.tempo >= 0.25 && options.tempo <= 4.0)) {
-    throw Error(ErrorCode::bad_input, fmt::format("tempo {} is outside 0.25 to 4", options.tempo));
-  }
-  const Milliseconds fixed = options.duration.fixed.value_or(Milliseconds(0));
-  if (fixed < Milliseconds(0) || fixed > Milliseconds(60'000)) {
-    throw Error(ErrorCode::bad_input, fmt::format("a transition of {} ms is outside 0 to 60000", fixed.count()));
+  const auto check_tempo = [](double tempo) {
+    if (tempo >= kSlowestTempo && tempo <= kFastestTempo) return;
+    throw Error(ErrorCode::bad_input, fmt::format("tempo {} is outside {} to {}", tempo, kSlowestTempo, kFastestTempo));
+  };
+  const auto check_duration = [](Milliseconds duration) {
+    if (duration >= Milliseconds(0) && duration <= kLongestTransition) return;
+    throw Error(ErrorCode::bad_input,
+                fmt::format("a transition of {} ms is outside 0 to {}", duration.count(), kLongestTransition.count()));
+  };
+  check_tempo(options.tempo);
+  check_duration(options.duration.fixed.value_or(Milliseconds(0)));
+  for (const auto& [number, choice] : options.junctions) {
+    if (number == 0) throw Error(ErrorCode::bad_input, "no junction 0: they are counted from 1");
+    check_tempo(choice.tempo.value_or(1.0));
+    check_duration(choice.duration.value_or(Milliseconds(0)));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "signweave/synthesis/concatenate.h"
 #include "signweave/synthesis/durations.h"
 #include "signweave/synthesis/edit.h"
+#include "signweave/synthesis/junction_choice.h"
 #include "signweave/synthesis/select.h"
 #include "signweave/synthesis/utterance.h"
 
@@ -18,14 +19,16 @@ namespace signweave {
 struct SynthesisOptions {
   const TransitionMethod* method = nullptr;  ///< null: the default
   DurationModel duration;
-  double tempo = 1;               ///< 0.25 to 4
+  double tempo = 1;               ///< kSlowestTempo to kFastestTempo
+  JunctionChoices junctions;      ///< what is told for one alone; those are made even between recorded neighbours
   std::optional<FrameRate> rate;  ///< the highest of the sources where not given
   Alignment alignment = Alignment::automatic;
   std::int64_t most_frames = kMostFrames;  ///< a result that would have more is refused before a frame is read
   bool explain = false;                    ///< fill Selection::explained
 };
 
-/// Throws Error{bad_input} where an option is out of range.
+/// Throws Error{bad_input} where an option is out of range; junctions that there are not are told when it is known how
+/// many there are.
 void check(const SynthesisOptions& options);
 
 /// How long each step took: the columns of the paper's Table 1.
@@ -52,7 +55,8 @@ struct Synthesized {
 };
 
 /// Signs an utterance: the few lines that call the rest. Throws Error{not_found} for a gloss that the database lacks
-/// (with near matches), Error{bad_input} for skeletons that cannot be joined or options out of range.
+/// (with near matches), Error{bad_input} for skeletons that cannot be joined, options out of range, a junction that
+/// there is not.
 /// `used` is an older result whose memory may be used again.
 Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options = {},
                        Synthesis used = {});

@@ -141,4 +141,11 @@ float crossfade_weight(std::int64_t index, std::int64_t count) noexcept {
   return t * t * (3.0f - 2.0f * t);
 }
 
+void go_over(float from, float to, std::span<float> values) noexcept {
+  const auto count = static_cast<std::int64_t>(values.size());
+  for (std::int64_t k = 0; k < count; ++k) {
+    values[static_cast<std::size_t>(k)] = from + crossfade_weight(k, count) * (to - from);
+  }
+}
+
 }  // namespace signweave

@@ -92,4 +92,7 @@ TransitionCut cut_with_gap(const TransitionRoom& room) noexcept;
 /// ends.
 float crossfade_weight(std::int64_t index, std::int64_t count) noexcept;
 
+/// A number in a gap, such as that of a scalar track: goes from where it was to where it will be, by that weight.
+void go_over(float from, float to, std::span<float> values) noexcept;
+
 }  // namespace signweave

@@ -1,4 +1,4 @@
-// What the studio costs: figures.mjs SITE. Fails where more is sent than was agreed; times are only told, as machines differ.
+// What the studio costs: figures.mjs SITE [--sizes]. Fails where more is sent than was agreed; times, which --sizes leaves out, are only told, as machines differ.
 import { readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { gzipSync } from 'node:zlib'
@@ -7,7 +7,7 @@ import { withServer } from './server.mjs'
 import { opened } from './waits.mjs'
 
 const kScriptBytes = 400_000, kCharacterBytes = 4_000_000
-const [site] = process.argv.slice(2)
+const [site, only] = process.argv.slice(2)
 const kRecording = '#/demo/recording/meteo'
 const assets = readdirSync(join(site, 'assets')).filter((name) => name.endsWith('.js'))
 const bytes = assets.reduce((sum, name) => sum + gzipSync(readFileSync(join(site, 'assets', name)), { level: 9 }).length, 0)
@@ -36,6 +36,7 @@ await withServer(site, async (address) => {
     console.log(`${name}: ${byteLength} bytes (at most ${kCharacterBytes})`)
     broken ||= byteLength > kCharacterBytes
   }
+  if (only === '--sizes') return
   const first = async (label, hash, body, there) => {
     // A browser of its own: nothing is in its caches.
     await withBrowser(async (context) => {

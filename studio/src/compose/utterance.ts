@@ -1,9 +1,9 @@
 import { piecePlace, signPlace, type Pause, type Place } from './project'
 
-/** What is wrong with a text, by the key of its words; `at` counts characters from 0. */
+/** What is wrong with a text, by the key of its words; `at` counts characters from 0, `rest` is what stands there. */
 export type UtteranceWrong = 'noClosingQuote' | 'emptyName' | 'pieceOrder' | 'badSuffix' | 'tokenZero' | 'tooLong'
 export class UtteranceFault extends Error {
-  constructor(readonly wrong: UtteranceWrong, readonly at: number, readonly detail = '') {
+  constructor(readonly wrong: UtteranceWrong, readonly at: number, readonly detail = '', readonly rest = '') {
     super(`${wrong} at ${at}`)
   }
 }
@@ -30,7 +30,7 @@ export function wordsOf(text: string): Word[] {
     const quoted = text[at] === '"'
     if (quoted) {
       const close = text.indexOf('"', at + 1)
-      if (close < 0) throw new UtteranceFault('noClosingQuote', at)
+      if (close < 0) throw new UtteranceFault('noClosingQuote', at, '', text.slice(at, at + 30))
       name = text.slice(at + 1, close)
       at = close + 1
       while (at < text.length && !kBlank.test(text[at])) suffix += text[at++]
@@ -59,7 +59,7 @@ function splitBare(word: string): { name: string; suffix: string } {
 }
 
 function placeOf(name: string, suffix: string, at: number): Place {
-  if (name.trim() === '') throw new UtteranceFault('emptyName', at)
+  if (name.trim() === '') throw new UtteranceFault('emptyName', at, '', `"${name}"${suffix}`)
   if (suffix === '') return signPlace(name)
   const piece = kPiece.exec(suffix)
   if (piece && piece[1] === '') {
@@ -69,7 +69,7 @@ function placeOf(name: string, suffix: string, at: number): Place {
   }
   const token = /^#(\d{1,15})$/.exec(suffix)
   if (!token) throw new UtteranceFault('badSuffix', at, suffix)
-  if (Number(token[1]) === 0) throw new UtteranceFault('tokenZero', at)
+  if (Number(token[1]) === 0) throw new UtteranceFault('tokenZero', at, '', name + suffix)
   return signPlace(name, Number(token[1]))
 }
 

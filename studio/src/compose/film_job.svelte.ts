@@ -2,8 +2,11 @@ import type { Api } from '../api/client'
 import type { RenderRequest, RenderView } from '../render/request'
 import type { SignBody } from './body'
 
-/** How large films are, and how many pictures a second. */
-const kFilm = { width: 1280, height: 720, rate: 30 } as const
+/** How large films are. */
+export const kFilmSizes = ['640x360', '1280x720', '1920x1080'] as const
+export type FilmSize = (typeof kFilmSizes)[number]
+/** Pictures a second. */
+const kRate = 30
 
 /** Whether this browser can make films at all. */
 export const canFilm = (): boolean => typeof VideoEncoder !== 'undefined'
@@ -23,9 +26,10 @@ export class FilmJob {
   }
 
   /** Resolves with the film's bytes; none where it was given up. `character` is whose surfaces are drawn. */
-  async make(api: Api, database: string, body: SignBody, character: string | undefined, view: RenderView): Promise<Blob | undefined> {
+  async make(api: Api, database: string, body: SignBody, character: string | undefined, view: RenderView, size: FilmSize): Promise<Blob | undefined> {
     const { signal } = this.abort
-    const request: RenderRequest = { database, call: 'sign', parameters: { ...body }, character: character ?? '', ...kFilm, view, kind: 'webm', at_ms: null, put: '' }
+    const [width, height] = size.split('x').map(Number)
+    const request: RenderRequest = { database, call: 'sign', parameters: { ...body }, character: character ?? '', width, height, rate: kRate, view, kind: 'webm', at_ms: null, put: '' }
     // What makes films is fetched by those who want one.
     const { filmOf } = await import('../render/film_of')
     try {

@@ -20,6 +20,28 @@ export type Seam =
 /** What was made, place by place; before the first there is no seam. */
 export interface Laid { readonly places: readonly LaidPlace[]; readonly seams: readonly (Seam | undefined)[] }
 
+/** What is known of the places of a project from what was made last, which may have been another one: by the places' ids. */
+export class Known {
+  private readonly places = new Map<number, { readonly place: LaidPlace; readonly seam?: Seam; readonly before?: number }>()
+
+  constructor(places: readonly Place[], laid: Laid) {
+    places.forEach(({ id }, k) => this.places.set(id, { place: laid.places[k], seam: laid.seams[k], before: places[k - 1]?.id }))
+  }
+  place(id: number): LaidPlace | undefined {
+    return this.places.get(id)?.place
+  }
+  /** The seam between two places, where they were neighbours then. */
+  seam(id: number, before: number | undefined): Seam | undefined {
+    const known = this.places.get(id)
+    return known?.before === before ? known?.seam : undefined
+  }
+  /** The place that is signed at a time, in seconds. */
+  at(seconds: number): number | undefined {
+    for (const [id, { place }] of this.places) if (place.begin <= seconds && seconds < place.end) return id
+    return undefined
+  }
+}
+
 /** Finds the places of an utterance in the report of what was made of it. None where they are not the report's. */
 export function laidOf(places: readonly Place[], report: Report): Laid | undefined {
   const { signs, stretches, junctions, frames_per_second: rate } = report

@@ -18,11 +18,11 @@ it('takes the sign tier with the most signs, of equal ones the first by name', (
 
 it('makes a recording’s signs the places, each its own token; what no token is, is a piece', async () => {
   const row = (token: number, recording: string, begin: number): CandidateRow => ({ token, recording, frames: { begin, end: begin + 20 }, cost: 0, target_cost: 0, target: {} })
-  const tokens: Record<string, readonly CandidateRow[]> = { A: [row(1, 'q', 0), row(2, 'r', 0), row(3, 'r', 100)], B: [row(1, 'r', 50)] }
+  const tokens: Record<string, readonly CandidateRow[]> = { A: [row(1, 'q', 0), row(2, 'r', 0), row(3, 'r', 145)], B: [row(1, 'r', 50)] }
   const asked: string[] = []
   const api = {
     recording: async () => ({ clock_origin_ms: 0, frames_per_second: 50 }),
-    signs: async () => [answer('A', 0), answer('B', 1000), answer('X', 1500), answer('A', 2000)],
+    signs: async () => [answer('A', 0), answer('B', 1000), answer('X', 1500), answer('A', 2900)],
     explained: async (_: string, { utterance }: { utterance: string }) => {
       asked.push(utterance)
       if (utterance.includes('X')) throw new ApiError("'X' cannot be signed", 404, 'not_found')
@@ -30,7 +30,7 @@ it('makes a recording’s signs the places, each its own token; what no token is
     },
   } as unknown as Api
   const project = await projectFrom(api, 'demo', 'r')
-  expect([textOf(project.places), project.original]).toEqual(['A#2 B#1 r@1500..1900 A#3', 'r'])
+  expect([textOf(project.places), project.original]).toEqual(['A#2 B#1 r@1500..1900 . A#3', 'r'])
   expect(asked).toEqual(['A B X', 'A', 'B X', 'B', 'X'])
 })
 

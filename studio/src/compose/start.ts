@@ -4,6 +4,8 @@ import { ApiError } from '../api/fault'
 import { kEmpty, piecePlace, signPlace, type Place, type Project } from './project'
 import { canBeTyped, quoted } from './utterance'
 
+/** From so much rest on between two signs the server keeps no recorded transition; then there is a full stop. */
+const kRestMs = 1000
 /** Glosses that are asked about at once. */
 const kAtOnce = 60
 
@@ -28,7 +30,11 @@ export async function projectFrom(api: Api, database: string, recording: string)
     for (const [gloss, rows] of await candidates(api, database, glosses.slice(at, at + kAtOnce))) tokens.set(gloss, rows)
   }
   const frameAt = (ms: number) => ((ms - info.clock_origin_ms) * info.frames_per_second) / 1000
-  return { ...kEmpty, original: recording, places: signs.map((sign) => placeOf(sign, tokens.get(sign.name) ?? [], frameAt)) }
+  const places = signs.map((sign, k): Place => {
+    const rests = k > 0 && sign.begin_ms - signs[k - 1].end_ms >= kRestMs
+    return { ...placeOf(sign, tokens.get(sign.name) ?? [], frameAt), pause: rests ? 'stop' : 'none' }
+  })
+  return { ...kEmpty, original: recording, places }
 }
 
 /** The place of a sign: the token whose frames its middle lies in. */

@@ -1,5 +1,6 @@
 import type { CandidateRow, ExplainedReport } from '../api/answers'
 
+interface Term { readonly name: string; readonly of: 'target' | 'join'; readonly cost: number }
 /** A token that may fill a place, with what speaks against it. */
 export interface Candidate {
   readonly token: number; readonly recording: string
@@ -11,13 +12,13 @@ export interface Candidate {
   /** It was recorded right after the sign before, and that transition is kept. */
   readonly kept: boolean
   /** What the costs are made of, by the server's names, without what is nothing; the greatest first. */
-  readonly terms: readonly { readonly name: string; readonly of: 'target' | 'join'; readonly cost: number }[]
+  readonly terms: readonly Term[]
   /** The one that costs least with all the others. */
   readonly best: boolean
 }
 
-/** Costs below this say nothing. */
-const kNothing = 0.0005
+/** Costs below this say nothing: they would be shown as 0. */
+const kNothing = 0.005
 
 /** The candidates of a place, the cheapest first. */
 export function candidatesOf({ places }: ExplainedReport, place: number): Candidate[] {
@@ -26,11 +27,13 @@ export function candidatesOf({ places }: ExplainedReport, place: number): Candid
 }
 
 function candidateOf({ token, recording, frames, cost, target_cost, target, kept, join_cost, join }: CandidateRow, best: boolean): Candidate {
-  const terms = [...termsOf(target, 'target'), ...(kept ? [] : termsOf(join ?? {}, 'join'))].sort((a, b) => b.cost - a.cost)
+  // Of the join to the sign after it only the whole is told.
+  const after = cost - target_cost - (join_cost ?? 0)
+  const terms = [...termsOf(target, 'target'), ...(kept ? [] : termsOf(join ?? {}, 'join')), ...termsOf({ after }, 'join')].sort((a, b) => b.cost - a.cost)
   return { token, recording, frame: frames.begin, cost, target: target_cost, join: join_cost, kept: kept ?? false, terms, best }
 }
 
-function termsOf(terms: Readonly<Record<string, number>>, of: 'target' | 'join') {
+function termsOf(terms: Readonly<Record<string, number>>, of: Term['of']): Term[] {
   return Object.entries(terms).filter(([, cost]) => cost >= kNothing).map(([name, cost]) => ({ name, of, cost }))
 }
 

@@ -46,11 +46,11 @@ it('draws what was made as its EAF has it', () => {
 it('tells the candidates of a place by their tokens, the cheapest first, and what their costs are made of', () => {
   const row = (token: number, cost: number, more = {}) => ({ recording: 'r', token, frames: { begin: 10 * token, end: 10 * token + 5 }, cost, target_cost: 0.1, target: { left: 0.1, defects: 0 }, ...more })
   const report: ExplainedReport = {
-    ...kReport, places: [{ candidates: [row(1, 2), row(3, 1)], chosen: 1 }, { candidates: [row(2, 3, { join_cost: 0.7, join: { arms: 0.4, place: 0.3, speed: 0 } }), row(4, 1, { kept: true, join_cost: 0, join: { arms: 9 } })], chosen: 0 }],
+    ...kReport, places: [{ candidates: [row(1, 2), row(3, 1)], chosen: 1 }, { candidates: [row(2, 3.3, { join_cost: 0.7, join: { arms: 0.4, place: 0.3, speed: 0 } }), row(4, 1, { kept: true, join_cost: 0, join: { arms: 9 } })], chosen: 0 }],
   }
   expect(candidatesOf(report, 0).map(({ token, best, frame }) => [token, best, frame])).toEqual([[3, true, 30], [1, false, 10]])
   const [first, second] = candidatesOf(report, 1)
-  expect([first.token, first.kept, first.best, first.terms]).toEqual([4, true, false, [{ name: 'left', of: 'target', cost: 0.1 }]])
-  expect(second.terms.map(({ name }) => name)).toEqual(['arms', 'place', 'left'])
+  expect([first.token, first.kept, first.best, first.terms]).toEqual([4, true, false, [{ name: 'after', of: 'join', cost: 0.9 }, { name: 'left', of: 'target', cost: 0.1 }]])
+  expect(second.terms.map(({ name }) => name)).toEqual(['after', 'arms', 'place', 'left'])
   expect(chosenTokens(report)).toEqual([3, 2])
 })

@@ -1,5 +1,7 @@
 import { expect, it } from 'vitest'
+import doc from '../../../docs/studio_compose.md?raw'
 import { addressOf, parseRoute } from '../ui/route'
+import { bodyOf } from './body'
 import { FileFault, fileOf, readFile } from './file'
 import { kEmpty, sameProject, withHow, withJoin, withPlaces, type Project } from './project'
 import { projectOf, stateOf } from './state'
@@ -30,6 +32,12 @@ it('comes out of a file as it went in', () => {
   const { project, database } = readFile(fileOf(kFull, 'demo'))
   expect([sameProject(project, kFull), database]).toEqual([true, 'demo'])
   expect(sameProject(readFile(fileOf(kEmpty, 'demo')).project, kEmpty)).toBe(true)
+})
+
+it('reads the file that the documentation shows', () => {
+  const { project, database } = readFile(/```json\n([^]*?)```/.exec(doc)![1])
+  expect([bodyOf(project), project.original, database]).toEqual([
+    { utterance: 'VANNES , MATIN#2 villes@1200..3400', transition: 'hermite', duration: 400, tempo: 1.2, rate: '60', junctions: ['1=gap,450ms,x1.5'] }, 'meteo', 'demo'])
 })
 
 it('refuses a file that it does not understand whole, and says where', () => {

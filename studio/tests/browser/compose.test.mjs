@@ -29,7 +29,7 @@ async function pick(menu, name) {
   await page.locator('.list').getByRole('button', { name }).click()
 }
 const saved = async (act) => {
-  const [file] = await Promise.all([page.waitForEvent('download'), act()])
+  const [file] = await Promise.all([page.waitForEvent('download', { timeout: 180_000 }), act()])
   return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) }
 }
 
@@ -267,23 +267,21 @@ test('downloads motion and annotation', async () => {
 })
 
 test('makes a film in the page, every picture of it with what the recordings declare, and gives one up', async () => {
-  await compose('VANNES')
-  const frames = await page.evaluate(() => window.signweaveStage.panes[0].store.seconds)
+  await compose('VANNES', { tempo: '2' })
+  const seconds = await page.evaluate(() => window.signweaveStage.panes[0].store.seconds)
   await pick('Download', /^WebM/)
-  await page.getByLabel('Size').selectOption('640x360')
+  await page.getByLabel('Size').selectOption('1920x1080') // slow enough to be given up
   await button('Make the film').click()
   await page.getByText(/Picture [1-9]/).waitFor()
   await button('Cancel').click()
-  await button('Make the film').waitFor()
+  await page.getByLabel('Size').selectOption('640x360')
   const film = await saved(() => button('Make the film').click())
   assert.equal(film.name, 'VANNES.webm')
   const webm = readWebm(film.bytes)
-  assert.equal(webm.blocks.length, Math.floor(frames * 30 + 1e-6) + 1)
+  assert.equal(webm.blocks.length, Math.floor(seconds * 30 + 1e-6) + 1)
   const pictures = await decoded(page, webm, webm.codec === 'V_VP9' ? 'vp09.00.21.08' : 'vp8')
   assert.deepEqual([...new Set(pictures.map(({ width, height }) => `${width} ${height}`))], ['640 360'])
-  // The caption: a line of light words on the dark foot of every picture.
-  const foot = pictures.map(({ grey }) => grey.slice(17 * 32).reduce((sum, value) => sum + value, 0) / 32)
-  assert.ok(foot.every((value) => value > 20), `${foot}`)
+  assert.ok(pictures.every(({ caption }) => caption > 300), `${pictures.map(({ caption }) => caption)}`)
   assert.equal(await page.locator('dialog').count(), 0)
   assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 1)
 })

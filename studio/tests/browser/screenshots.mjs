@@ -37,7 +37,7 @@ const kViews = [
 
 /** Until what is composed is there, at a moment with the hands up. */
 async function composed(page, at = 2) {
-  await page.waitForFunction(() => document.querySelector('.compose').dataset.busy === 'false' && window.signweaveStage?.panes[0]?.store.arrived >= window.signweaveStage.panes[0].store.length)
+  await page.waitForFunction(() => document.querySelector('.compose').dataset.busy === 'false' && window.signweaveStage?.panes.length > 0 && window.signweaveStage.panes.every(({ store, seen }) => seen && store.arrived >= store.length), null, { timeout: 90_000 })
   await page.evaluate((to) => { const stage = window.signweaveStage; stage.transport.pause(); stage.transport.seek(to); stage.touch() }, at)
 }
 async function compared(page) {

@@ -42,13 +42,14 @@ async function composed(page, at = 2) {
 }
 async function compared(page) {
   await page.locator('.junction').nth(2).click()
+  await composed(page)
   await page.locator('aside select').last().selectOption('sine')
-  await page.waitForFunction(() => window.signweaveStage.panes.length === 2)
+  await page.waitForFunction(() => window.signweaveStage.panes.length === 2, null, { timeout: 90_000 })
   await composed(page, 4.3)
 }
 async function scenario(page) {
   await page.locator('.empty button').first().click()
-  await page.waitForFunction(() => window.signweaveStage?.panes.length === 2)
+  await page.waitForFunction(() => window.signweaveStage?.panes.length === 2, null, { timeout: 90_000 })
   await composed(page, 28.2)
 }
 

@@ -41,9 +41,38 @@ export interface GlossRow { readonly gloss: string; readonly sign_ms: Spread }
 export interface ReportSign {
   readonly gloss: string; readonly begin_ms: number; readonly end_ms: number; readonly recording: string
   readonly recorded: { readonly begin_ms: number; readonly end_ms: number }
+  readonly phases?: readonly { readonly kind: string; readonly begin_ms: number; readonly end_ms: number }[]
+}
+export interface FrameSpan { readonly begin: number; readonly end: number }
+/** Signs of one recording as they were captured, and what of it is kept: frames of the new motion. */
+export interface ReportStretch {
+  readonly recording: string; readonly frames: FrameSpan; readonly kept_frames: FrameSpan; readonly kept_from_recorded_frame: number
+  readonly recorded_frames_per_frame: number
+}
+/** The transition between two stretches. */
+export interface ReportJunction {
+  readonly from: string; readonly to: string; readonly method: string; readonly frames: FrameSpan
+  readonly retraction_frames: number; readonly preparation_frames: number; readonly blend_frames: number
 }
 /** What `sign` and `edit` tell of what they made. */
-export interface Report { readonly signs: readonly ReportSign[] }
+export interface Report {
+  readonly frames: number; readonly frames_per_second: number
+  readonly signs: readonly ReportSign[]; readonly stretches: readonly ReportStretch[]; readonly junctions: readonly ReportJunction[]
+}
+/** A token that may fill a place, and what it costs there; `join` is that to the one chosen before. */
+export interface CandidateRow {
+  readonly recording: string; readonly token: number; readonly frames: FrameSpan; readonly cost: number
+  readonly target_cost: number; readonly target: Readonly<Record<string, number>>
+  readonly kept?: boolean; readonly join_cost?: number; readonly join?: Readonly<Record<string, number>>
+}
+/** A report with `explain`: what there was to choose from, place by place. */
+export interface ExplainedReport extends Report {
+  readonly places: readonly { readonly candidates: readonly CandidateRow[]; readonly chosen: number }[]
+}
+/** A sign that a query found. */
+export interface SignAnswer { readonly name: string; readonly recording: string; readonly tier: string; readonly begin_ms: number; readonly end_ms: number }
+/** A way of making transitions. */
+export interface TransitionRow { readonly name: string; readonly description: string }
 
 /** What is in a database, for completion. */
 export interface Vocabulary {

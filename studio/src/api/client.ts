@@ -1,6 +1,6 @@
 import { readFrames, type FrameTaker } from '../motion/frames_body'
 import type { Declarations } from '../motion/source'
-import type { CharacterRow, DatabaseRow, GlossRow, JobBegun, JobState, MediaRow, RecordingInfo, RecordingRow, Statistics, Vocabulary } from './answers'
+import type { CharacterRow, DatabaseRow, ExplainedReport, GlossRow, JobBegun, JobState, MediaRow, RecordingInfo, RecordingRow, SignAnswer, Statistics, TransitionRow, Vocabulary } from './answers'
 import { ApiError, StudioFault } from './fault'
 
 type Query = Readonly<Record<string, string | number | undefined>>
@@ -10,6 +10,12 @@ export interface PieceWishes {
   readonly from: number; readonly to: number; readonly character?: string
   /** `FROM..TO` in ms: captured frames that are cut out and made again by the method `transition`. */
   readonly remake?: string; readonly transition?: string
+}
+
+/** Where the server's description of itself tells how transitions are made. */
+interface SignDescription {
+  readonly post: { readonly requestBody: { readonly content: { readonly 'application/json': { readonly schema: { readonly properties: {
+    readonly transition: { readonly description: string; readonly enum: readonly string[] } } } } } } }
 }
 
 /** The calls of docs/http.md that the studio makes. */
@@ -73,6 +79,25 @@ export class Api {
   async piece(database: string, recording: string, wishes: PieceWishes, taker: FrameTaker, signal?: AbortSignal): Promise<void> {
     const response = await this.call(path('databases', database, 'recordings', recording, 'motion') + query({ format: 'frames', ...wishes }), { signal })
     await readFrames(response.body!, taker)
+  }
+  /** What `sign` would make, with what there was to choose from. */
+  async explained(database: string, body: object, signal?: AbortSignal): Promise<ExplainedReport> {
+    return (await this.post(path('databases', database, 'sign'), { ...body, explain: true }, signal)).json() as Promise<ExplainedReport>
+  }
+  /** What `sign` makes, as a file of a format. */
+  async madeFile(database: string, body: object, signal?: AbortSignal): Promise<Blob> {
+    return (await this.post(path('databases', database, 'sign'), body, signal)).blob()
+  }
+  /** The signs of a recording in the order of time, tier after tier. */
+  signs(database: string, recording: string): Promise<readonly SignAnswer[]> {
+    const name = recording.replace(/[\\"]/g, '\\$&')
+    return this.json(path('databases', database, 'query') + query({ text: `gloss =~ /.*/ & recording = "${name}"` }))
+  }
+  /** How transitions can be made, the one that is taken where nothing is said first. */
+  async transitions(): Promise<readonly TransitionRow[]> {
+    const { paths } = await this.json<{ paths: Record<string, SignDescription> }>('openapi.json')
+    const { description, enum: names } = paths['/databases/{database}/sign'].post.requestBody.content['application/json'].schema.properties.transition
+    return names.map((name) => ({ name, description: description.split('\n').map((line) => line.trim()).find((line) => line.startsWith(`${name}: `))?.slice(name.length + 2) ?? '' }))
   }
   /** What can be asked for and signed: for completion. */
   vocabulary(database: string): Promise<Vocabulary> {

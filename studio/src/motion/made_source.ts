@@ -26,7 +26,8 @@ export class MadeSource implements MotionSource {
         begin: (header) => {
           const rig = rigOf(header)
           const store = new FrameStore(skeletonOf(header), header.rate, rig, header.frames)
-          opened = { store, rig, character: header.character, originMs: header.origin_ms, declarations: declarationsOf(header), signs: header.report?.signs }
+          const { character, report } = header
+          opened = { store, rig, character, originMs: header.origin_ms, declarations: declarationsOf(header), signs: report?.signs, report }
         },
         take: (block) => {
           opened!.store.put(block)

@@ -1,4 +1,4 @@
-import type { ReportSign } from '../api/answers'
+import type { Report, ReportSign } from '../api/answers'
 import type { FrameStore } from './frame_store'
 import type { Rig } from './skeleton'
 
@@ -36,4 +36,6 @@ export interface OpenedMotion {
   readonly declarations: Declarations
   /** Of a motion that was made: its signs and where they were recorded. */
   readonly signs?: readonly ReportSign[]
+  /** All that is told of how it was made. */
+  readonly report?: Report
 }

@@ -27,8 +27,17 @@ export class StreamSource implements MotionSource {
   /** Frames that came while the rig was still asked for. */
   private waiting: FrameBlock[] = []
   private over = false
+  private appended = 0
 
-  constructor(private readonly api: Api, private readonly database: string, readonly title: string, private readonly character?: string) {}
+  /** Utterances that were appended and not answered yet, by the id that they were sent with. */
+  private readonly asked = new Map<string, { resolve: () => void; reject: (fault: Error) => void }>()
+
+  /**
+   * `title` is signed first; with `resting`, a recording, nothing is, and its signer rests until something is. `how` is what else
+   * `open` takes: `transition`, `duration`, `tempo`, `align`, `rate`.
+   */
+  constructor(private readonly api: Api, private readonly database: string, readonly title: string, private readonly character?: string,
+              private readonly resting?: string, private readonly how: object = {}) {}
 
   open(): Promise<OpenedMotion> {
     return new Promise((resolve, reject) => {
@@ -40,8 +49,8 @@ export class StreamSource implements MotionSource {
         else reject(fault)
       }
       socket.onopen = () => {
-        this.send({ type: 'open', pace: 'live', idle: 'rest', batch: 2, character: this.character })
-        this.sign(this.title)
+        this.send({ ...this.how, type: 'open', pace: 'live', idle: 'rest', batch: 2, character: this.character, recording: this.resting })
+        if (this.resting === undefined) this.sign(this.title)
       }
       // A socket that fails tells no reason to a page, and closes.
       socket.onclose = ({ reason, code }) => {
@@ -64,7 +73,19 @@ export class StreamSource implements MotionSource {
     this.send({ type: 'sign', utterance })
   }
 
+  /** An utterance after what is left. Resolves when the server will sign it, rejects with its own line where it will not. */
+  append(utterance: string): Promise<void> {
+    return new Promise((resolve, reject) => {
+      if (this.socket?.readyState !== WebSocket.OPEN) return reject(new StudioFault('streamClosed'))
+      const id = `append ${++this.appended}`
+      this.asked.set(id, { resolve, reject })
+      this.send({ type: 'append', utterance, id })
+    })
+  }
+
   close(): void {
+    for (const { reject } of this.asked.values()) reject(new StudioFault('streamClosed'))
+    this.asked.clear()
     this.over = true
     this.socket?.close(1000)
   }
@@ -99,6 +120,11 @@ export class StreamSource implements MotionSource {
 
   private told(message: { type: string; frame?: number } & Record<string, unknown>, fail: (fault: Error) => void): void {
     const { type, frame = 0 } = message
+    const asked = this.asked.get(String(message.id))
+    if (asked) {
+      this.asked.delete(String(message.id))
+      return type === 'error' ? asked.reject(new ApiError(String(message.message), 0, String(message.code))) : asked.resolve()
+    }
     if (type === 'header') {
       this.header = message as unknown as FramesHeader
     } else if (type === 'error') {

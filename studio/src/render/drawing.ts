@@ -45,7 +45,14 @@ export class Drawing {
         notes.push(`The surfaces of ${motion.character} could not be had: a drawn body stands in`)
       }
     }
-    return new Drawing(renderer, pane, motion, request, notes)
+    try {
+      return new Drawing(renderer, pane, motion, request, notes)
+    } catch (fault) {
+      pane.dispose()
+      renderer.dispose()
+      renderer.forceContextLoss()
+      throw fault
+    }
   }
 
   /** Draws a moment, in seconds from the motion's first frame. Throws where the browser has given the picture up. */
@@ -65,6 +72,13 @@ export class Drawing {
     context.drawImage(renderer.domElement, 0, 0)
     for (let k = 1; k < this.sights.length; ++k) context.fillRect(Math.round(k * part) - 1, 0, 2, canvas.height)
     if (caption) context.drawImage(caption.picture, 0, canvas.height - caption.height)
+  }
+
+  /** Gives the graphics back: a page has few contexts, and may make another film. */
+  dispose(): void {
+    this.pane.dispose()
+    this.renderer.dispose()
+    this.renderer.forceContextLoss()
   }
 }
 

@@ -76,4 +76,9 @@ export class Film {
     await this.output.finalize()
     return this.target.buffer!
   }
+
+  /** Lets go of the encoder where the film is not wanted any more. */
+  giveUp(): void {
+    if (this.encoder.state !== 'closed') this.encoder.close()
+  }
 }

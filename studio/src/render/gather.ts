@@ -7,7 +7,7 @@ import type { OpenedMotion } from '../motion/source'
 import type { RenderRequest } from './request'
 
 /** The whole motion that a request is about, every frame of it. Rejects with the server's own line where there is none. */
-export async function gather(api: Api, { database, call, parameters, character }: RenderRequest): Promise<OpenedMotion> {
+export async function gather(api: Api, { database, call, parameters, character }: RenderRequest, signal?: AbortSignal): Promise<OpenedMotion> {
   let motion: OpenedMotion | undefined
   const taker: FrameTaker = {
     begin(header) {
@@ -22,9 +22,9 @@ export async function gather(api: Api, { database, call, parameters, character }
   const joints = character || undefined
   if (call === 'recording') {
     const { recording, from, to } = await spanOf(api, database, parameters)
-    await api.motion(database, recording, from, to, joints, taker)
+    await api.motion(database, recording, from, to, joints, taker, signal)
   } else {
-    await api.made(database, call, parameters, joints, taker)
+    await api.made(database, call, parameters, joints, taker, signal)
   }
   const { store } = motion!
   if (store.length === 0 || store.firstMissing(0) < store.length) throw new StudioFault('framesMissing', `${store.held} of ${store.length}`)

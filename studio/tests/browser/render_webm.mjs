@@ -31,15 +31,23 @@ export function readWebm(bytes) {
   return film
 }
 
-/** Decodes every block in a page: each picture's time in µs, and its grey values at 32×18. */
+/** Decodes every block in a page: each picture's time in µs, its grey values at 32×18, and how many pixels of its last 24 rows are light and warm, as the caption's text is. */
 export async function decoded(page, { blocks }, codec) {
   return page.evaluate(async ([rows, name]) => {
     const seen = [], canvas = new OffscreenCanvas(32, 18), context = canvas.getContext('2d', { willReadFrequently: true })
+    const captionOf = (frame) => {
+      const { displayWidth: width, displayHeight: height } = frame, foot = new OffscreenCanvas(width, 24).getContext('2d', { willReadFrequently: true })
+      foot.drawImage(frame, 0, 24 - height)
+      const { data } = foot.getImageData(0, 0, width, 24)
+      let count = 0
+      for (let i = 0; i < data.length; i += 4) if (data[i] > 190 && data[i] - data[i + 2] > 45) ++count
+      return count
+    }
     const decoder = new VideoDecoder({
       output: (frame) => {
         context.drawImage(frame, 0, 0, 32, 18)
         const { data } = context.getImageData(0, 0, 32, 18)
-        seen.push({ timestamp: frame.timestamp, width: frame.displayWidth, height: frame.displayHeight, grey: Array.from({ length: 32 * 18 }, (_, i) => (data[4 * i] + data[4 * i + 1] + data[4 * i + 2]) / 3) })
+        seen.push({ caption: captionOf(frame), timestamp: frame.timestamp, width: frame.displayWidth, height: frame.displayHeight, grey: Array.from({ length: 32 * 18 }, (_, i) => (data[4 * i] + data[4 * i + 1] + data[4 * i + 2]) / 3) })
         frame.close()
       },
       error: (fault) => { throw fault },

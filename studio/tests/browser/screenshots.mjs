@@ -6,6 +6,7 @@ import { drawn, opened } from './waits.mjs'
 
 const [site, out, only = ''] = process.argv.slice(2)
 const kEdit = '#/demo/edit/meteo?replace=BRETAGNE%3DVANNES&replace=DEMAIN%3DMARSEILLE&replace=VENDREDI%3DRENNES&replace=MATIN%232%3DLE%20MANS'
+const kCompose = '#/demo/compose?' + new URLSearchParams({ utterance: 'VANNES MATIN , "LE MANS" PLUIE' })
 const kDesk = { width: 1280, height: 720 }, kPhone = { width: 390, height: 844 }
 const kViews = [
   { name: 'recordings', hash: '#/demo' },
@@ -23,12 +24,34 @@ const kViews = [
   { name: 'drawn_face', hash: '#/demo/recording/meteo?at=2.2', body: 'drawn', keys: ['5'] },
   { name: 'two_recordings', hash: '#/demo/recording/meteo?at=2.2&beside=villes' },
   { name: 'scenario_1', hash: kEdit, seek: 29.4, keys: ['+', '+', '+'] },
-  { name: 'new_signing', hash: '#/demo/compose' },
   { name: 'signed', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN , "LE MANS" PLUIE'), keys: ['Space'], seek: 1.4 },
   { name: 'live', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN') + '?pace=live' },
   { name: 'help', hash: '#/demo/recording/meteo?at=2.2', keys: ['?'] },
   { name: 'fault', hash: '#/demo/recording/nobody' },
+  { name: 'new_signing', hash: kCompose, then: (page) => composed(page) },
+  { name: 'compose_empty', hash: '#/demo/compose', then: (page) => page.locator('.empty button').first().waitFor() },
+  { name: 'compose_tokens', hash: kCompose, then: async (page) => { await composed(page); await page.locator('.card').nth(1).click(); await page.locator('aside .token').first().waitFor() } },
+  { name: 'compose_compare', hash: kCompose, then: async (page) => { await composed(page); await compared(page) } },
+  { name: 'compose_scenario', hash: '#/demo/compose', then: scenario },
 ]
+
+/** Until what is composed is there, at a moment with the hands up. */
+async function composed(page, at = 2) {
+  await page.waitForFunction(() => document.querySelector('.compose').dataset.busy === 'false' && window.signweaveStage?.panes.length > 0 && window.signweaveStage.panes.every(({ store, seen }) => seen && store.arrived >= store.length), null, { timeout: 90_000 })
+  await page.evaluate((to) => { const stage = window.signweaveStage; stage.transport.pause(); stage.transport.seek(to); stage.touch() }, at)
+}
+async function compared(page) {
+  await page.locator('.junction').nth(2).click()
+  await composed(page)
+  await page.locator('aside select').last().selectOption('sine')
+  await page.waitForFunction(() => window.signweaveStage.panes.length === 2, null, { timeout: 90_000 })
+  await composed(page, 4.3)
+}
+async function scenario(page) {
+  await page.locator('.empty button').first().click()
+  await page.waitForFunction(() => window.signweaveStage?.panes.length === 2, null, { timeout: 90_000 })
+  await composed(page, 28.2)
+}
 
 mkdirSync(out, { recursive: true })
 await withServer(site, async (address) => {

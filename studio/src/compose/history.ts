@@ -1,0 +1,37 @@
+/** A state with those before it and those that were taken back, oldest first in `past`, next first in `future`. Never changed. */
+export interface History<T> {
+  readonly past: readonly T[]
+  readonly now: T
+  readonly future: readonly T[]
+  /** What the newest change was of, and when it was made: changes of one thing in one go are one step. */
+  readonly of?: string
+  readonly at: number
+}
+
+const kMostSteps = 500
+/** Changes of one thing that come within so many ms of each other are taken back together. */
+const kOneGoMs = 1500
+
+export function begun<T>(now: T): History<T> {
+  return { past: [], now, future: [], at: -Infinity }
+}
+
+/** `of` names what was changed, where several changes of it may be one step; `at` is ms of any clock. */
+export function did<T>(history: History<T>, now: T, of?: string, at = 0): History<T> {
+  if (now === history.now) return history
+  const goesOn = of !== undefined && of === history.of && at - history.at < kOneGoMs
+  const past = goesOn ? history.past : [...history.past.slice(-kMostSteps + 1), history.now]
+  return { past, now, future: [], of, at }
+}
+
+export function undone<T>(history: History<T>): History<T> {
+  const { past, now, future } = history
+  if (past.length === 0) return history
+  return { past: past.slice(0, -1), now: past[past.length - 1], future: [now, ...future], at: -Infinity }
+}
+
+export function redone<T>(history: History<T>): History<T> {
+  const { past, now, future } = history
+  if (future.length === 0) return history
+  return { past: [...past, now], now: future[0], future: future.slice(1), at: -Infinity }
+}

@@ -1,0 +1,117 @@
+import type { Api } from '../api/client'
+import type { AnnotationDocument } from '../annotation/document'
+import type { Declarations } from '../motion/source'
+import { StreamSource } from '../motion/stream_source'
+import { Opening } from '../player/opening'
+import type { Showing, Strand } from '../viewer/showing'
+import { Transport } from '../viewer/transport'
+
+const kTellMs = 200
+const kMostPlaces = 2000
+const kNothing: AnnotationDocument = { tiers: [] }
+
+/** A signer who rests, and signs at once what is appended. */
+export class Live implements Showing {
+  readonly transport = new Transport()
+  readonly live = true
+  readonly document = kNothing
+  readonly original = kNothing
+  readonly complete = false
+  readonly inSteps = false
+  strands = $state.raw<readonly Strand[]>([])
+  main = $state.raw<Strand | undefined>()
+  busy = $state(true)
+  trouble = $state.raw<unknown>()
+  arrivals = $state(0)
+  leftOut = $state(0)
+  declarations = $state.raw<readonly Declarations[]>([])
+  private current?: Opening
+  private next?: Opening
+  private source?: StreamSource
+  /** From which frame on which gloss is signed; none at rest. */
+  private readonly places: { frame: number; gloss?: string }[] = []
+  private closed = false
+  private told = 0
+
+  /** `resting` is the recording whose signer rests, `how` what `open` of a stream takes. */
+  constructor(private readonly api: Api, private readonly database: string, private readonly resting: string, private readonly how: object) {
+    this.transport.live = true
+  }
+
+  timeOf(): (seconds: number) => number {
+    return (seconds) => seconds
+  }
+  want(): void {}
+
+  /** Opens the stream in a character's joints; another one takes the place of the one that is shown. */
+  wear(character: string | undefined): void {
+    const newest = this.next ?? this.current
+    if (this.closed || (newest && newest.character === character)) return
+    this.next?.close()
+    const next = (this.next = new Opening(character, (fault) => this.note(fault), () => this.progress()))
+    this.busy = true
+    const source = new StreamSource(this.api, this.database, '', character, this.resting, this.how)
+    source.onNotice = (fault) => this.note(fault)
+    source.onPlace = (frame, gloss) => {
+      this.places.push({ frame, gloss })
+      if (this.places.length > kMostPlaces) this.places.splice(0, kMostPlaces / 2)
+    }
+    next.strand('made', source).then((strand) => {
+      if (this.next !== next) return
+      this.current?.close()
+      this.current = next
+      this.next = undefined
+      this.source = source
+      this.busy = false
+      this.trouble = undefined
+      this.places.length = 0
+      this.transport.time = 0
+      this.transport.rate = strand.motion.store.rate
+      this.main = strand
+      this.strands = [strand]
+      this.declarations = [strand.motion.declarations]
+      this.transport.play()
+      this.progress()
+    }).catch((fault: unknown) => {
+      next.close()
+      if (this.next !== next) return
+      this.next = undefined
+      this.busy = false
+      this.note(fault)
+    })
+  }
+
+  /** Signs this after what is left. Resolves when it will be signed, rejects with the server's line where it cannot be. */
+  async append(utterance: string): Promise<void> {
+    if (!this.source) throw this.trouble ?? new Error(utterance)
+    await this.source.append(utterance)
+  }
+
+  glossAt(seconds: number): string | undefined {
+    const frame = seconds * (this.main?.motion.store.rate ?? 1)
+    for (let i = this.places.length - 1; i >= 0; --i) if (this.places[i].frame <= frame) return this.places[i].gloss
+    return undefined
+  }
+
+  close(): void {
+    this.closed = true
+    this.next?.close()
+    this.current?.close()
+    this.next = undefined
+  }
+
+  private progress(): void {
+    if (this.closed || !this.main || !this.source) return
+    this.transport.duration = this.main.motion.store.seconds
+    this.transport.growing = true
+    this.leftOut = this.source.leftOut
+    const now = performance.now()
+    if (now - this.told < kTellMs) return
+    this.told = now
+    ++this.arrivals
+  }
+
+  private note(fault: unknown): void {
+    if (!this.closed) this.trouble = fault
+  }
+}

@@ -1,0 +1,237 @@
+import type { Report } from '../api/answers'
+import type { Api } from '../api/client'
+import type { AnnotationDocument } from '../annotation/document'
+import { beside, stepsOfSigns, type Steps } from '../motion/in_step'
+import { MadeSource } from '../motion/made_source'
+import { RecordingSource } from '../motion/recording_source'
+import type { Declarations, MotionSource } from '../motion/source'
+import { Opening } from '../player/opening'
+import type { Showing, Strand } from '../viewer/showing'
+import { Transport } from '../viewer/transport'
+import { bodyOf } from './body'
+import { laidOf, type Laid } from './laid'
+import { documentOf } from './made_document'
+import { firstChange, type Project } from './project'
+import { mainSigns } from './start'
+import { textOf } from './utterance'
+
+const kTellMs = 200
+const kNothing: AnnotationDocument = { tiers: [] }
+/** Seconds of what lies around a junction that are shown with it. */
+const kAround = 0.4
+
+/** What stands beside what is made: the recording that it was made from, or the same signs joined otherwise. */
+export type Beside =
+  | { readonly kind: 'original'; readonly recording: string }
+  | { readonly kind: 'method'; readonly title: string; readonly other: Project }
+
+/** What is to be shown. */
+export interface Wish { readonly project: Project; readonly title: string; readonly beside?: Beside }
+/** What is shown: the wish, and what the server tells of it. */
+export interface Made { readonly wish: Wish; readonly report: Report; readonly laid?: Laid; readonly document: AnnotationDocument; readonly other?: Laid }
+
+/** Signs a project anew after each change. What is shown stays until the new one is there, and stays where there never is one. */
+export class Making implements Showing {
+  readonly transport = new Transport()
+  readonly live = false
+  strands = $state.raw<readonly Strand[]>([])
+  /** The strand that the transport's time and the timeline are of. */
+  main = $state.raw<Strand | undefined>()
+  made = $state.raw<Made | undefined>()
+  /** Something newer than what is shown is being made. */
+  busy = $state(false)
+  /** Why the newest could not be made, or something of it could not be had. */
+  trouble = $state.raw<unknown>()
+  arrivals = $state(0)
+  declarations = $state.raw<readonly Declarations[]>([])
+  /** Pairs the strands sign by sign; else by time. */
+  bySign = $state(true)
+  /** The signs of the original that is shown. */
+  original = $state.raw<AnnotationDocument>(kNothing)
+  /** The place before which a junction is shown again and again, by its id. */
+  around: number | undefined
+  private current?: Opening
+  private next?: Opening
+  private wanted?: Wish
+  private steps = $state.raw<Steps | undefined>()
+  /** A recording that stands beside: it stays while everything else is made anew. */
+  private recorded?: { readonly key: string; readonly opening: Opening; readonly strand: Promise<Strand> }
+  private closed = false
+  private told = 0
+
+  constructor(private readonly api: Api, private readonly database: string) {}
+
+  get document(): AnnotationDocument {
+    return this.made?.document ?? kNothing
+  }
+  get complete(): boolean {
+    return this.main?.source.complete ?? true
+  }
+  get inSteps(): boolean {
+    return this.steps !== undefined
+  }
+
+  timeOf(strand: Strand): (seconds: number) => number {
+    if (strand.source === this.main?.source) return (seconds) => seconds
+    return (seconds) => (this.steps && this.bySign ? beside(this.steps, seconds) : seconds)
+  }
+  want(seconds: number): void {
+    for (const strand of this.strands) strand.source.want?.(this.timeOf(strand)(seconds))
+  }
+
+  /** Makes what is wished for, in a character's joints; what was under way before is given up. */
+  make(wish: Wish, character: string | undefined): void {
+    if (this.closed) return
+    this.next?.close()
+    this.next = undefined
+    this.wanted = wish
+    if (wish.project.places.length === 0) return this.clear()
+    const next = (this.next = new Opening(character, (fault) => this.note(fault), (source) => this.progress(source)))
+    this.busy = true
+    this.open(wish, next).then((strands) => {
+      if (this.next !== next) return
+      this.current?.close()
+      this.current = next
+      this.next = undefined
+      this.busy = false
+      this.trouble = undefined
+      this.show(wish, strands)
+    }).catch((fault: unknown) => {
+      next.close()
+      if (this.next !== next) return
+      this.next = undefined
+      this.busy = false
+      this.note(fault)
+    })
+  }
+  again(character: string | undefined): void {
+    if (this.wanted) this.make(this.wanted, character)
+  }
+
+  /** Shows the junction before a place again and again; none where it is no junction of what is shown. */
+  loopAround(id: number): boolean {
+    const seam = this.seamOf(id)
+    if (!seam) return false
+    this.around = id
+    this.transport.setLoop(seam.begin - kAround, seam.end + kAround)
+    this.transport.seek(this.transport.loop?.begin ?? seam.begin)
+    return true
+  }
+  seamOf(id: number) {
+    const { made } = this
+    return made?.laid?.seams[made.wish.project.places.findIndex((place) => place.id === id)]
+  }
+
+  close(): void {
+    this.closed = true
+    this.next?.close()
+    this.current?.close()
+    this.recorded?.opening.close()
+    this.next = undefined
+  }
+
+  private async open({ project, title, beside: other }: Wish, opening: Opening): Promise<readonly Strand[]> {
+    const { api, database } = this
+    const { character } = opening
+    const sign = (one: Project, called: string) => new MadeSource(api, database, called, 'sign', bodyOf(one), character)
+    const main = opening.strand(other?.kind === 'method' ? 'beside' : 'made', sign(project, title))
+    if (!other) return [await main]
+    if (other.kind === 'method') return Promise.all([main, opening.strand('beside', sign(other.other, other.title))])
+    const [left, made] = await Promise.all([this.originalStrand(other.recording, character), main])
+    return [left, made]
+  }
+
+  private originalStrand(recording: string, character: string | undefined): Promise<Strand> {
+    const key = JSON.stringify([recording, character])
+    if (this.recorded?.key === key) return this.recorded.strand
+    const before = this.recorded
+    const opening = new Opening(character, (fault) => this.note(fault), (source) => this.progress(source))
+    const strand = Promise.all([opening.strand('original', new RecordingSource(this.api, this.database, recording, character)), this.readOriginal(recording)])
+    this.recorded = { key, opening, strand: strand.then(([one]) => one) }
+    strand.then(() => before?.opening.close(), () => {
+      if (this.recorded?.key === key) this.recorded = undefined // to be tried again when asked again
+    })
+    return this.recorded.strand
+  }
+  private async readOriginal(recording: string): Promise<void> {
+    const signs = mainSigns(await this.api.signs(this.database, recording))
+    this.original = { tiers: [{ name: 'Gloss', depth: 0, annotations: signs.map(({ name, begin_ms, end_ms }) => ({ begin: begin_ms, end: end_ms, label: name })) }] }
+  }
+
+  private show(wish: Wish, strands: readonly Strand[]): void {
+    const { transport } = this, before = this.made
+    const main = strands.find(({ role }) => role === 'made') ?? strands[0]
+    const { report } = main.motion
+    if (!report) return this.note(new Error('no report'))
+    const other = wish.beside?.kind === 'method' ? strands[1].motion.report : undefined
+    const laid = laidOf(wish.project.places, report)
+    this.steps = other ? stepsOfSigns(report.signs, other.signs.map(({ begin_ms, end_ms }) => ({ begin: begin_ms, end: end_ms })), 0) : this.stepsOfOriginal(wish, report, strands[0])
+    this.made = { wish, report, laid, document: documentOf(report), other: other && laidOf(wish.project.places, other) }
+    this.main = main
+    this.strands = strands
+    if (wish.beside?.kind !== 'original') {
+      this.recorded?.opening.close()
+      this.recorded = undefined
+    }
+    this.declarations = strands.map(({ motion }) => motion.declarations)
+    const atEnd = !transport.loop && transport.time >= transport.duration - 1.5 / transport.rate
+    transport.rate = main.motion.store.rate
+    transport.duration = main.motion.store.seconds
+    ++this.arrivals
+    this.goOn(before, wish, laid, atEnd)
+  }
+
+  /** Where the picture goes on in something new: around the same junction, else, unless it was stopped, a little before what changed. */
+  private goOn(before: Made | undefined, { project }: Wish, laid: Laid | undefined, atEnd: boolean): void {
+    const { transport } = this
+    const change = before ? firstChange(before.wish.project, project) : 0
+    const looped = transport.loop !== null
+    if (looped) {
+      const time = transport.time
+      if (this.around === undefined || !this.loopAround(this.around)) transport.setLoop(transport.loop!.begin, transport.loop!.end)
+      else if (!transport.playing) transport.seek(time)
+    } else if ((transport.playing || atEnd) && change < project.places.length) {
+      const from = change === 0 ? 0 : laid?.seams[change]?.begin ?? laid?.places[change]?.begin ?? transport.time
+      transport.seek(from - (change === 0 ? 0 : kAround))
+      transport.play()
+      return
+    }
+    transport.seek(transport.time)
+  }
+
+  /** The k-th sign of the original beside the k-th of what was made, where there are as many. */
+  private stepsOfOriginal({ beside: other }: Wish, { signs }: Report, { motion }: Strand): Steps | undefined {
+    const annotations = this.original.tiers[0]?.annotations ?? []
+    return other?.kind === 'original' && annotations.length === signs.length ? stepsOfSigns(signs, annotations, motion.originMs) : undefined
+  }
+
+  private clear(): void {
+    this.current?.close()
+    this.current = undefined
+    this.busy = false
+    this.trouble = this.main = this.made = this.steps = undefined
+    this.strands = []
+    this.declarations = []
+    this.transport.pause()
+    this.transport.loop = null
+    this.transport.time = this.transport.duration = 0
+    ++this.arrivals
+  }
+
+  private progress(source: MotionSource): void {
+    const now = performance.now()
+    if (this.closed || (!source.complete && now - this.told < kTellMs)) return
+    this.told = now
+    ++this.arrivals
+  }
+
+  private note(fault: unknown): void {
+    if (!this.closed) this.trouble = fault
+  }
+}
+
+/** What a project is called on the screen and as a file: its text, not too long. */
+export function titleOf({ places }: Project, most = 60): string {
+  const text = textOf(places.slice(0, most))
+  return text.length > most ? `${text.slice(0, most).trimEnd()}…` : text
+}

@@ -1,0 +1,135 @@
+/** What stands between a sign and the one before it: nothing, a comma or a full stop. */
+export type Pause = 'none' | 'comma' | 'stop'
+export const kPauses = ['none', 'comma', 'stop'] as const
+
+/** What a junction has of its own; the rest is as the settings for all say. */
+export interface Join { readonly method?: string; readonly durationMs?: number; readonly tempo?: number }
+
+interface Placed {
+  /** Tells places apart while they move; not saved. */
+  readonly id: number
+  /** Before this place, as `join` is of the junction before it: both go along when it moves. */
+  readonly pause: Pause
+  readonly join: Join
+}
+/** A gloss; token 0 is whichever fits best, else counted from 1 by recording name, then time. */
+export interface SignPlace extends Placed { readonly kind: 'sign'; readonly gloss: string; readonly token: number }
+/** A piece of a recording, in ms of its annotation time. */
+export interface PiecePlace extends Placed { readonly kind: 'piece'; readonly recording: string; readonly from: number; readonly to: number }
+export type Place = SignPlace | PiecePlace
+
+export const kAligns = ['auto', 'ground', 'none'] as const
+/** How all of it is signed; an empty text leaves it to the server. */
+export interface How {
+  readonly transition: string
+  readonly duration: 'fitted' | 'corpus' | number
+  readonly tempo: number
+  readonly align: (typeof kAligns)[number]
+  /** Frames a second, as a number or a fraction. */
+  readonly rate: string
+}
+
+/** Something to be signed. Never changed, always made anew, so that every state of it can be kept. */
+export interface Project {
+  readonly places: readonly Place[]
+  readonly how: How
+  /** The recording that it was made from. */
+  readonly original?: string
+}
+
+export const kHow: How = { transition: '', duration: 'fitted', tempo: 1, align: 'auto', rate: '' }
+export const kEmpty: Project = { places: [], how: kHow }
+/** What the server takes, as its description says. */
+export const kTempo = { least: 0.25, most: 4 } as const
+export const kLongestMs = 60_000
+
+let ids = 0
+/** A place as it is before anybody says more of it. */
+export function signPlace(gloss: string, token = 0, pause: Pause = 'none', join: Join = {}): SignPlace {
+  return { kind: 'sign', id: ++ids, gloss, token, pause, join }
+}
+export function piecePlace(recording: string, from: number, to: number, pause: Pause = 'none', join: Join = {}): PiecePlace {
+  return { kind: 'piece', id: ++ids, recording, from, to, pause, join }
+}
+
+/** Before the first sign there is neither pause nor junction. */
+function tidy(project: Project, places: readonly Place[]): Project {
+  const [first, ...rest] = places
+  const bare = first && (first.pause !== 'none' || !isPlain(first.join)) ? { ...first, pause: 'none' as const, join: {} } : first
+  return { ...project, places: first ? [bare, ...rest] : [] }
+}
+
+export function withPlaces(project: Project, places: readonly Place[]): Project {
+  return tidy(project, places)
+}
+export function inserted(project: Project, at: number, ...more: readonly Place[]): Project {
+  const { places } = project
+  return tidy(project, [...places.slice(0, at), ...more, ...places.slice(at)])
+}
+export function removed(project: Project, at: number): Project {
+  return tidy(project, project.places.filter((_, k) => k !== at))
+}
+/** Place `from` so that it comes to stand at `to` of the new order. */
+export function moved(project: Project, from: number, to: number): Project {
+  const { places } = project
+  const rest = places.filter((_, k) => k !== from)
+  const end = Math.min(Math.max(0, to), rest.length)
+  return from < 0 || from >= places.length || end === from ? project : tidy(project, [...rest.slice(0, end), places[from], ...rest.slice(end)])
+}
+export function duplicated(project: Project, at: number): Project {
+  return inserted(project, at + 1, { ...project.places[at], id: ++ids, pause: 'none', join: {} })
+}
+export function changed(project: Project, at: number, change: (place: Place) => Place): Project {
+  return tidy(project, project.places.map((place, k) => (k === at ? change(place) : place)))
+}
+/** Another sign at a place, with the pause and the junction that were there. */
+export function replaced(project: Project, at: number, by: Place): Project {
+  return changed(project, at, ({ id, pause, join }) => ({ ...by, id, pause, join }))
+}
+export function withToken(project: Project, at: number, token: number): Project {
+  return changed(project, at, (place) => (place.kind === 'sign' ? { ...place, token } : place))
+}
+export function withPause(project: Project, at: number, pause: Pause): Project {
+  return changed(project, at, (place) => ({ ...place, pause }))
+}
+/** Says something of the junction before a place; undefined leaves it to the settings for all. */
+export function withJoin(project: Project, at: number, change: Join): Project {
+  return changed(project, at, (place) => {
+    const join = Object.fromEntries(Object.entries({ ...place.join, ...change }).filter(([, value]) => value !== undefined))
+    return { ...place, join }
+  })
+}
+export function withHow(project: Project, change: Partial<How>): Project {
+  return { ...project, how: { ...project.how, ...change } }
+}
+
+export function isPlain({ method, durationMs, tempo }: Join): boolean {
+  return method === undefined && durationMs === undefined && tempo === undefined
+}
+export function sameJoin(a: Join, b: Join): boolean {
+  return a.method === b.method && a.durationMs === b.durationMs && a.tempo === b.tempo
+}
+/** Whether two places ask for the same thing to be signed. */
+export function sameSign(a: Place, b: Place): boolean {
+  if (a.kind === 'sign') return b.kind === 'sign' && a.gloss === b.gloss && a.token === b.token
+  return b.kind === 'piece' && a.recording === b.recording && a.from === b.from && a.to === b.to
+}
+export function sameHow(a: How, b: How): boolean {
+  return a.transition === b.transition && a.duration === b.duration && a.tempo === b.tempo && a.align === b.align && a.rate === b.rate
+}
+/** Whether two projects are the same but for their ids. */
+export function sameProject(a: Project, b: Project): boolean {
+  return a.original === b.original && sameHow(a.how, b.how) && a.places.length === b.places.length
+    && a.places.every((one, k) => sameSign(one, b.places[k]) && one.pause === b.places[k].pause && sameJoin(one.join, b.places[k].join))
+}
+/** The first place that is another one, or stands elsewhere, or is joined otherwise; their number where all are alike. */
+export function firstChange(a: Project, b: Project): number {
+  if (!sameHow(a.how, b.how)) return 0
+  let k = 0
+  while (k < a.places.length && k < b.places.length) {
+    const one = a.places[k], other = b.places[k]
+    if (!sameSign(one, other) || one.pause !== other.pause || !sameJoin(one.join, other.join)) break
+    ++k
+  }
+  return k
+}

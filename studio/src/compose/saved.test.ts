@@ -1,0 +1,73 @@
+import { expect, it } from 'vitest'
+import doc from '../../../docs/studio_compose.md?raw'
+import { addressOf, parseRoute } from '../ui/route'
+import { bodyOf } from './body'
+import { FileFault, fileOf, readFile } from './file'
+import { kEmpty, sameProject, withHow, withJoin, withPlaces, type Project } from './project'
+import { projectOf, stateOf } from './state'
+import { placesOf } from './utterance'
+
+const kFull: Project = {
+  ...withHow(withJoin(withJoin(withPlaces(kEmpty, placesOf('VANNES MATIN#2 , "LE MANS" "ISL Thanks"@1200..3400')), 1, { method: 'gap', durationMs: 450, tempo: 1.5 }), 3, { tempo: 0.5 }),
+    { transition: 'hermite', duration: 'corpus', tempo: 1.25, align: 'ground', rate: '30000/1001' }),
+  original: 'meteo',
+}
+
+it('comes out of an address as it went in', () => {
+  const route = parseRoute(addressOf({ page: 'compose', database: 'demo', state: stateOf(kFull) }))
+  const { project, wrong } = projectOf('state' in route ? route.state : {})
+  expect([sameProject(project, kFull), wrong]).toEqual([true, []])
+  expect(stateOf(kEmpty)).toEqual({})
+  expect(projectOf({})).toEqual({ project: kEmpty, wrong: [] })
+})
+
+it('names what in an address cannot be read, and keeps the rest', () => {
+  const { project, wrong } = projectOf({ utterance: 'A B', duration: '1.5', tempo: '9', align: 'x', rate: 'y', transition: '1;2', junctions: '1=gap;7=gap;1=,' })
+  expect(wrong).toEqual(['transition', 'duration', 'tempo', 'align', 'rate', 'junctions'])
+  expect(project.places.map(({ join }) => join)).toEqual([{}, { method: 'gap' }])
+  expect(projectOf({ utterance: 'A "B' })).toEqual({ project: kEmpty, wrong: ['utterance'] })
+})
+
+it('comes out of a file as it went in', () => {
+  const { project, database } = readFile(fileOf(kFull, 'demo'))
+  expect([sameProject(project, kFull), database]).toEqual([true, 'demo'])
+  expect(sameProject(readFile(fileOf(kEmpty, 'demo')).project, kEmpty)).toBe(true)
+})
+
+it('reads the file that the documentation shows', () => {
+  const { project, database } = readFile(/```json\n([^]*?)```/.exec(doc)![1])
+  expect([bodyOf(project), project.original, database]).toEqual([
+    { utterance: 'VANNES , MATIN#2 villes@1200..3400', transition: 'hermite', duration: 400, tempo: 1.2, rate: '60', junctions: ['1=gap,450ms,x1.5'] }, 'meteo', 'demo'])
+})
+
+it('refuses a file that it does not understand whole, and says where', () => {
+  const of = (text: string) => {
+    try {
+      readFile(text)
+    } catch (fault) {
+      const { wrong, detail } = fault as FileFault
+      return [wrong, detail].filter(Boolean).join(' ')
+    }
+    return 'taken'
+  }
+  const refused = (change: (file: Record<string, any>) => unknown) => {
+    const file = JSON.parse(fileOf(kFull, 'demo')) as Record<string, any>
+    change(file)
+    return of(JSON.stringify(file))
+  }
+  expect(refused(() => {})).toBe('taken')
+  expect(of('{')).toBe('notJson')
+  expect(['[]', 'null', '{"a":1}'].map(of)).toEqual(['notProject', 'notProject', 'notProject'])
+  expect(refused((file) => (file.version = 2))).toBe('newerVersion 2')
+  expect(refused((file) => (file.version = 0))).toBe('badValue version')
+  expect(refused((file) => (file.colour = 'red'))).toBe('unknownField colour')
+  expect(refused((file) => (file.settings.swing = 1))).toBe('unknownField settings.swing')
+  expect(refused((file) => (file.settings.tempo = 'fast'))).toBe('badValue settings.tempo')
+  expect(refused((file) => (file.places[1].hand = 'left'))).toBe('unknownField places[1].hand')
+  expect(refused((file) => (file.places[1].junction.curve = 1))).toBe('unknownField places[1].junction.curve')
+  expect(refused((file) => (file.places[1].junction.duration_ms = -1))).toBe('badValue places[1].junction.duration_ms')
+  expect(refused((file) => (file.places[0].gloss = ''))).toBe('badValue places[0].gloss')
+  expect(refused((file) => (file.places[3].to_ms = 1))).toBe('badValue places[3].to_ms')
+  expect(refused((file) => (file.places = {}))).toBe('badValue places')
+  expect(refused((file) => (file.places[0] = 'A'))).toBe('badValue places[0]')
+})

@@ -1,0 +1,59 @@
+import type { CandidateRow, SignAnswer } from '../api/answers'
+import type { Api } from '../api/client'
+import { ApiError } from '../api/fault'
+import { kEmpty, piecePlace, signPlace, type Place, type Project } from './project'
+import { canBeTyped, quoted } from './utterance'
+
+/** From so much rest on between two signs the server keeps no recorded transition; then there is a full stop. */
+const kRestMs = 1000
+/** Glosses that are asked about at once. */
+const kAtOnce = 60
+
+/** The signs of a recording as edits count them: of several sign tiers that with the most signs, of equal ones the first by name. */
+export function mainSigns(signs: readonly SignAnswer[]): readonly SignAnswer[] {
+  const tiers = new Map<string, SignAnswer[]>()
+  for (const sign of signs) {
+    if (!tiers.has(sign.tier)) tiers.set(sign.tier, [])
+    tiers.get(sign.tier)!.push(sign)
+  }
+  const names = [...tiers.keys()].sort((a, b) => tiers.get(b)!.length - tiers.get(a)!.length || (a < b ? -1 : 1))
+  return names.length > 0 ? tiers.get(names[0])!.toSorted((a, b) => a.begin_ms - b.begin_ms) : []
+}
+
+/** A recording's signs as the places of a project, each with its own token; what is no token of its gloss is a piece. */
+export async function projectFrom(api: Api, database: string, recording: string): Promise<Project> {
+  const [info, answers] = await Promise.all([api.recording(database, recording), api.signs(database, recording)])
+  const signs = mainSigns(answers)
+  const glosses = [...new Set(signs.map(({ name }) => name))].filter(canBeTyped)
+  const tokens = new Map<string, readonly CandidateRow[]>()
+  for (let at = 0; at < glosses.length; at += kAtOnce) {
+    for (const [gloss, rows] of await candidates(api, database, glosses.slice(at, at + kAtOnce))) tokens.set(gloss, rows)
+  }
+  const frameAt = (ms: number) => ((ms - info.clock_origin_ms) * info.frames_per_second) / 1000
+  const places = signs.map((sign, k): Place => {
+    const rests = k > 0 && sign.begin_ms - signs[k - 1].end_ms >= kRestMs
+    return { ...placeOf(sign, tokens.get(sign.name) ?? [], frameAt), pause: rests ? 'stop' : 'none' }
+  })
+  return { ...kEmpty, original: recording, places }
+}
+
+/** The place of a sign: the token whose frames its middle lies in. */
+export function placeOf({ name, recording, begin_ms, end_ms }: SignAnswer, rows: readonly CandidateRow[], frameAt: (ms: number) => number): Place {
+  const middle = frameAt((begin_ms + end_ms) / 2)
+  const own = rows.find((row) => row.recording === recording && row.frames.begin <= middle && middle < row.frames.end)
+  return own ? signPlace(name, own.token) : piecePlace(recording, Math.max(0, begin_ms), end_ms)
+}
+
+/** What the tokens of glosses are. One that cannot be signed spoils a call, so that those beside it are asked about again without it. */
+async function candidates(api: Api, database: string, glosses: readonly string[]): Promise<[string, readonly CandidateRow[]][]> {
+  if (glosses.length === 0) return []
+  try {
+    const { places } = await api.explained(database, { utterance: glosses.map(quoted).join(' ') })
+    return glosses.map((gloss, k) => [gloss, places[k].candidates])
+  } catch (fault) {
+    if (!(fault instanceof ApiError) || fault.status !== 404) throw fault
+    if (glosses.length === 1) return []
+    const half = glosses.length >> 1
+    return [...(await candidates(api, database, glosses.slice(0, half))), ...(await candidates(api, database, glosses.slice(half)))]
+  }
+}

@@ -1,0 +1,61 @@
+import type { WorkState } from '../ui/route'
+import { isDuration, isMethod, isTempo, joinTexts, readJoin } from './joins'
+import { kAligns, kEmpty, kHow, withJoin, withPlaces, type How, type Project } from './project'
+import { placesOf, textOf } from './utterance'
+
+/** A project as the address holds it: only what is not as it is anyway. */
+export function stateOf({ places, how, original }: Project): WorkState {
+  const state: Record<string, string> = {}
+  if (places.length > 0) state.utterance = textOf(places)
+  if (how.transition !== kHow.transition) state.transition = how.transition
+  if (how.duration !== kHow.duration) state.duration = String(how.duration)
+  if (how.tempo !== kHow.tempo) state.tempo = String(how.tempo)
+  if (how.align !== kHow.align) state.align = how.align
+  if (how.rate !== kHow.rate) state.rate = how.rate
+  const junctions = joinTexts(places)
+  if (junctions.length > 0) state.junctions = junctions.join(';')
+  if (original !== undefined) state.original = original
+  return state
+}
+
+/** What an address says, and the names of what in it could not be read. */
+export interface Read { readonly project: Project; readonly wrong: readonly string[] }
+
+/** The project that an address holds. What cannot be read is left out, and named. */
+export function projectOf(state: WorkState): Read {
+  const wrong: string[] = []
+  const read = <T>(name: string, from: (text: string) => T | undefined): T | undefined => {
+    if (state[name] === undefined) return undefined
+    const value = from(state[name])
+    if (value === undefined) wrong.push(name)
+    return value
+  }
+  const places = read('utterance', (text) => {
+    try {
+      return placesOf(text)
+    } catch {
+      return undefined
+    }
+  })
+  const how: How = {
+    transition: read('transition', (text) => (isMethod(text) ? text : undefined)) ?? kHow.transition,
+    duration: read('duration', readDuration) ?? kHow.duration,
+    tempo: read('tempo', (text) => (isTempo(Number(text)) ? Number(text) : undefined)) ?? kHow.tempo,
+    align: read('align', (text) => kAligns.find((one) => one === text)) ?? kHow.align,
+    rate: read('rate', (text) => (isRate(text) ? text : undefined)) ?? kHow.rate,
+  }
+  let project = withPlaces({ ...kEmpty, how, original: state.original || undefined }, places ?? [])
+  for (const text of state.junctions?.split(';') ?? []) {
+    const one = readJoin(text)
+    if (one && one.junction < project.places.length) project = withJoin(project, one.junction, one.join)
+    else if (!wrong.includes('junctions')) wrong.push('junctions')
+  }
+  return { project, wrong }
+}
+
+export function readDuration(text: string): How['duration'] | undefined {
+  if (text === 'fitted' || text === 'corpus') return text
+  return /^\d{1,6}$/.test(text) && isDuration(Number(text)) ? Number(text) : undefined
+}
+/** `60`, `29.97` or `30000/1001`. */
+export const isRate = (text: unknown): text is string => typeof text === 'string' && /^\d{1,7}(\.\d{1,6}|\/\d{1,7})?$/.test(text)

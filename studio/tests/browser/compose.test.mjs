@@ -1,0 +1,365 @@
+// Composing: glosses as text and cards, tokens, junctions, files, films and live signing, as a person would do it.
+import assert from 'node:assert/strict'
+import { readFileSync } from 'node:fs'
+import { axeFaults, transport } from './page_tools.mjs'
+import { decoded, readWebm } from './render_webm.mjs'
+import { context, kDeclared, page, test, visit } from './suite.mjs'
+
+const button = (name) => page.getByRole('button', { name, exact: true })
+const field = () => page.getByRole('combobox', { name: 'Glosses in order' })
+const cards = () => page.locator('.card .gloss').allTextContents()
+const pause = () => page.evaluate(() => { window.signweaveStage.transport.pause() })
+const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not ${wanted}`)
+const kScenario1 = 'LE-TEMPS-PREVU#1 VANNES MATIN#1 NUAGES#1 APRES-MIDI#1 PLUIE#1 MARSEILLE SOLEIL-BRILLER#1'
+
+/** Until what was made of a text is on the screen. */
+const shown = (text) => page.waitForFunction((wanted) => {
+  const { made, busy } = document.querySelector('.compose')?.dataset ?? {}
+  return busy === 'false' && made === wanted && window.signweaveStage?.panes.length > 0
+}, text, { timeout: 60_000 })
+/** Opens the page with an utterance, and stops the picture, which software draws slowly. */
+async function compose(utterance, more = {}, options = {}) {
+  await visit(`#/demo/compose?${new URLSearchParams({ utterance, ...more })}`, options)
+  await shown(utterance)
+  await pause()
+}
+/** Picks something from a menu of the tools. */
+async function pick(menu, name) {
+  await button(menu).click()
+  await page.locator('.list').getByRole('button', { name }).click()
+}
+const saved = async (act) => {
+  const [file] = await Promise.all([page.waitForEvent('download', { timeout: 180_000 }), act()])
+  return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) }
+}
+
+test('signs glosses that are typed and completed, by keyboard alone', async () => {
+  await visit('#/demo/compose')
+  await button('Scenario 1: four words replaced by city signs').waitFor() // the glosses are there
+  await field().focus()
+  await page.keyboard.type('van')
+  const options = page.locator('.box [role=option]')
+  assert.deepEqual(await options.allTextContents(), ['VANNES 3 tokens'])
+  await page.keyboard.press('ArrowDown')
+  assert.equal(await options.first().getAttribute('aria-selected'), 'true')
+  await page.keyboard.press('Enter')
+  assert.equal(await field().inputValue(), 'VANNES ')
+  await shown('VANNES')
+  await pause()
+  await page.keyboard.type('main')
+  assert.deepEqual((await options.locator('span:first-child').allTextContents()), ['DEMAIN'])
+  await page.keyboard.press('Escape')
+  assert.equal(await options.count(), 0)
+  for (let i = 0; i < 4; ++i) await page.keyboard.press('Backspace')
+  await page.keyboard.type('MATIN , "LE MANS" PLUIE ')
+  await shown('VANNES MATIN , "LE MANS" PLUIE')
+  assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'LE MANS', 'PLUIE'])
+  assert.ok((await page.locator('.names li').allTextContents()).includes('Junction'))
+  const { duration } = await transport(page)
+  assert.ok(duration > 3 && duration < 12, `${duration} s`)
+  assert.match(await page.locator('.declarations').textContent(), kDeclared)
+})
+
+test('tells what cannot be signed, and keeps what is shown', async () => {
+  await compose('VANNES')
+  await field().press('End')
+  await page.keyboard.type(' VANES ')
+  await page.getByRole('alert').filter({ hasText: "no sign 'VANES'" }).waitFor()
+  assert.match(await page.locator('.card').nth(1).textContent(), /not in this database/)
+  assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 1)
+  await page.keyboard.press('Control+z')
+  await page.waitForFunction(() => !document.querySelector('[role=alert]'))
+  assert.deepEqual(await cards(), ['VANNES'])
+  await page.keyboard.type(' "LE MA')
+  await page.keyboard.press('Enter')
+  assert.match(await page.getByRole('alert').textContent(), /never closed: "LE MA/)
+  assert.deepEqual(await cards(), ['VANNES'])
+})
+
+test('moves signs by mouse and by keyboard, takes them out, and takes every step back', async () => {
+  await compose('BONJOUR MATIN PLUIE')
+  const [first, last] = [await page.locator('.card').first().boundingBox(), await page.locator('.card').last().boundingBox()]
+  await page.mouse.move(first.x + 20, first.y + 20)
+  await page.mouse.down()
+  await page.mouse.move(last.x + last.width - 5, last.y + 20, { steps: 4 })
+  await page.mouse.up()
+  assert.equal(await field().inputValue(), 'MATIN PLUIE BONJOUR')
+  await page.locator('.card').last().focus()
+  await page.keyboard.press('Alt+ArrowLeft')
+  assert.equal(await field().inputValue(), 'MATIN BONJOUR PLUIE')
+  assert.equal(await page.evaluate(() => document.activeElement.textContent.includes('BONJOUR')), true)
+  await page.keyboard.press('Delete')
+  assert.equal(await field().inputValue(), 'MATIN PLUIE')
+  await page.keyboard.press('Enter')
+  await button('Duplicate').click()
+  await page.getByRole('combobox', { name: 'Another sign' }).fill('VANNES')
+  await button('Replace').click()
+  assert.equal(await field().inputValue(), 'MATIN PLUIE VANNES')
+  for (const before of ['MATIN PLUIE PLUIE', 'MATIN PLUIE', 'MATIN BONJOUR PLUIE', 'MATIN PLUIE BONJOUR', 'BONJOUR MATIN PLUIE']) {
+    await page.keyboard.press('Control+z')
+    assert.equal(await field().inputValue(), before)
+  }
+  assert.equal(await button('Undo').isDisabled(), true)
+  await button('Redo').click()
+  await page.keyboard.press('Control+Shift+z')
+  assert.equal(await field().inputValue(), 'MATIN BONJOUR PLUIE')
+  await shown('MATIN BONJOUR PLUIE')
+})
+
+test('shows the tokens of a place with what they cost, and signs the one that is picked', async () => {
+  await compose('VANNES MATIN')
+  await page.locator('.card').nth(1).click()
+  const rows = page.locator('aside .token')
+  await rows.first().waitFor()
+  const said = await rows.allTextContents()
+  assert.equal(said.length, 2)
+  assert.match(said[0], /least cost/)
+  assert.match(said[0], /handshape \d\.\d\d/)
+  const [, token, source] = /^#(\d) (meteo \d+\.\d s)/.exec(said[1])
+  assert.notEqual(await page.locator('.card').nth(1).locator('.source').textContent(), source)
+  await rows.nth(1).click()
+  await shown(`VANNES MATIN#${token}`)
+  assert.equal(await page.locator('.card').nth(1).locator('.source').textContent(), source)
+  assert.equal(await field().inputValue(), `VANNES MATIN#${token}`)
+  await page.waitForFunction(() => /pinned/.test(document.querySelector('aside .token[aria-pressed=true]')?.textContent))
+  await button('Least cost again').click()
+  assert.equal(await field().inputValue(), 'VANNES MATIN')
+})
+
+test('goes from junction to junction, and repeats what lies around each', async () => {
+  await compose('VANNES MATIN PLUIE')
+  await page.locator('.junction').first().click()
+  const first = (await transport(page)).loop
+  assert.match(await page.locator('aside h2').textContent(), /Junction 1: VANNES – MATIN/)
+  const junctions = await page.evaluate(async () => {
+    const body = JSON.stringify({ utterance: 'VANNES MATIN PLUIE' })
+    const { junctions, frames_per_second: rate } = await (await fetch('api/databases/demo/sign', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body })).json()
+    return junctions.map(({ frames, method }) => ({ begin: frames.begin / rate, end: frames.end / rate, method }))
+  })
+  near(first.begin, junctions[0].begin - 0.4)
+  near(first.end, junctions[0].end + 0.4)
+  assert.match(await page.locator('aside .fact').textContent(), new RegExp(junctions[0].method))
+  await button('Junction after').click()
+  near((await transport(page)).loop.begin, junctions[1].begin - 0.4)
+  await pause()
+  await page.getByLabel('Pause').selectOption('comma')
+  await shown('VANNES MATIN , PLUIE')
+  const longer = (await transport(page)).loop
+  near(longer.end - longer.begin, junctions[1].end - junctions[1].begin + 0.8 + 0.35, 0.02)
+  await button('Repeat it').click()
+  assert.equal((await transport(page)).loop, null)
+  await page.keyboard.press('Escape')
+})
+
+test('compares two methods in step: the same signs, other transitions', async () => {
+  await compose('VANNES MATIN')
+  await page.locator('.junction').first().click()
+  await page.getByRole('combobox', { name: 'With' }).selectOption('sine')
+  await page.waitForFunction(() => window.signweaveStage.panes.length === 2 && window.signweaveStage.panes.every(({ store }) => store.arrived >= store.length))
+  await pause()
+  assert.deepEqual((await page.locator('.title').allTextContents()).map((one) => one.trim()), ['As composed', 'sine'])
+  const { loop } = await transport(page)
+  const apart = await page.evaluate(({ begin, end }) => {
+    const [one, other] = window.signweaveStage.panes.map(({ store }) => store)
+    const at = (store, frame) => [0, 1, 2].map((axis) => store.hand(frame, 1, axis))
+    let inside = 0, outside = 0
+    for (let frame = 0; frame < one.length; ++frame) {
+      const far = Math.hypot(...at(one, frame).map((value, k) => value - at(other, frame)[k]))
+      const time = frame / one.rate
+      if (time > begin - 0.02 && time < end + 0.02) inside = Math.max(inside, far)
+      else outside = Math.max(outside, far)
+    }
+    return { inside, outside, same: one.length === other.length, time: window.signweaveStage.panes[1].timeOf(1.5) }
+  }, { begin: loop.begin + 0.4, end: loop.end - 0.4 })
+  assert.ok(apart.same && apart.inside > 0.02 && apart.outside < 1e-4, JSON.stringify(apart))
+  near(apart.time, 1.5, 0.02)
+  await button('sine for all').click()
+  await page.waitForFunction(() => new URLSearchParams(location.hash.split('?')[1]).get('transition') === 'sine')
+  await page.getByRole('combobox', { name: 'With' }).selectOption('')
+  await page.waitForFunction(() => window.signweaveStage.panes.length === 1)
+  await page.waitForFunction(() => /sine/.test(document.querySelector('aside .fact').textContent))
+})
+
+test('gives one junction a method, a duration and a tempo of its own, also where a recorded transition was kept', async () => {
+  await compose('MONTAGNE#1 NEIGE#1 VANNES#1')
+  await page.locator('.junction').first().click()
+  await pause()
+  const fact = (wanted) => page.waitForFunction((text) => document.querySelector('aside .fact').textContent.includes(text), wanted)
+  await fact('The recorded transition')
+  await page.getByRole('combobox', { name: 'Transition' }).selectOption('gap')
+  await fact('gap, ')
+  await page.getByRole('combobox', { name: 'Duration' }).selectOption('own')
+  await page.getByRole('spinbutton').fill('450')
+  await page.keyboard.press('Enter')
+  await fact('gap, 450 ms')
+  await page.getByRole('combobox', { name: 'Tempo' }).selectOption('own')
+  await page.getByRole('slider', { name: 'Of its own' }).fill('1.5')
+  await fact('gap, 300 ms')
+  assert.match(await page.locator('.junction').last().getAttribute('aria-label'), /learned/)
+  await page.waitForFunction(() => decodeURIComponent(location.hash).includes('junctions=1=gap,450ms,x1.5'))
+  await button('As for all again').click()
+  await fact('The recorded transition')
+  await page.getByRole('combobox', { name: 'With' }).selectOption('sine') // beside what was recorded, what the method makes of it
+  await page.waitForFunction(() => window.signweaveStage.panes.length === 2)
+  assert.ok(await page.evaluate(() => window.signweaveStage.panes[0].store.length !== window.signweaveStage.panes[1].store.length))
+})
+
+test('says for all how long transitions are, and how fast it goes', async () => {
+  await compose('VANNES MATIN', { duration: '300' })
+  const { duration } = await transport(page)
+  assert.equal(await page.locator('.junction .ms').textContent(), '300')
+  await page.getByLabel('Tempo').fill('2')
+  await page.waitForFunction((before) => Math.abs(window.signweaveStage.transport.duration - before / 2) < 0.05, duration)
+  await page.getByLabel('Frames a second').fill('50')
+  await page.keyboard.press('Enter')
+  await page.waitForFunction(() => window.signweaveStage.transport.rate === 50)
+  await page.waitForFunction(() => /duration=300&tempo=2&rate=50/.test(location.hash))
+  await page.reload()
+  await page.waitForFunction(() => window.signweaveStage?.transport.rate === 50)
+  assert.equal(await page.locator('aside input[type=number]').inputValue(), '300')
+})
+
+test('saves a project and opens it again by button and by drop; what is none is told, and nothing is lost', async () => {
+  await compose('VANNES MATIN#2 , "LE MANS"', { tempo: '1.5' })
+  const file = await saved(() => button('Save project').click())
+  assert.equal(file.name, 'VANNES_MATIN_2_LE_MANS.signweave.json')
+  assert.equal(JSON.parse(file.bytes).places[2].pause, 'comma')
+  await pick('Open', 'Start anew')
+  assert.deepEqual(await cards(), [])
+  await page.locator('input[type=file]').setInputFiles({ name: file.name, mimeType: 'application/json', buffer: file.bytes })
+  await shown('VANNES MATIN#2 , "LE MANS"')
+  await page.waitForFunction(() => /tempo=1.5/.test(location.hash))
+  const drop = (text) => page.evaluate((content) => {
+    const files = new DataTransfer()
+    files.items.add(new File([content], 'x.signweave.json'))
+    document.querySelector('.compose').dispatchEvent(new DragEvent('drop', { bubbles: true, cancelable: true, dataTransfer: files }))
+  }, text)
+  await drop(JSON.stringify({ ...JSON.parse(file.bytes), colour: 'red' }))
+  await page.getByText('a field that this studio does not know: colour').waitFor()
+  assert.deepEqual(await cards(), ['VANNES', 'MATIN#2', 'LE MANS'])
+  await drop(String(file.bytes).replace('VANNES', 'PLUIE'))
+  await shown('PLUIE MATIN#2 , "LE MANS"')
+  await page.keyboard.press('Control+z')
+  assert.deepEqual(await cards(), ['VANNES', 'MATIN#2', 'LE MANS'])
+})
+
+test('copies a link that opens the same', async () => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write'])
+  await compose('VANNES PLUIE', { transition: 'gap' })
+  await button('Copy link').click()
+  await page.getByText('Link copied').waitFor()
+  const link = await page.evaluate(() => navigator.clipboard.readText())
+  await page.goto('about:blank')
+  await page.goto(link)
+  await shown('VANNES PLUIE')
+  assert.equal(await page.getByRole('combobox', { name: 'Transition' }).inputValue(), 'gap')
+  await page.evaluate(() => (location.hash = '#/demo/compose?utterance=A&tempo=fast'))
+  await page.getByText('does not understand: tempo').waitFor()
+})
+
+test('opens the paper’s scenarios, the original beside them, and starts from a recording', async () => {
+  await visit('#/demo/compose')
+  await button('Scenario 1: four words replaced by city signs').click()
+  await page.waitForFunction(() => window.signweaveStage?.panes.length === 2)
+  await pause()
+  const text = await field().inputValue()
+  assert.ok(text.includes(kScenario1) && text.endsWith('"LE MANS" BROUILLARD#1'), text)
+  assert.equal((await cards()).length, 36)
+  assert.deepEqual((await page.locator('.title').allTextContents()).map((one) => one.trim().slice(0, 14)), ['Recorded meteo', 'Made BONJOUR#1'])
+  assert.equal(await page.locator('.junction:not(.kept)').count(), 8)
+  const steps = await page.evaluate(() => [5, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
+  near(steps[0], 6.2, 0.05) // what was made begins with the first sign
+  assert.ok(Math.abs(steps[1] - 40) > 0.05)
+  await pick('Open', 'Scenario 2: the predictions of two days change places')
+  await page.waitForFunction(() => /#1 NUAGES#2 NUIT#1 EN-MER#1 MATIN#2 BROUILLARD#1 DEMAIN#1/.test(document.querySelector('.compose').dataset.made))
+  await button('Original beside').click()
+  await page.waitForFunction(() => window.signweaveStage.panes.length === 1)
+  await pick('Open', 'villes')
+  await page.waitForFunction(() => /^VANNES#1 /.test(document.querySelector('.compose').dataset.made))
+  assert.equal(await page.locator('.junction:not(.kept)').count(), 4) // where the signer rests for a second
+  assert.ok((await field().inputValue()).includes('BREST#1 . NANTES#1'))
+})
+
+test('downloads motion and annotation', async () => {
+  await compose('VANNES MATIN')
+  const get = (name) => saved(() => pick('Download', name))
+  const bvh = await get(/^BVH/), glb = await get(/^GLB/), eaf = await get(/^EAF/)
+  assert.deepEqual([bvh, glb, eaf].map(({ name }) => name), ['VANNES_MATIN.bvh', 'VANNES_MATIN.glb', 'VANNES_MATIN.eaf'])
+  assert.match(String(bvh.bytes.subarray(0, 9)), /HIERARCHY/)
+  assert.match(String(glb.bytes.subarray(0, 4)), /glTF/)
+  assert.match(String(eaf.bytes), /placeholder shapes, not LSF[^]*learned \d+ ms: VANNES -&gt; MATIN/)
+})
+
+test('makes a film in the page, every picture of it with what the recordings declare, and gives one up', async () => {
+  await compose('VANNES', { tempo: '2' })
+  const seconds = await page.evaluate(() => window.signweaveStage.panes[0].store.seconds)
+  await pick('Download', /^WebM/)
+  await page.getByLabel('Size').selectOption('1920x1080') // slow enough to be given up
+  await button('Make the film').click()
+  await page.getByText(/Picture [1-9]/).waitFor()
+  await button('Cancel').click()
+  await page.getByLabel('Size').selectOption('640x360')
+  const film = await saved(() => button('Make the film').click())
+  assert.equal(film.name, 'VANNES.webm')
+  const webm = readWebm(film.bytes)
+  assert.equal(webm.blocks.length, Math.floor(seconds * 30 + 1e-6) + 1)
+  const pictures = await decoded(page, webm, webm.codec === 'V_VP9' ? 'vp09.00.21.08' : 'vp8')
+  assert.deepEqual([...new Set(pictures.map(({ width, height }) => `${width} ${height}`))], ['640 360'])
+  assert.ok(pictures.every(({ caption }) => caption > 300), `${pictures.map(({ caption }) => caption)}`)
+  assert.equal(await page.locator('dialog').count(), 0)
+  assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 1)
+})
+
+test('says where the browser can make no film', async () => {
+  await compose('VANNES')
+  await page.evaluate(() => delete window.VideoEncoder)
+  await pick('Download', /^WebM/)
+  assert.match(await page.locator('dialog [role=alert]').textContent(), /no WebCodecs/)
+  await page.keyboard.press('Escape')
+})
+
+test('signs live: each word at once, and tells what cannot be', async () => {
+  await compose('VANNES')
+  await button('Live').click()
+  await page.getByRole('combobox', { name: 'Type and it signs' }).waitFor()
+  await page.waitForFunction(() => window.signweaveStage?.panes[0]?.store.arrived > 0)
+  await page.keyboard.type('NOBODY MATIN MATIN MATIN ') // long enough to be seen where pictures are slow
+  await page.waitForFunction(() => document.querySelector('.viewer .gloss')?.textContent === 'MATIN', null, { timeout: 60_000 })
+  assert.match(await page.getByRole('alert').textContent(), /no sign 'NOBODY'/)
+  assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'MATIN', 'MATIN'])
+  await button('Live').click()
+  await shown('VANNES MATIN MATIN MATIN')
+})
+
+for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
+  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+    test(`an accessibility checker finds nothing where one composes, ${theme}, ${language}, ${size.width} wide`, async () => {
+      if (!page) await visit('')
+      await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
+      const found = []
+      const look = async (what) => {
+        found.push(...(await axeFaults(page)).map((fault) => `${what}: ${fault}`))
+        assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth), `${what} is wider than the screen`)
+      }
+      try {
+        await visit('#/demo/compose', { size })
+        await page.locator('.empty button').first().waitFor()
+        await look('nothing yet')
+        await page.getByRole('combobox').first().press('ArrowDown')
+        await look('completion')
+        await compose('VANNES MATIN', {}, { size })
+        await page.locator('.card').last().click()
+        await page.locator('aside .token').first().waitFor()
+        await look('tokens')
+        await page.locator('.junction').first().click()
+        await pause()
+        await look('junction')
+        await page.locator('.menu button').first().click()
+        await look('menu')
+      } finally {
+        await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
+      }
+      assert.deepEqual(found, [])
+    })
+  }
+}

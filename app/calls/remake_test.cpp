@@ -123,7 +123,7 @@ TEST_P(Remake, MakesWhatTheEvaluationMakes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryMethod, Remake, testing::ValuesIn(transition_names()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 TEST(RemakeOf, TheDefaultMethodWhereNoneIsNamed) {
   const Exported made = exported({.remake = {"1500..1900"}});

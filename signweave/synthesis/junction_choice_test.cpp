@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(EveryMethod, JunctionsOf, testing::ValuesIn([] {
                            for (const TransitionMethod& method : transition_methods()) names.emplace_back(method.name);
                            return names;
                          }()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 TEST(JunctionTempo, IsThatOfTheTransitionAloneBesideTheOneOfAll) {
   std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 34, 20)};

@@ -1,5 +1,5 @@
 import { PageFault } from '../fault'
-import { kFluencies, kFormat, kLabels, type Study } from './study'
+import { kFluencies, kFormat, kLabels, type Study, type Trial } from './study'
 
 const keyOf = (database: string) => `signweave.study.${database}`
 
@@ -44,5 +44,5 @@ function isStudy(study: Study | null): boolean {
     (settings.character === null || isText(settings.character)) && kLabels.every((label) => isText(settings.labels?.[label]?.en) && isText(settings.labels[label].fr))
   return right && items.length > 0 && items.every((item) => isText(item?.recording) && isText(item.method) && [item.from, item.to, item.begin, item.end].every(isNumber)) &&
     sessions.every((session) => isText(session?.participant) && kFluencies.includes(session.fluency) && Array.isArray(session.trials) && Array.isArray(session.answers) &&
-      session.answers.length <= session.trials.length && session.trials.every((trial) => items[trial?.item] !== undefined && (trial.side === 'left' || trial.side === 'right')))
+      session.answers.length <= session.trials.length && session.trials.every((trial: Partial<Trial> | null) => items[trial?.item ?? -1] !== undefined && (trial?.side === 'left' || trial?.side === 'right')))
 }

@@ -15,8 +15,8 @@ class Guide {
   /** The step that has just been recognised as done. */
   justDone = $state('')
   private calls: Answered[] = []
-  private recordings = 0
-  private recordingsBefore: number | undefined
+  /** Of the path's database; unknown until the panel has told. */
+  private recordings: number | undefined
 
   /** The path that the panel goes along with. */
   get under(): Progress | undefined {
@@ -33,11 +33,15 @@ class Guide {
     if (this.progress) this.change({ ...this.progress, under: false })
   }
   back(): void {
-    if (this.progress) this.change(goTo(this.progress, this.progress.step - 1))
+    if (this.progress) this.step(goTo(this.progress, this.progress.step - 1))
   }
   /** `done` where the user says that it is; else it is left out. */
   next(done: boolean): void {
-    if (this.progress) this.change(done ? finish(this.progress) : goTo(this.progress, this.progress.step + 1))
+    if (this.progress) this.step(done ? finish(this.progress) : goTo(this.progress, this.progress.step + 1))
+  }
+  private step(progress: Progress): void {
+    this.change(progress)
+    if (this.recordings !== undefined) this.look(this.recordings)
   }
 
   heard(call: Answered): void {
@@ -49,22 +53,22 @@ class Guide {
     const { under } = this
     if (!under) return
     this.recordings = recordings
-    this.recordingsBefore ??= recordings
     const stage = (window as { signweaveStage?: Stage }).signweaveStage?.transport
     const now = looked(under, {
       route: parseRoute(location.hash), playing: stage?.playing ?? false, speed: stage?.speed ?? 1, selected: Boolean(stage?.loop),
-      calls: this.calls, recordings, recordingsBefore: this.recordingsBefore,
+      calls: this.calls, recordings,
     })
     if (now === under) return
     const id = now.step !== under.step ? stepAt(under)?.id : undefined
     this.change(now)
     if (id) this.justDone = id
+    // What the next step finds done is known at once.
+    if (id) this.look(recordings)
   }
 
   private change(progress: Progress): void {
     if (progress.step !== this.progress?.step || progress.path !== this.progress.path || progress.under !== this.progress.under) {
       this.calls = []
-      this.recordingsBefore = this.recordingsBefore === undefined ? undefined : this.recordings
       this.justDone = ''
     }
     this.progress = progress

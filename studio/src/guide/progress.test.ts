@@ -11,7 +11,7 @@ const call = (method: string, where: string, body = '') => ({ method, where, bod
 describe('a guided path', () => {
   it('goes on by itself when a step has just been done', () => {
     let progress = looked(begin('demo', about), facts('#/demo/guide'))
-    expect([progress.step, progress.met]).toEqual([0, false])
+    expect([progress.step, progress.met, progress.before]).toEqual([0, false, 2])
     expect(looked(progress, facts('#/demo/guide'))).toBe(progress)
     progress = looked(progress, facts('#/demo/recording/meteo'))
     expect([progress.step, progress.done, progress.met]).toEqual([1, ['open'], undefined])
@@ -21,6 +21,12 @@ describe('a guided path', () => {
     expect([progress.step, progress.done, progress.met]).toEqual([0, ['open'], true])
     expect(looked(progress, facts('#/demo/recording/meteo'))).toBe(progress)
     expect(finish(progress).step).toBe(1)
+  })
+  it('tells from how many recordings there were that more have come', () => {
+    const at = kSteps.own.findIndex(({ id }) => id === 'store')
+    let progress = looked(goTo(begin('own', about), at), facts('#/mine/import', { recordings: 0 }))
+    progress = readProgress(JSON.stringify(progress))!
+    expect(looked(progress, facts('#/mine', { recordings: 3 })).step).toBe(at + 1)
   })
   it('ends, and goes back', () => {
     let progress: Progress = begin('own', about)
@@ -34,6 +40,8 @@ describe('a guided path', () => {
   it('is kept, and nothing else is read for it', () => {
     const progress = finish(begin('demo', about))
     expect(readProgress(JSON.stringify({ ...progress, met: true }))).toEqual(progress)
+    const waiting = looked(progress, facts('#/demo'))
+    expect(readProgress(JSON.stringify(waiting))).toEqual({ ...progress, met: false, before: 2 })
     for (const wrong of [null, '', '{}', 'null', '{"path":"x"}', JSON.stringify({ ...progress, step: 'a' })]) expect(readProgress(wrong)).toBeUndefined()
   })
   it('has words for every step in both languages', () => {

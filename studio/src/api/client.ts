@@ -17,11 +17,15 @@ interface SignDescription {
   readonly post: { readonly requestBody: { readonly content: { readonly 'application/json': { readonly schema: { readonly properties: {
     readonly transition: { readonly description: string; readonly enum: readonly string[] } } } } } } }
 }
+/** A call that was answered: `where` is its path and query, `body` its JSON where it had one. */
+export interface Answered { readonly method: string; readonly where: string; readonly body: string }
 
 /** The calls of docs/http.md that the studio makes. */
 export class Api {
   /** What answers so far have said of their recordings. */
   onDeclarations?: (declarations: Declarations) => void
+  /** Told of every call that was answered: for who follows what somebody does. */
+  onAnswered?: (call: Answered) => void
 
   /** `base` is the address of `/api`, relative to the page; `token` goes with every call where the server asks for one. */
   constructor(private readonly base = 'api', private readonly token = '') {}
@@ -117,6 +121,18 @@ export class Api {
       if (signal?.aborted) throw signal.reason
     }
   }
+  /** Stops a job as soon as may be. */
+  async cancel(job: string): Promise<void> {
+    await this.call(path('jobs', job), { method: 'DELETE' })
+  }
+  /** Begins to make captured movements again by each of some methods, and to compare. */
+  async evaluate(database: string, wishes: { readonly method: readonly string[]; readonly seed: number }): Promise<JobBegun> {
+    return (await this.post(path('databases', database, 'evaluate'), wishes)).json() as Promise<JobBegun>
+  }
+  /** Of the server's program. */
+  async version(): Promise<string> {
+    return (await this.json<{ info: { version: string } }>('openapi.json')).info.version
+  }
   streamUrl(database: string): string {
     const url = this.address(`stream${query({ database, token: this.token || undefined })}`)
     url.protocol = url.protocol.replace('http', 'ws')
@@ -150,6 +166,7 @@ export class Api {
     if (!response.ok) throw faultOf(await response.text().catch(() => ''), response.status)
     const declared = response.headers.get('Signweave-Declarations')
     if (declared) this.onDeclarations?.(declarationsOf(declared))
+    this.onAnswered?.({ method: init.method ?? 'GET', where, body: typeof init.body === 'string' ? init.body : '' })
     return response
   }
 }

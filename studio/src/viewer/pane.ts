@@ -24,6 +24,8 @@ export class Pane {
   body: Body
   /** From the stage's time to this motion's, both in seconds; the same where not set. */
   timeOf: (seconds: number) => number = (seconds) => seconds
+  /** Through whose cameras this one is seen; its own where not set. That pane must be drawn first. */
+  lead?: Pane
   /** Whether the last picture was of frames that have not come, so that it must be drawn again when more do. */
   waiting = true
   /** Whether its signer has been drawn. */
@@ -82,13 +84,14 @@ export class Pane {
     this.body.show(this.pose)
     if (this.trails.object.visible) this.trails.update(time)
     if (this.bones.object.visible) this.bones.update()
-    this.cameras = this.camera.view === 'hands' && this.hands.length > 0 ? this.hands : this.alone
+    this.cameras = this.lead ? this.lead.cameras : this.camera.view === 'hands' && this.hands.length > 0 ? this.hands : this.alone
     const root = 3 * Math.max(0, this.signer.joint('pelvis'))
     this.lights.follow(this.root.set(model.positions[root], model.positions[root + 1], model.positions[root + 2]))
   }
 
   /** Moves one of the cameras for a picture of this shape, `elapsed` seconds after the one before. */
   aim(camera: SignerCamera, aspect: number, elapsed: number): void {
+    if (this.lead) return
     if (camera !== this.camera) camera.like(this.camera)
     camera.update(this.model, aspect, elapsed)
   }

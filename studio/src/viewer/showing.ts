@@ -13,6 +13,8 @@ export interface Strand {
 export interface Showing {
   readonly transport: Transport
   readonly strands: readonly Strand[]
+  /** All are seen through the camera of the first, so that nothing but the motion tells them apart. */
+  readonly oneCamera?: boolean
   /** Rises as pieces of the motions come. */
   readonly arrivals: number
   /** The time of a strand beside a time of the transport, both in seconds from frame 0. */

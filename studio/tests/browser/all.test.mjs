@@ -3,5 +3,8 @@ import assert from 'node:assert/strict'
 import { faults, test } from './suite.mjs'
 import './studio.test.mjs'
 import './compose.test.mjs'
+import './evaluate.test.mjs'
+import './compare.test.mjs'
+import './guide.test.mjs'
 
 test('no view threw anything', () => assert.deepEqual(faults, []))

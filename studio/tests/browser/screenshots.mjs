@@ -27,6 +27,26 @@ const kViews = [
   { name: 'signed', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN , "LE MANS" PLUIE'), keys: ['Space'], seek: 1.4 },
   { name: 'live', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN') + '?pace=live' },
   { name: 'help', hash: '#/demo/recording/meteo?at=2.2', keys: ['?'] },
+  { name: 'evaluate', hash: '#/demo/evaluate', body: 'drawn', then: async (page) => {
+    await page.locator('form button.primary').click()
+    await page.waitForSelector('#result-title', { timeout: 300_000 })
+    await page.evaluate(() => document.querySelector('#result-title').scrollIntoView())
+  } },
+  { name: 'compare', hash: '#/demo/compare', still: true, then: async (page) => {
+    await page.locator('form button.primary:enabled').click()
+    await page.locator('input[name=fluency]').first().check()
+    await page.locator('form button.primary:enabled').click()
+    await page.waitForFunction(() => window.signweaveStage?.panes.length === 2 && window.signweaveStage.panes.every(({ seen }) => seen), null, { timeout: 120_000 })
+    await page.evaluate(() => { const { transport } = window.signweaveStage; transport.seek(transport.duration / 2); window.signweaveStage.touch() })
+  } },
+  { name: 'compare_setup', hash: '#/demo/compare', then: (page) => page.locator('form button.primary:enabled').waitFor() },
+  { name: 'guide', hash: '#/demo/guide', then: (page) => page.locator('form button.primary:enabled').first().waitFor() },
+  { name: 'guide_under_way', hash: '#/demo/guide', then: async (page) => {
+    await page.locator('form button.primary:enabled').first().click()
+    await page.getByTitle(/meteo/).click()
+    await opened(page, '#/demo/recording/meteo', true)
+    await page.waitForSelector('.guide section')
+  } },
   { name: 'fault', hash: '#/demo/recording/nobody' },
   { name: 'new_signing', hash: kCompose, then: (page) => composed(page) },
   { name: 'compose_empty', hash: '#/demo/compose', then: (page) => page.locator('.empty button').first().waitFor() },
@@ -61,7 +81,9 @@ await withServer(site, async (address) => {
         const name = `${view.name}_${label}`
         if (only && !new RegExp(only).test(name)) continue
         const page = await context.newPage()
+        if (view.still) await page.emulateMedia({ reducedMotion: 'reduce' })
         await page.addInitScript((body) => localStorage.setItem('signweave.body', body), view.body ?? 'woman')
+        if (/compare|guide|evaluate/.test(view.name)) await page.addInitScript(() => { if (!sessionStorage.begun) ['guide', 'study.demo'].forEach((key) => localStorage.removeItem(`signweave.${key}`)); sessionStorage.begun = '1' })
         await page.goto(`${address}/${view.hash}`, { timeout: 120_000 })
         await opened(page, view.hash, true)
         if (view.seek !== undefined) await page.evaluate((to) => { const { transport } = window.signweaveStage; transport.pause(); transport.seek(to); window.signweaveStage.touch() }, view.seek)

@@ -1,0 +1,87 @@
+import { describe, expect, it } from 'vitest'
+import { csvOf } from './csv'
+import { figureOf, gapOf, readEvaluation, spansByRecording, wholeGroups, type Estimate, type Evaluation } from './evaluation'
+import { bestOf, farness, kDurations, kMeasures, measuresOf } from './measures'
+import { inOrder, isBound } from './methods'
+import { countsOf, csvRows, sorted, tableByGroup, tableByMeasure } from './table'
+
+const estimate = (value: number | null, low: number | null = null, high: number | null = null): Estimate => ({ value, low, high, spans: 5, recordings: 2 })
+const wrist = (value: number, over: number) => ({ ...estimate(value, value - 1, value + 1), unit: 'mm', over_slerp: estimate(over) })
+const scores = {
+  slerp: { wrist: wrist(20, 1), peak_speed_ratio: estimate(0.5), duration_error: estimate(110) },
+  ceiling: { wrist: wrist(2, 0.1) },
+  learned: { wrist: wrist(9, 0.45), peak_speed_ratio: estimate(1.25), duration_error: estimate(110) },
+  hermite: { wrist: wrist(11, 0.55), peak_speed_ratio: estimate(null) },
+}
+const evaluation: Evaluation = {
+  recordings: 2, recordings_left_out: 0, spans_left_out: 1, seed: 1, confidence: 0.95,
+  tasks: [{ task: 'given', groups: [
+    { group: '170 ms', spans: 5, recordings: 2, hands: { moving: scores } },
+    { group: '170 ms, long, 1 peak', spans: 2, recordings: 1, hands: { moving: scores } },
+    { group: 'natural', spans: 7, recordings: 2, hands: { moving: { slerp: { wrist: wrist(30, 1) }, learned: { wrist: wrist(31, 1.03) } } } },
+  ] }],
+  spans: [{ file: 'a', first_frame: 3, frames: 17, group: '170 ms' }, { file: 'b', first_frame: 3, frames: 17, group: '170 ms' }, { file: 'b', first_frame: 50, frames: 30, group: 'natural' }],
+}
+const [task] = evaluation.tasks
+const measure = (name: string) => kMeasures.find((one) => one.measure === name)!
+
+describe('an evaluation', () => {
+  it('is read from what was written, and nothing else is', () => {
+    expect(readEvaluation(JSON.stringify(evaluation))).toEqual(evaluation)
+    for (const wrong of ['', 'null', '{}', '[]', '{"tasks":[],"spans":[]}', '{"tasks":[{"task":"given","groups":[{}]}],"spans":[],"recordings":1}']) {
+      expect(() => readEvaluation(wrong), wrong).toThrow('noEvaluation')
+    }
+  })
+  it('has figures by method and measure, or over another method\'s', () => {
+    expect(figureOf(scores, 'learned', 'wrist')?.value).toBe(9)
+    expect(figureOf(scores, 'learned', 'wrist/slerp')?.value).toBe(0.45)
+    expect(figureOf(scores, 'hermite', 'peak_speed_ratio')).toBeUndefined()
+    expect(figureOf(undefined, 'hermite', 'wrist')).toBeUndefined()
+  })
+  it('tells gaps of one length, and parts of groups', () => {
+    expect(gapOf('170 ms')).toBe(170)
+    expect(gapOf('natural')).toBeUndefined()
+    expect(wholeGroups(task).map(({ group }) => group)).toEqual(['170 ms', 'natural'])
+  })
+  it('counts the spans of recordings', () => {
+    expect(spansByRecording(evaluation.spans).map(({ recording, spans }) => [recording, spans])).toEqual([['b', 2], ['a', 1]])
+  })
+  it('tells how durations were met once for all methods', () => {
+    expect(countsOf(task, kDurations)[0].durations[0]?.value).toBe(110)
+    expect(measuresOf(task).map((one) => one.measure)).toEqual(['wrist/slerp', 'wrist', 'peak_speed_ratio'])
+  })
+})
+
+describe('the best figure', () => {
+  it('is the lowest, or the nearest to one as a ratio or to nought', () => {
+    expect(farness(0.5, 'one')).toBeCloseTo(farness(2, 'one'))
+    expect(farness(-0.2, 'zero')).toBe(0.2)
+    expect([...tableByMeasure(task.groups[0], 'moving', [measure('peak_speed_ratio')]).best[0]]).toEqual(['learned'])
+  })
+  it('is never a bound\'s, which knows the answer, and is not told where all are alike', () => {
+    expect([...tableByGroup(wholeGroups(task), 'moving', measure('wrist')).best[0]]).toEqual(['learned'])
+    expect(bestOf([['a', estimate(0)], ['b', estimate(0)]], 'low', isBound).size).toBe(0)
+    expect([...bestOf([['a', estimate(0)], ['b', estimate(0)], ['c', estimate(1)]], 'low', isBound)]).toEqual(['a', 'b'])
+  })
+})
+
+describe('a table', () => {
+  it('has the methods in their order, and is sorted with those last that have no figure', () => {
+    const table = tableByGroup(wholeGroups(task), 'moving', measure('wrist'))
+    expect(table.rows.map(({ method }) => method)).toEqual(['learned', 'hermite', 'slerp', 'ceiling'])
+    expect(sorted(table, { column: 1, down: false }).map(({ method }) => method)).toEqual(['slerp', 'learned', 'hermite', 'ceiling'])
+    expect(sorted(table, { column: 1, down: true }).map(({ method }) => method)).toEqual(['learned', 'slerp', 'hermite', 'ceiling'])
+    expect(inOrder(['zzz', 'hold', 'learned'])).toEqual(['learned', 'hold', 'zzz'])
+  })
+  it('goes into a file with intervals and counts', () => {
+    const table = tableByGroup(wholeGroups(task).slice(0, 1), 'moving', measure('wrist'))
+    expect(csvOf(csvRows(table, table.rows.slice(0, 1), { task: 'given' }))).toBe(
+      'task,method,170 ms (mm),170 ms (mm) low,170 ms (mm) high,170 ms (mm) spans\r\ngiven,learned,9,8,10,5\r\n')
+  })
+})
+
+describe('CSV', () => {
+  it('quotes what RFC 4180 has quoted', () => {
+    expect(csvOf([['a,b', 'say "no"', 'two\nlines', null, undefined, 1.5, 'plain é']])).toBe('"a,b","say ""no""","two\nlines",,,1.5,plain é\r\n')
+  })
+})

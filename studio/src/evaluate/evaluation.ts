@@ -1,0 +1,82 @@
+import { PageFault } from './fault'
+
+/** One figure, pooled over spans, with its interval; null where there is none, as of the interval of one recording alone. */
+export interface Estimate {
+  readonly value: number | null; readonly low: number | null; readonly high: number | null
+  /** What it is from. */
+  readonly spans: number; readonly recordings: number
+  readonly unit?: string
+  readonly over_slerp?: Estimate
+  readonly over_hermite?: Estimate
+}
+export const kHands = ['moving', 'left', 'right'] as const
+export type Hand = (typeof kHands)[number]
+/** Figures by method and the measure's name. */
+export type Scores = Readonly<Record<string, Readonly<Record<string, Estimate>>>>
+export interface Group {
+  /** `annotated`, `170 ms`, …; those behind a comma are a part of the one before it. */
+  readonly group: string
+  readonly spans: number; readonly recordings: number
+  readonly hands: Readonly<Partial<Record<Hand, Scores>>>
+}
+export interface Task { readonly task: string; readonly groups: readonly Group[] }
+export interface MeasuredSpan { readonly file: string; readonly first_frame: number; readonly frames: number; readonly group: string }
+/** What `signweave evaluate --json` prints, and what the job answers, which has the last three as well. */
+export interface Evaluation {
+  readonly recordings: number; readonly recordings_left_out: number; readonly spans_left_out: number
+  readonly seed: number; readonly confidence: number
+  readonly tasks: readonly Task[]
+  readonly spans: readonly MeasuredSpan[]
+  readonly plot?: string
+  readonly declarations?: Readonly<Record<string, string>>
+  readonly notices?: readonly { readonly where: string; readonly text: string }[]
+}
+
+/** Reads what the command line or this page wrote. Throws where it is something else. */
+export function readEvaluation(text: string): Evaluation {
+  let read: Partial<Evaluation> | null
+  try {
+    read = JSON.parse(text) as Partial<Evaluation> | null
+  } catch {
+    throw new PageFault('noEvaluation')
+  }
+  const right = Array.isArray(read?.tasks) && Array.isArray(read.spans) && typeof read.recordings === 'number' &&
+    read.tasks.every((task) => typeof task?.task === 'string' && Array.isArray(task.groups) && task.groups.every(isGroup))
+  if (!right) throw new PageFault('noEvaluation')
+  return read as Evaluation
+}
+function isGroup(group: Partial<Group> | null): boolean {
+  return typeof group?.group === 'string' && typeof group.hands === 'object' && group.hands !== null &&
+    Object.values(group.hands).every((scores) => typeof scores === 'object' && scores !== null)
+}
+
+/** The figure of a column: `wrist`, or of what it is over, `wrist/slerp`. None where it was not measured. */
+export function figureOf(scores: Scores | undefined, method: string, measure: string): Estimate | undefined {
+  const [name, over] = measure.split('/')
+  const found = scores?.[method]?.[name]
+  const figure = over === 'slerp' ? found?.over_slerp : over === 'hermite' ? found?.over_hermite : found
+  return typeof figure?.value === 'number' ? figure : undefined
+}
+
+/** Groups that are no part of another. */
+export function wholeGroups(task: Task): readonly Group[] {
+  return task.groups.filter(({ group }) => !group.includes(', '))
+}
+
+/** The length of the gaps of a group in ms, where all are as long. */
+export function gapOf(group: string): number | undefined {
+  const found = /^(\d+) ms$/.exec(group)
+  return found ? Number(found[1]) : undefined
+}
+
+/** How many spans of each recording there are, the most first. */
+export function spansByRecording(spans: readonly MeasuredSpan[]): readonly { readonly recording: string; readonly spans: number; readonly groups: ReadonlyMap<string, number> }[] {
+  const by = new Map<string, Map<string, number>>()
+  for (const { file, group } of spans) {
+    let groups = by.get(file)
+    if (!groups) by.set(file, (groups = new Map()))
+    groups.set(group, (groups.get(group) ?? 0) + 1)
+  }
+  return [...by].map(([recording, groups]) => ({ recording, spans: [...groups.values()].reduce((a, b) => a + b, 0), groups }))
+    .sort((a, b) => b.spans - a.spans || a.recording.localeCompare(b.recording))
+}

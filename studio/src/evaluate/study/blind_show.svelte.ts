@@ -1,0 +1,79 @@
+import type { Api } from '../../api/client'
+import { PieceSource } from '../../motion/piece_source'
+import type { Showing, Strand } from '../../viewer/showing'
+import { Transport } from '../../viewer/transport'
+import type { Item, Settings, Trial } from './study'
+
+interface Opened { readonly key: string; readonly strands: Promise<readonly Strand[]>; readonly close: () => void }
+
+/** What a trial shows: the capture and what was made, as A and B or one alone, told apart by nothing but their motion. */
+export class BlindShow implements Showing {
+  readonly transport = new Transport()
+  readonly oneCamera = true
+  strands = $state.raw<readonly Strand[]>([])
+  arrivals = $state(0)
+  private current?: Opened
+  private next?: Opened
+
+  /** `dressed` resolves when the character can be drawn, so that both bodies are there at once. */
+  constructor(private readonly api: Api, private readonly database: string, private readonly settings: Pick<Settings, 'mode' | 'character'>, private readonly dressed: () => Promise<unknown>) {
+    this.transport.repeat = true
+  }
+
+  /** Shows a trial; nothing of it before all of it is here. Rejects where it cannot be had, and can be called again. */
+  async show(item: Item, trial: Trial): Promise<void> {
+    const opened = this.open(item, trial)
+    if (this.current !== opened) this.current?.close()
+    this.current = opened
+    if (this.next === opened) this.next = undefined
+    this.transport.pause()
+    this.strands = []
+    try {
+      const strands = await opened.strands
+      if (this.current !== opened) return
+      const { transport } = this
+      this.strands = strands
+      transport.rate = strands[0].motion.store.rate
+      transport.duration = Math.max(...strands.map(({ motion }) => motion.store.seconds))
+      transport.loop = null
+      transport.time = 0
+      ++this.arrivals
+    } catch (fault) {
+      if (this.current !== opened) return
+      this.current = undefined
+      throw fault
+    }
+  }
+
+  /** Fetches what comes next while somebody looks. */
+  prepare(item: Item, trial: Trial): void {
+    const opened = this.open(item, trial)
+    if (opened === this.next || opened === this.current) return
+    this.next?.close()
+    this.next = opened
+    opened.strands.catch(() => { if (this.next === opened) this.next = undefined }) // it is asked for again when its turn comes
+  }
+
+  timeOf(): (seconds: number) => number {
+    return (seconds) => seconds
+  }
+
+  close(): void {
+    this.current?.close()
+    this.next?.close()
+    this.current = this.next = undefined
+  }
+
+  private open(item: Item, { item: number, side }: Trial): Opened {
+    const key = `${number} ${side}`
+    for (const known of [this.next, this.current]) if (known?.key === key) return known
+    const wishes = { from: item.begin, to: item.end, character: this.settings.character ?? undefined }
+    const made = item.method ? { ...wishes, remake: `${item.from}..${item.to}`, transition: item.method } : wishes
+    // In the order of the sides, so that not even the order of the calls tells more than the screen.
+    const both = side === 'left' ? [wishes, made] : [made, wishes]
+    const sources = (this.settings.mode === 'single' ? both.slice(0, 1) : both).map((one, i, all) => new PieceSource(this.api, this.database, item.recording, one, all.length > 1 ? 'AB'[i] : ''))
+    const strands = Promise.all([this.dressed(), ...sources.map(async (source): Promise<Strand> => ({ role: 'blind', source, motion: await source.open() }))])
+      .then(([, ...all]) => all as readonly Strand[])
+    return { key, strands, close: () => sources.forEach((source) => source.close()) }
+  }
+}

@@ -1,0 +1,39 @@
+import { readEaf } from '../../annotation/eaf'
+import type { RecordingInfo } from '../../api/answers'
+import type { Api } from '../../api/client'
+import { ApiError } from '../../api/fault'
+import { gapsOf, shownOf, usable } from './gaps'
+import { Random } from './random'
+import type { Source } from './study'
+
+/** Recordings that are looked through: of more, so many at random. */
+export const kMostRecordings = 200
+
+/** Frames that are no good, as the server tells of a recording. */
+interface Broken { readonly defects?: readonly { readonly first_frame?: number; readonly end_frame?: number }[] }
+
+/** Which of a database's recordings a study of this seed takes its gaps from. */
+export function sampled(recordings: readonly string[], seed: number): readonly string[] {
+  return recordings.length <= kMostRecordings ? recordings : new Random(seed, 'recordings').shuffled(recordings).slice(0, kMostRecordings).toSorted()
+}
+
+/** The gaps of some recordings that can be shown; `told` hears how many recordings have been read. Recordings without annotation have none. */
+export async function gatherSources(api: Api, database: string, recordings: readonly string[], around: number, told: (done: number) => void, signal: AbortSignal): Promise<readonly Source[]> {
+  const sources: Source[] = []
+  for (const [done, recording] of recordings.entries()) {
+    if (signal.aborted) throw signal.reason
+    told(done)
+    let info: RecordingInfo & Broken, eaf: string
+    try {
+      ;[info, eaf] = await Promise.all([api.recording(database, recording), api.annotation(database, recording)])
+    } catch (fault) {
+      if (fault instanceof ApiError && fault.status === 404) continue
+      throw fault
+    }
+    const ms = 1000 / info.frames_per_second, at = (frame: number) => info.clock_origin_ms + frame * ms
+    const captured = { begin: at(0), end: at(info.frames - 1) }
+    const broken = (info.defects ?? []).flatMap(({ first_frame, end_frame }) => (first_frame === undefined || end_frame === undefined ? [] : [{ begin: at(first_frame), end: at(end_frame) }]))
+    for (const gap of usable(gapsOf(readEaf(eaf)), captured, broken)) sources.push({ recording, ...gap, ...shownOf(gap, captured, around) })
+  }
+  return sources
+}

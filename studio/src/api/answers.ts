@@ -63,3 +63,5 @@ export interface JobState<Result> {
   readonly result?: Result
   readonly error?: { readonly message: string; readonly code: string }
 }
+/** What stopped nothing: a guess or a hint. */
+export interface NoticeRow { readonly where: string; readonly text: string }

@@ -31,11 +31,11 @@ export function contextAfter(tokens: readonly Token[]): Context {
       open.push(call ? of : '')
       here = call ? { at: 'argument', of, index: 0 } : { at: 'condition' }
     } else if (symbol && kCompare.test(text)) here = here.at === 'compare' ? { at: 'value', of: here.of, by: text, part: here.part } : { at: 'nothing' }
-    else if (symbol && text === ',') here = here.at === 'argument' ? { ...here, index: here.index + 1 } : here
+    else if (symbol && text === ',') here = here.at === 'argument' ? { at: 'argument', of: here.of, index: here.index + 1 } : here
     else if (here.at === 'condition') here = begun(here, token, open)
     else if (here.at === 'value') here = { at: 'after', open: open.length }
     else if (here.at === 'after' && token.kind === 'word' && kRelations.includes(text)) here = { at: 'condition' }
-    else if (here.at === 'compare' && text.startsWith('.')) here = { ...here, part: text }
+    else if (here.at === 'compare' && text.startsWith('.')) here = { at: 'compare', of: here.of, part: text }
   }
   return here
 }

@@ -32,5 +32,9 @@ export const kIcons = {
   evaluate: 'M4 20V10M10 20V4M16 20v-7M21 20H3',
   guide: 'M12 3a9 9 0 1 1 0 18 9 9 0 0 1 0-18zM15.5 8.5l-2 5-5 2 2-5z',
   figure: 'M12 2a3.5 4 0 1 1 0 8 3.5 4 0 0 1 0-8zM5 22v-5c0-3 2-5 7-5s7 2 7 5v5',
+  rename: 'M4 20h4L19 9l-4-4L4 16zM13 7l4 4',
+  table: 'M3 5h18v14H3zM3 10h18M9 10v9',
+  grid: 'M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z',
+  save: 'M12 3v12M7 10l5 5 5-5M4 20h16',
 } as const
 export type IconName = keyof typeof kIcons

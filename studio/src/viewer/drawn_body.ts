@@ -5,6 +5,7 @@ import type { Body } from './body'
 import { DrawnFace } from './drawn_face'
 import { drawnGeometry } from './drawn_solids'
 import { Proportions } from './proportions'
+import type { Detail } from './solids'
 
 /** A signer drawn from the skeleton itself: there at once, for any skeleton, whatever its names. */
 export class DrawnBody implements Body {
@@ -15,7 +16,7 @@ export class DrawnBody implements Body {
   private readonly mesh: SkinnedMesh
   private readonly face?: DrawnFace
 
-  constructor(skeleton: Skeleton, rig: Rig) {
+  constructor(skeleton: Skeleton, rig: Rig, detail: Detail = 'fine') {
     const proportions = new Proportions(skeleton, rig)
     this.bones = skeleton.joints.map(({ name, offset }) => {
       const bone = new Bone()
@@ -25,7 +26,7 @@ export class DrawnBody implements Body {
     })
     skeleton.joints.forEach(({ parent }, j) => (parent < 0 ? this.object : this.bones[parent]).add(this.bones[j]))
     const material = new MeshLambertMaterial({ vertexColors: true })
-    this.mesh = new SkinnedMesh(drawnGeometry(proportions), material)
+    this.mesh = new SkinnedMesh(drawnGeometry(proportions, detail), material)
     const inverses = skeleton.joints.map((_, j) => {
       const at = proportions.ofJoint(j)
       return new Matrix4().makeTranslation(-at.x, -at.y, -at.z)
@@ -35,7 +36,7 @@ export class DrawnBody implements Body {
     this.object.add(this.mesh)
     const head = proportions.joint('head')
     if (head >= 0) {
-      this.face = new DrawnFace(proportions, skeleton.tracks)
+      this.face = new DrawnFace(proportions, skeleton.tracks, detail)
       this.bones[head].add(this.face.object)
     }
     this.hasFace = this.face?.moves ?? false

@@ -53,7 +53,7 @@ export interface Vocabulary {
   readonly recordings: readonly string[]
   readonly signers: readonly string[]
   /** The words of the query language, by what they are. */
-  readonly language: Readonly<Record<'fields' | 'links' | 'phases' | 'hands' | 'functions', readonly string[]>>
+  readonly language: Readonly<Record<'fields' | 'links' | 'phases' | 'hands' | 'functions' | 'points', readonly string[]>>
 }
 export interface JobBegun { readonly job: string }
 export interface JobState<Result> {

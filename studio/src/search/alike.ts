@@ -1,6 +1,6 @@
 import type { AnnotationDocument } from '../annotation/document'
 import { kindOf } from '../timeline/tier_kind'
-import { pieceText } from './answers'
+import { pieceText, type Answer } from './answers'
 
 /**
  * The query for what moves like a stretch of a recording (ms of annotation time). What is compared are signs; where the stretch
@@ -15,4 +15,11 @@ export function alikeQuery(recording: string, from: number, to: number, { tiers 
     if (kind === 'preparation' || kind === 'stroke' || kind === 'retraction') return `phase = ${kind} & ${like}`
   }
   return like
+}
+
+/** The query for what moves like an answer to `asked`: where phases were asked for, phases of its kind. */
+export function alikeOf(answer: Answer, asked: string): string {
+  const kind = /\bphase\b/.test(asked) ? / (preparation|stroke|retraction)$/.exec(answer.name)?.[1] : undefined
+  const like = `like(${pieceText(answer)})`
+  return kind ? `phase = ${kind} & ${like}` : like
 }

@@ -8,6 +8,7 @@ const words: Words = {
     fields: ['gloss', 'phase', 'hand', 'recording', 'tier', 'duration', 'begin', 'end', 'unit', 'signer'],
     links: ['parent', 'child', 'ancestor', 'descendant', 'overlaps', 'during', 'starts', 'ends', 'equals'],
     phases: ['preparation', 'stroke', 'retraction', 'hold', 'other'], hands: ['both', 'right', 'left'],
+    points: ['hand', 'left_hand', 'right_hand', 'head', 'neck'],
     functions: ['speed', 'mean_speed', 'path', 'distance', 'contact', 'begin', 'end', 'track', 'gaze', 'like'],
   },
 }

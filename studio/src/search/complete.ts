@@ -1,7 +1,7 @@
 import type { Vocabulary } from '../api/answers'
 import { quoted } from './answers'
 import { contextAfter, isCall, type Context } from './context'
-import { kAngles, kComponents, kMoments, kNamesOf, kNumberOf, kPoints, kRelations, kTextFields, kTimes } from './language'
+import { kAngles, kComponents, kMoments, kNamesOf, kNumberOf, kRelations, kTextFields, kTimes } from './language'
 import { scan, type Token } from './scan'
 
 /** What completion knows of a database; `tracks` are those of the face. */
@@ -124,10 +124,10 @@ function argumentsOf(of: string, index: number, words: Words, rest: string): rea
     case 'tier': return closing(words.tiers, 'tier', quoted)
     case 'track': case 'mean_track': return closing(words.tracks ?? [], 'track')
     case 'gaze': case 'mean_gaze': return closing(kAngles, 'word')
-    case 'like': return index > 0 ? closing(kPoints, 'word') : closing(words.recordings, 'recording', quoted, /^\s*@/.test(rest) ? '' : '@')
-    case 'distance': return closing(kPoints, 'word', undefined, index === 0 && end ? ', ' : end)
+    case 'like': return index > 0 ? closing(words.language.points, 'word') : closing(words.recordings, 'recording', quoted, /^\s*@/.test(rest) ? '' : '@')
+    case 'distance': return closing(words.language.points, 'word', undefined, index === 0 && end ? ', ' : end)
   }
-  return words.language.functions.includes(of) ? closing(kPoints, 'word') : []
+  return words.language.functions.includes(of) ? closing(words.language.points, 'word') : []
 }
 
 function after(open: number): Option[] {

@@ -1,7 +1,5 @@
-/** What docs/query.md lists and the server's vocabulary does not: points of the signer, and what is told of them. */
-const kOfSide = ['hand', 'wrist', 'elbow', 'shoulder', 'index_tip', 'thumb_tip', 'hip', 'knee', 'ankle'] as const
-export const kPoints: readonly string[] = ['hand', 'right_hand', 'left_hand', 'head', 'neck', 'chest', 'pelvis',
-  ...kOfSide.slice(1).flatMap((part) => [`right_${part}`, `left_${part}`])]
+// What docs/query.md lists and the server's vocabulary does not.
+
 /** Of `begin(POINT)` and `end(POINT)`. */
 export const kComponents = ['.height', '.x', '.forward', '.openness', '.palm', '.fingers', '.contact'] as const
 export const kMoments = ['.least', '.begin', '.end'] as const

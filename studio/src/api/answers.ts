@@ -82,7 +82,7 @@ export interface Vocabulary {
   readonly recordings: readonly string[]
   readonly signers: readonly string[]
   /** The words of the query language, by what they are. */
-  readonly language: Readonly<Record<'fields' | 'links' | 'phases' | 'hands' | 'functions', readonly string[]>>
+  readonly language: Readonly<Record<'fields' | 'links' | 'phases' | 'hands' | 'functions' | 'points', readonly string[]>>
 }
 export interface JobBegun { readonly job: string }
 export interface JobState<Result> {
@@ -92,3 +92,5 @@ export interface JobState<Result> {
   readonly result?: Result
   readonly error?: { readonly message: string; readonly code: string }
 }
+/** What stopped nothing: a guess or a hint. */
+export interface NoticeRow { readonly where: string; readonly text: string }

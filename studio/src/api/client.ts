@@ -1,6 +1,6 @@
 import { readFrames, type FrameTaker } from '../motion/frames_body'
 import type { Declarations } from '../motion/source'
-import type { CharacterRow, DatabaseRow, ExplainedReport, GlossRow, JobBegun, JobState, MediaRow, RecordingInfo, RecordingRow, SignAnswer, Statistics, TransitionRow, Vocabulary } from './answers'
+import type { CharacterRow, DatabaseRow, ExplainedReport, GlossRow, JobBegun, JobState, MediaRow, NoticeRow, RecordingInfo, RecordingRow, SignAnswer, Statistics, TransitionRow, Vocabulary } from './answers'
 import { ApiError, StudioFault } from './fault'
 
 type Query = Readonly<Record<string, string | number | undefined>>
@@ -19,6 +19,8 @@ interface SignDescription {
 }
 /** A call that was answered: `where` is its path and query, `body` its JSON where it had one. */
 export interface Answered { readonly method: string; readonly where: string; readonly body: string }
+/** What is asked, and how many answers are wanted at most. */
+export interface QueryWishes { readonly text: string; readonly limit?: number }
 
 /** The calls of docs/http.md that the studio makes. */
 export class Api {
@@ -103,6 +105,19 @@ export class Api {
     const { description, enum: names } = paths['/databases/{database}/sign'].post.requestBody.content['application/json'].schema.properties.transition
     return names.map((name) => ({ name, description: description.split('\n').map((line) => line.trim()).find((line) => line.startsWith(`${name}: `))?.slice(name.length + 2) ?? '' }))
   }
+  /** What a query finds, as CSV while it comes: it may be a hundred thousand rows. */
+  async find(database: string, wishes: QueryWishes, signal?: AbortSignal): Promise<{ readonly csv: ReadableStream<Uint8Array>; readonly notices: readonly NoticeRow[] }> {
+    const response = await this.post(path('databases', database, 'query'), { ...wishes, format: 'csv' }, signal)
+    return { csv: response.body!, notices: noticesOf(response.headers.get('Signweave-Notices')) }
+  }
+  /** The same as the server writes it in JSON, with the parts of each answer. */
+  async found(database: string, wishes: QueryWishes, signal?: AbortSignal): Promise<readonly object[]> {
+    return (await this.post(path('databases', database, 'query'), wishes, signal)).json() as Promise<readonly object[]>
+  }
+  /** A piece of a recording as a file of motion. */
+  async pieceFile(database: string, recording: string, wishes: PieceWishes & { readonly format: string }, signal?: AbortSignal): Promise<Blob> {
+    return (await this.call(path('databases', database, 'recordings', recording, 'motion') + query({ ...wishes }), { signal })).blob()
+  }
   /** What can be asked for and signed: for completion. */
   vocabulary(database: string): Promise<Vocabulary> {
     return this.json(path('databases', database, 'vocabulary'))
@@ -183,10 +198,20 @@ function query(values: Query): string {
 /** What an answer that is no success says: the server's own line, or that there was none. */
 function faultOf(body: string, status: number): ApiError | StudioFault {
   try {
-    const { message, code } = (JSON.parse(body) as { error: { message: string; code: string } }).error
-    return new ApiError(message, status, code)
+    const { message, code, line, column } = (JSON.parse(body) as { error: { message: string; code: string; line?: number; column?: number } }).error
+    return new ApiError(message, status, code, line && column ? { line, column } : undefined)
   } catch {
     return new StudioFault('badAnswer', String(status))
+  }
+}
+
+/** The header's list; one that is none is told as it came. */
+function noticesOf(header: string | null): readonly NoticeRow[] {
+  if (!header) return []
+  try {
+    return JSON.parse(header) as NoticeRow[]
+  } catch {
+    return [{ where: '', text: header }]
   }
 }
 

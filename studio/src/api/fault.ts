@@ -10,9 +10,12 @@ export class StudioFault extends Error {
   }
 }
 
-/** A call that was refused, with the server's own line. */
+/** Where a fault is in a text that was sent: line and column from 1, counted in characters (code points). */
+export interface FaultPlace { readonly line: number; readonly column: number }
+
+/** A call that was refused, with the server's own line; of a query also where. */
 export class ApiError extends Error {
-  constructor(message: string, readonly status: number, readonly code: string) {
+  constructor(message: string, readonly status: number, readonly code: string, readonly place?: FaultPlace) {
     super(message)
   }
 }

@@ -58,7 +58,7 @@ export class Session implements Showing {
 
   /** `character` names whose joints the poses are for; none for the recordings' own. */
   constructor(private readonly api: Api, readonly shown: Shown, character: Promise<string | undefined>) {
-    if (shown.page === 'recording') this.transport.time = shown.at
+    if (shown.page === 'recording') this.transport.time = shown.at || Math.max(0, (shown.span?.[0] ?? 0) / 1000)
     this.annotateAll()
     character.then((name) => this.wear(name)).catch((fault: unknown) => this.fail(fault))
   }
@@ -198,7 +198,16 @@ export class Session implements Showing {
     this.transport.live = main.source instanceof StreamSource
     this.progress(main.source)
     this.status = 'open'
+    if (first && this.shown.page === 'recording' && this.shown.span) this.select(this.shown.span, this.shown.at)
     if (first && this.shown.page === 'sign') this.transport.play()
+  }
+
+  /** Selects a span of annotation time, and goes to its begin where no other time was asked for. */
+  private select([from, to]: readonly [number, number], at: number): void {
+    const { originMs } = this.main!.motion
+    this.transport.setLoop((from - originMs) / 1000, (to - originMs) / 1000)
+    if (!at) this.transport.seek(this.transport.loop?.begin ?? 0)
+    this.want(this.transport.time)
   }
 
   private progress(source: MotionSource): void {

@@ -134,6 +134,7 @@ export const en = {
   mouseZoom: 'Wheel: nearer, farther',
   mouseScrub: 'Drag the ruler or a curve: move in time',
   mouseSelect: 'Drag over tiers, or click one annotation: select, then repeat',
+  alike: 'Find what moves alike',
   key_play: 'Play, pause',
   key_step: 'One frame back, on',
   key_leap: 'Ten frames back, on',

@@ -136,6 +136,7 @@ export const fr: Text = {
   mouseZoom: 'Molette : plus près, plus loin',
   mouseScrub: 'Tirer la règle ou une courbe : aller dans le temps',
   mouseSelect: 'Tirer sur les lignes, ou cliquer une annotation : choisir, puis répéter',
+  alike: 'Chercher ce qui bouge ainsi',
   key_play: 'Lire, pause',
   key_step: 'Une image en arrière, en avant',
   key_leap: 'Dix images en arrière, en avant',

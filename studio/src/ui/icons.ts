@@ -39,6 +39,8 @@ export const kIcons = {
   live: 'M12 9.500a2.500 2.500 0 1 1 0 5 2.500 2.500 0 0 1 0-5zM7 7a7 7 0 0 0 0 10M17 7a7 7 0 0 1 0 10M4 4a11 11 0 0 0 0 16M20 4a11 11 0 0 1 0 16',
   settings: 'M4 7h9M17 7h3M4 17h3M11 17h9M15 4.500a2.500 2.500 0 1 1 0 5 2.500 2.500 0 0 1 0-5zM9 14.500a2.500 2.500 0 1 1 0 5 2.500 2.500 0 0 1 0-5z',
   figure: 'M12 2a3.5 4 0 1 1 0 8 3.5 4 0 0 1 0-8zM5 22v-5c0-3 2-5 7-5s7 2 7 5v5',
-  save: 'M12 3v12M7 10.5l5 5 5-5M4 20h16',
+  rename: 'M4 20h4L19 9l-4-4L4 16zM13 7l4 4',
+  table: 'M3 5h18v14H3zM3 10h18M9 10v9',
+  grid: 'M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z',
 } as const
 export type IconName = keyof typeof kIcons

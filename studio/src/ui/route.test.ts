@@ -6,7 +6,9 @@ it('says in the address what is shown, and reads it back', () => {
     { page: 'recordings', database: 'demo' },
     { page: 'compose', database: 'demo', recording: undefined, state: { u: 'VANNES "LE MANS"' } },
     { page: 'phases', database: 'demo', recording: 'a/b', state: {} },
-    { page: 'recording', database: 'a/b', recording: 'ISL Thanks?', beside: 'été', at: 1.5 },
+    { page: 'recording', database: 'a/b', recording: 'ISL Thanks?', beside: 'été', at: 1.5, span: undefined },
+    { page: 'recording', database: 'demo', recording: 'meteo', beside: undefined, at: 0, span: [-120, 3400] },
+    { page: 'search', database: 'demo', recording: undefined, state: { q: 'gloss = "A" & $X', view: 'grid' } },
     { page: 'sign', database: 'demo', utterance: 'VANNES , "LE MANS"#2', pace: 'live' },
     { page: 'edit', database: 'demo', recording: 'meteo', replace: ['A=B', 'MATIN#2="LE MANS"'], swap: undefined },
   ]
@@ -15,4 +17,8 @@ it('says in the address what is shown, and reads it back', () => {
 
 it('shows the recordings where the address says nothing that it knows', () => {
   for (const hash of ['', '#', '#/', '#/%E0%A4%A', '#/demo/nothing/x']) expect(parseRoute(hash).page).toBe('recordings')
+})
+
+it('selects nothing where the span is none', () => {
+  for (const span of ['', 'x', '5..5', '9..1', '1..']) expect(parseRoute(`#/demo/recording/meteo?span=${span}`)).toMatchObject({ span: undefined })
 })

@@ -1,7 +1,7 @@
 /** What is shown, as the address says it behind `#`, so that every view can be linked and the back key works. */
 export type Route =
   | { readonly page: 'recordings'; readonly database?: string }
-  | { readonly page: 'recording'; readonly database: string; readonly recording: string; readonly beside?: string; readonly at: number }
+  | { readonly page: 'recording'; readonly database: string; readonly recording: string; readonly beside?: string; readonly at: number; /** Selected, in ms of annotation time. */ readonly span?: readonly [number, number] }
   | { readonly page: 'sign'; readonly database: string; readonly utterance: string; readonly pace: 'fast' | 'live' }
   | Working
   | { readonly page: 'edit'; readonly database: string; readonly recording: string; readonly replace: readonly string[]; readonly swap?: string }
@@ -23,7 +23,7 @@ export function parseRoute(hash: string): Route {
   }
   const [database, page, name] = parts
   if (database && page === 'recording' && name) {
-    return { page, database, recording: name, beside: parameters.get('beside') ?? undefined, at: Math.max(0, Number(parameters.get('at')) || 0) }
+    return { page, database, recording: name, beside: parameters.get('beside') ?? undefined, at: Math.max(0, Number(parameters.get('at')) || 0), span: spanOf(parameters.get('span')) }
   }
   if (database && page === 'sign' && name) {
     return { page, database, utterance: name, pace: parameters.get('pace') === 'live' ? 'live' : 'fast' }
@@ -46,6 +46,7 @@ export function addressOf(route: Route): string {
     case 'recording':
       if (route.beside) query.set('beside', route.beside)
       if (route.at) query.set('at', String(route.at))
+      if (route.span) query.set('span', route.span.join('..'))
       return withQuery(parts(route.database, 'recording', route.recording), query)
     case 'sign':
       if (route.pace === 'live') query.set('pace', 'live')
@@ -55,6 +56,12 @@ export function addressOf(route: Route): string {
       if (route.swap) query.set('swap', route.swap)
       return withQuery(parts(route.database, 'edit', route.recording), query)
   }
+}
+
+/** `1200..3400`; none where it is no such text. */
+function spanOf(text: string | null): readonly [number, number] | undefined {
+  const [, from, to] = /^(-?\d+)\.\.(-?\d+)$/.exec(text ?? '') ?? []
+  return from !== undefined && Number(from) < Number(to) ? [Number(from), Number(to)] : undefined
 }
 
 function withQuery(path: string, query: URLSearchParams): string {

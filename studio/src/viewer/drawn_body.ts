@@ -1,10 +1,15 @@
-import { Bone, Group, Matrix4, MeshLambertMaterial, Skeleton as SkinSkeleton, SkinnedMesh } from 'three'
+import { Bone, type BufferGeometry, Group, Matrix4, MeshLambertMaterial, Skeleton as SkinSkeleton, SkinnedMesh } from 'three'
 import type { Pose } from '../motion/pose'
 import type { Rig, Skeleton } from '../motion/skeleton'
 import type { Body } from './body'
 import { DrawnFace } from './drawn_face'
 import { drawnGeometry } from './drawn_solids'
 import { Proportions } from './proportions'
+import { Shared } from './shared'
+import type { Detail } from './solids'
+
+/** The surfaces of the bodies that there are: one piece of a recording after the other has the same. */
+const kSurfaces = new Shared<BufferGeometry>()
 
 /** A signer drawn from the skeleton itself: there at once, for any skeleton, whatever its names. */
 export class DrawnBody implements Body {
@@ -14,8 +19,9 @@ export class DrawnBody implements Body {
   private readonly bones: Bone[]
   private readonly mesh: SkinnedMesh
   private readonly face?: DrawnFace
+  private readonly surface: string
 
-  constructor(skeleton: Skeleton, rig: Rig) {
+  constructor(skeleton: Skeleton, rig: Rig, detail: Detail = 'fine') {
     const proportions = new Proportions(skeleton, rig)
     this.bones = skeleton.joints.map(({ name, offset }) => {
       const bone = new Bone()
@@ -25,7 +31,8 @@ export class DrawnBody implements Body {
     })
     skeleton.joints.forEach(({ parent }, j) => (parent < 0 ? this.object : this.bones[parent]).add(this.bones[j]))
     const material = new MeshLambertMaterial({ vertexColors: true })
-    this.mesh = new SkinnedMesh(drawnGeometry(proportions), material)
+    this.surface = JSON.stringify([detail, rig, skeleton.joints.map(({ parent, offset }) => [parent, offset])])
+    this.mesh = new SkinnedMesh(kSurfaces.take(this.surface, () => drawnGeometry(proportions, detail)), material)
     const inverses = skeleton.joints.map((_, j) => {
       const at = proportions.ofJoint(j)
       return new Matrix4().makeTranslation(-at.x, -at.y, -at.z)
@@ -35,7 +42,7 @@ export class DrawnBody implements Body {
     this.object.add(this.mesh)
     const head = proportions.joint('head')
     if (head >= 0) {
-      this.face = new DrawnFace(proportions, skeleton.tracks)
+      this.face = new DrawnFace(proportions, skeleton.tracks, detail)
       this.bones[head].add(this.face.object)
     }
     this.hasFace = this.face?.moves ?? false
@@ -53,7 +60,7 @@ export class DrawnBody implements Body {
   }
 
   dispose(): void {
-    this.mesh.geometry.dispose()
+    kSurfaces.leave(this.surface)
     ;(this.mesh.material as MeshLambertMaterial).dispose()
     this.mesh.skeleton.dispose()
     this.face?.dispose()

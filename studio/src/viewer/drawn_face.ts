@@ -2,6 +2,7 @@ import { CapsuleGeometry, Group, Mesh, MeshLambertMaterial, Quaternion, SphereGe
 import type { Pose } from '../motion/pose'
 import { headShape } from './drawn_solids'
 import type { Proportions } from './proportions'
+import type { Detail } from './solids'
 
 const kOfSide = ['eyeBlink', 'eyeSquint', 'eyeWide', 'browDown', 'browOuterUp', 'mouthSmile', 'mouthStretch'] as const
 const kOfBoth = ['browInnerUp', 'jawOpen', 'mouthPucker', 'mouthFunnel'] as const
@@ -23,7 +24,7 @@ export class DrawnFace {
   private readonly owned: { dispose(): void }[] = []
   private readonly s: number
 
-  constructor(p: Proportions, tracks: readonly string[]) {
+  constructor(p: Proportions, tracks: readonly string[], detail: Detail = 'fine') {
     const names = [...kOfSide.map((name) => `${name}Left`), ...kOfSide.map((name) => `${name}Right`), ...kOfBoth]
     this.tracks = names.map((name) => tracks.indexOf(name))
     this.weights = new Float32Array(names.length)
@@ -37,9 +38,10 @@ export class DrawnFace {
     const center = here(shape.center.clone())
     const white = this.material(0xf4f1ec), dark = this.material(0x241a16), skin = this.material(0xcf9877)
     const brown = this.material(0x2b1d17), red = this.material(0xb0685c), hollow = this.material(0x4a1a18)
-    const ball = this.own(new SphereGeometry(1, 20, 14))
-    const cap = this.own(new SphereGeometry(1, 20, 10, 0, 2 * Math.PI, 0, Math.PI / 2))
-    const bar = this.own(new CapsuleGeometry(1, 6, 4, 10))
+    const [around, along] = detail === 'fine' ? [20, 14] : [8, 6]
+    const ball = this.own(new SphereGeometry(1, around, along))
+    const cap = this.own(new SphereGeometry(1, around, detail === 'fine' ? 10 : 4, 0, 2 * Math.PI, 0, Math.PI / 2))
+    const bar = this.own(detail === 'fine' ? new CapsuleGeometry(1, 6, 4, 10) : new CapsuleGeometry(1, 6, 1, 5))
     const eyeX = 0.48 * shape.radii.x, eyeY = center.y + 0.06 * shape.radii.y
     const eyeZ = center.z + shape.radii.z * 0.84
     for (const sign of [1, -1]) {

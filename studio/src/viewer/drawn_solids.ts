@@ -1,6 +1,6 @@
 import { Color, Vector3, type BufferGeometry } from 'three'
 import type { Proportions } from './proportions'
-import { SolidBuilder, type Ring } from './solids'
+import { SolidBuilder, type Detail, type Ring } from './solids'
 
 const kSkin = new Color(0xd9a384)
 const kHair = new Color(0x2b211d)
@@ -10,8 +10,8 @@ const kFingers = ['thumb', 'index', 'middle', 'ring', 'little'] as const
 const kFingerRadius = { thumb: 0.0105, index: 0.0088, middle: 0.0092, ring: 0.0086, little: 0.0075 }
 
 /** The body of a signer as solids on its own skeleton: plain dark top, bare hands, as signers dress for video. */
-export function drawnGeometry(p: Proportions): BufferGeometry {
-  const builder = new SolidBuilder()
+export function drawnGeometry(p: Proportions, detail: Detail = 'fine'): BufferGeometry {
+  const builder = new SolidBuilder(detail)
   if (p.joint('pelvis') >= 0 && p.joint('left_upper_arm') >= 0 && p.joint('right_upper_arm') >= 0) {
     torso(builder, p)
     head(builder, p)

@@ -1,6 +1,14 @@
 import { BufferGeometry, Color, Float32BufferAttribute, Uint16BufferAttribute, Vector3 } from 'three'
 
-const kAround = 20
+/** How finely round things are drawn: `plain` for pictures of a few centimetres, of which there are many. */
+export type Detail = 'fine' | 'plain'
+/** Corners around a solid, rings over a limb's round end and along it, rings of an ellipsoid; `thin` ones are fingers, ears and the like. */
+const kDetails = {
+  fine: { thick: { around: 20, cap: 4, along: 4, rings: 18 }, thin: { around: 20, cap: 4, along: 4, rings: 18 } },
+  plain: { thick: { around: 9, cap: 2, along: 1, rings: 8 }, thin: { around: 5, cap: 1, along: 1, rings: 4 } },
+}
+/** Metres below which a solid's radius is thin. */
+const kThin = 0.02
 
 /** One ring of a loft: an ellipse across `axis`, carried by two joints. */
 export interface Ring {
@@ -20,6 +28,11 @@ export class SolidBuilder {
   private readonly skinIndices: number[] = []
   private readonly skinWeights: number[] = []
   private readonly indices: number[] = []
+  private readonly detail: (typeof kDetails)[Detail]
+
+  constructor(detail: Detail = 'fine') {
+    this.detail = kDetails[detail]
+  }
 
   /** A limb from `a` to `b` with round ends; `flat` squeezes it along a direction (unit) by a factor. */
   limb(a: Vector3, b: Vector3, radiusA: number, radiusB: number, joint: number, color: Color, flat?: { along: Vector3; factor: number }): void {
@@ -30,40 +43,43 @@ export class SolidBuilder {
     const side = perpendicular(axis, flat?.along)
     const front = axis.clone().cross(side)
     const rings: { at: Vector3; radius: number }[] = []
-    for (let i = 0; i <= 4; ++i) {
-      const angle = (i / 4) * (Math.PI / 2)
+    const shape = Math.max(radiusA, radiusB) < kThin ? this.detail.thin : this.detail.thick
+    const { cap, along } = shape
+    for (let i = 0; i <= cap; ++i) {
+      const angle = (i / cap) * (Math.PI / 2)
       rings.push({ at: a.clone().addScaledVector(axis, -radiusA * Math.cos(angle)), radius: radiusA * Math.sin(angle) })
     }
-    for (let i = 1; i < 4; ++i) rings.push({ at: a.clone().lerp(b, i / 4), radius: radiusA + ((radiusB - radiusA) * i) / 4 })
-    for (let i = 0; i <= 4; ++i) {
-      const angle = (i / 4) * (Math.PI / 2)
+    for (let i = 1; i < along; ++i) rings.push({ at: a.clone().lerp(b, i / along), radius: radiusA + ((radiusB - radiusA) * i) / along })
+    for (let i = 0; i <= cap; ++i) {
+      const angle = (i / cap) * (Math.PI / 2)
       rings.push({ at: b.clone().addScaledVector(axis, radiusB * Math.sin(angle)), radius: radiusB * Math.cos(angle) })
     }
     const factor = flat?.factor ?? 1
-    this.loft(rings.map(({ at, radius }) => ({ at, side: radius * factor, front: radius, joints: [joint, joint], part: 0 })), side, front, color)
+    this.loft(rings.map(({ at, radius }) => ({ at, side: radius * factor, front: radius, joints: [joint, joint], part: 0 })), side, front, color, shape.around)
   }
 
   ellipsoid(center: Vector3, radii: Vector3, side: Vector3, up: Vector3, joint: number, color: Color | ((at: Vector3) => Color),
             shape: (latitude: number) => { side: number; front: number; shift: number } = () => ({ side: 1, front: 1, shift: 0 })): void {
     const front = side.clone().cross(up)
     const rings: Ring[] = []
-    const steps = 18
+    const shaped = Math.min(radii.x, radii.y, radii.z) < kThin ? this.detail.thin : this.detail.thick
+    const steps = shaped.rings
     for (let i = 0; i <= steps; ++i) {
       const y = -Math.cos((i / steps) * Math.PI), r = Math.sin((i / steps) * Math.PI)
       const bent = shape(y)
       rings.push({ at: center.clone().addScaledVector(up, y * radii.y).addScaledVector(front, bent.shift * radii.z),
                    side: r * radii.x * bent.side, front: r * radii.z * bent.front, joints: [joint, joint], part: 0 })
     }
-    this.loft(rings, side, front, color)
+    this.loft(rings, side, front, color, shaped.around)
   }
 
   /** Rings one above the other, each with the same directions. */
-  loft(rings: readonly Ring[], side: Vector3, front: Vector3, color: Color | ((at: Vector3) => Color)): void {
+  loft(rings: readonly Ring[], side: Vector3, front: Vector3, color: Color | ((at: Vector3) => Color), around = this.detail.thick.around): void {
     const base = this.positions.length / 3
     const at = new Vector3()
     for (const ring of rings) {
-      for (let i = 0; i < kAround; ++i) {
-        const angle = (i / kAround) * 2 * Math.PI
+      for (let i = 0; i < around; ++i) {
+        const angle = (i / around) * 2 * Math.PI
         at.copy(ring.at).addScaledVector(side, Math.cos(angle) * ring.side).addScaledVector(front, Math.sin(angle) * ring.front)
         const tint = typeof color === 'function' ? color(at) : color
         this.positions.push(at.x, at.y, at.z)
@@ -74,10 +90,10 @@ export class SolidBuilder {
     }
     const outward = rings.length > 1 ? Math.sign(side.clone().cross(front).dot(rings[rings.length - 1].at.clone().sub(rings[0].at))) || 1 : 1
     for (let r = 0; r + 1 < rings.length; ++r) {
-      for (let i = 0; i < kAround; ++i) {
-        const next = (i + 1) % kAround
-        const p = base + r * kAround + i, q = base + r * kAround + next
-        const u = p + kAround, v = q + kAround
+      for (let i = 0; i < around; ++i) {
+        const next = (i + 1) % around
+        const p = base + r * around + i, q = base + r * around + next
+        const u = p + around, v = q + around
         if (outward > 0) this.indices.push(p, q, u, q, v, u)
         else this.indices.push(p, u, q, q, u, v)
       }

@@ -8,10 +8,10 @@ import type { Transport } from './transport'
 export interface FrameCost { mean: number; most: number; pictures: number }
 
 /** Draws signers on a canvas the way all of the studio's pictures are drawn. Throws where the browser cannot. */
-export function signerRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
+export function signerRenderer(canvas: HTMLCanvasElement, antialias = true): WebGLRenderer {
   let renderer: WebGLRenderer
   try {
-    renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: 'high-performance' })
+    renderer = new WebGLRenderer({ canvas, antialias, alpha: true, powerPreference: 'high-performance' })
   } catch {
     throw new StudioFault('noWebgl')
   }

@@ -31,13 +31,14 @@ before(async () => {
 })
 after(() => over?.())
 
-/** Opens a page. What is not about characters is asked of the drawn body, which software draws quickly; null is what was chosen before. */
-export async function visit(hash, { size = { width: 1280, height: 720 }, whole = false, body = 'drawn' } = {}) {
+/** Opens a page. What is not about characters is asked of the drawn body, which software draws quickly; null is what was chosen before. `still`: nothing plays by itself. */
+export async function visit(hash, { size = { width: 1280, height: 720 }, whole = false, body = 'drawn', still = false } = {}) {
   await page?.close()
   page = await context.newPage()
   if (body) await page.addInitScript((who) => localStorage.setItem('signweave.body', who), body)
   page.on('pageerror', (error) => faults.push(error.message))
   await page.setViewportSize(size)
+  if (still) await page.emulateMedia({ reducedMotion: 'reduce' })
   await page.goto(`${address}/${hash}`)
   await opened(page, hash, whole)
 }

@@ -1,0 +1,81 @@
+import { keyOf, type Piece, type Pieces } from '../motion/pieces'
+import type { Showing, Strand } from '../viewer/showing'
+import { Transport } from '../viewer/transport'
+import type { Answer } from './answers'
+
+/** Ms that are fetched before and after, and shown where that is wanted. */
+const kAround = 200
+
+/** One answer after the other, each as a loop on the same stage. */
+export class AnswerLoop implements Showing {
+  readonly transport = new Transport()
+  strands = $state.raw<readonly Strand[]>([])
+  arrivals = $state(0)
+  fault = $state.raw<unknown>()
+  /** Whether what is wanted has not come yet. */
+  waiting = $state(false)
+  /** Whether some of what is around is shown, too. */
+  around = $state(false)
+  private answer?: Answer
+  private piece?: Piece
+
+  constructor(private readonly pieces: Pieces) {
+    pieces.onCome = (key) => {
+      if (this.piece && key === keyOf(this.piece)) this.take()
+    }
+  }
+
+  timeOf(): (seconds: number) => number {
+    return (seconds) => seconds
+  }
+
+  /** Shows an answer as soon as it is there; `next` are those that may be wanted then. Both in a character's joints. */
+  show(answer: Answer | undefined, next: readonly Answer[], character: string | undefined): void {
+    this.answer = answer
+    this.piece = answer && pieceOf(answer, character)
+    this.pieces.want([...(this.piece ? [this.piece] : []), ...next.map((one) => pieceOf(one, character))])
+    if (this.piece) this.take()
+    else this.strands = []
+  }
+
+  setAround(around: boolean): void {
+    this.around = around
+    this.repeat()
+  }
+
+  retry(): void {
+    if (!this.piece) return
+    this.fault = undefined
+    this.waiting = true
+    this.pieces.retry(this.piece)
+  }
+
+  private take(): void {
+    const come = this.pieces.get(this.piece!)
+    this.waiting = !come
+    this.fault = come?.fault
+    if (!come?.motion || come.motion === this.strands[0]?.motion) return
+    const { motion, source } = come
+    this.transport.rate = motion.store.rate
+    this.transport.duration = motion.store.seconds
+    this.transport.held = false
+    this.repeat(motion.originMs)
+    // It plays by itself, where nobody has asked the system for less motion; later as the user left it.
+    if (this.strands.length === 0 && !matchMedia('(prefers-reduced-motion: reduce)').matches) this.transport.play()
+    this.strands = [{ role: 'only', source, motion }]
+    ++this.arrivals
+  }
+
+  /** Begins the loop anew: the answer, or with what is around it. */
+  private repeat(originMs = this.strands[0]?.motion.originMs): void {
+    if (!this.answer || originMs === undefined) return
+    const { transport } = this, { begin, end } = this.answer
+    const around = this.around ? kAround : 0
+    transport.setLoop((begin - around - originMs) / 1000, (end + around - originMs) / 1000)
+    transport.seek(transport.loop?.begin ?? 0)
+  }
+}
+
+function pieceOf({ recording, begin, end }: Answer, character: string | undefined): Piece {
+  return { recording, from: begin - kAround, to: end + kAround, character }
+}

@@ -1,0 +1,63 @@
+/** A segment that a query found. Times are ms of annotation time. */
+export interface Answer {
+  /** Its number in what the server answered, from 0. */
+  readonly at: number
+  readonly recording: string
+  readonly tier: string
+  readonly name: string
+  readonly begin: number
+  readonly end: number
+  /** Of an answer to `like(…)`: 0 is the same movement. */
+  readonly distance?: number
+  /** What the variables of the query were, in the order of `AnswerReader.variables`. */
+  readonly bindings?: readonly string[]
+}
+
+const kPlain = 5
+
+/** Makes answers of the records of the server's CSV, the first of which names the columns. */
+export class AnswerReader {
+  /** Names of the query's variables, with their `$`. */
+  variables: readonly string[] = []
+  ranked = false
+  private head?: readonly string[]
+  private count = 0
+  /** One text for all rows that have the same. */
+  private readonly texts = new Map<string, string>()
+
+  take(records: readonly string[][]): Answer[] {
+    const answers: Answer[] = []
+    for (const record of records) {
+      if (!this.head) {
+        this.head = record
+        this.ranked = record[kPlain] === 'distance'
+        this.variables = record.slice(this.ranked ? kPlain + 1 : kPlain)
+        continue
+      }
+      const answer: Answer = {
+        at: this.count++, recording: this.text(record[0]), tier: this.text(record[1]), name: record[2], begin: Number(record[3]), end: Number(record[4]),
+        distance: this.ranked ? Number(record[kPlain]) : undefined,
+        bindings: this.variables.length > 0 ? record.slice(this.ranked ? kPlain + 1 : kPlain) : undefined,
+      }
+      answers.push(answer)
+    }
+    return answers
+  }
+
+  private text(value: string): string {
+    const known = this.texts.get(value)
+    if (known !== undefined) return known
+    this.texts.set(value, value)
+    return value
+  }
+}
+
+/** The piece of a recording that an answer is, as queries and utterances name it: `"meteo"@1200..3400`. */
+export function pieceText({ recording, begin, end }: Pick<Answer, 'recording' | 'begin' | 'end'>): string {
+  return `${quoted(recording)}@${begin}..${end}`
+}
+
+/** A text in double quotes, as queries read it. */
+export function quoted(text: string): string {
+  return `"${text.replace(/["\\]/g, '\\$&').replaceAll('\n', '\\n').replaceAll('\t', '\\t')}"`
+}

@@ -1,0 +1,108 @@
+import { expect, it } from 'vitest'
+import { complete, type Words } from './complete'
+
+const words: Words = {
+  glosses: [{ gloss: 'LE MANS', tokens: 3 }, { gloss: 'NANTES', tokens: 2 }, { gloss: 'VANNES', tokens: 5 }, { gloss: 'ÉTÉ', tokens: 1 }],
+  tiers: ['Gloss', 'Mouthing', 'Phase'], recordings: ['meteo', 'villes'], signers: ['anna'], tracks: ['jawOpen'],
+  language: {
+    fields: ['gloss', 'phase', 'hand', 'recording', 'tier', 'duration', 'begin', 'end', 'unit', 'signer'],
+    links: ['parent', 'child', 'ancestor', 'descendant', 'overlaps', 'during', 'starts', 'ends', 'equals'],
+    phases: ['preparation', 'stroke', 'retraction', 'hold', 'other'], hands: ['both', 'right', 'left'],
+    points: ['hand', 'left_hand', 'right_hand', 'head', 'neck'],
+    functions: ['speed', 'mean_speed', 'path', 'distance', 'contact', 'begin', 'end', 'track', 'gaze', 'like'],
+  },
+}
+/** `|` is the caret. What is offered, and what the text becomes with the first of it. */
+const at = (marked: string) => {
+  const caret = marked.indexOf('|'), text = marked.slice(0, caret) + marked.slice(caret + 1)
+  const { from, to, options, eager } = complete(text, caret, words)
+  const [first] = options
+  return { labels: options.map(({ label }) => label), first, eager, chosen: first ? text.slice(0, from) + first.insert + text.slice(to) : text }
+}
+
+it('offers what a condition may begin with', () => {
+  const { labels, eager } = at('|')
+  for (const one of ['gloss', 'phase', 'tier', 'unit', 'like', 'speed', 'child', 'overlaps', '!', '(', '@']) expect(labels).toContain(one)
+  expect(eager).toBe(false)
+  expect(at('gl|').chosen).toBe('gloss = ')
+  expect(at('dur|').chosen).toBe('duration > ')
+  expect(at('gloss = "A" & ph|').chosen).toBe('gloss = "A" & phase = ')
+  expect(at('gloss = "A" &ti|').chosen).toBe('gloss = "A" & tier("')
+  expect(at('(rec|').chosen).toBe('(recording = ')
+  expect(at('gloss = "A" -> sp|').chosen).toBe('gloss = "A" -> speed(')
+  expect(at('child(ph|').chosen).toBe('child(phase = ')
+  expect(at('gloss = "A" & |').labels).not.toContain('@')
+})
+
+it('offers glosses in quotes with their tokens, whether the quote is there or not', () => {
+  expect(at('gloss = |')).toMatchObject({ first: { label: 'LE MANS', insert: '"LE MANS"', tokens: 3 }, eager: true })
+  expect(at('gloss = van|').chosen).toBe('gloss = "VANNES"')
+  expect(at('gloss = "van|').chosen).toBe('gloss = "VANNES"')
+  expect(at('gloss = "van|"').chosen).toBe('gloss = "VANNES"')
+  expect(at('gloss != "ete|').chosen).toBe('gloss != "ÉTÉ"')
+  expect(at('gloss =v|').chosen).toBe('gloss = "VANNES"')
+  expect(at('gloss =|').chosen).toBe('gloss = "LE MANS"')
+  expect(at('gloss = ann|').labels).toEqual(['VANNES'])
+  expect(at('gloss =~ |').labels).toEqual(['/…/'])
+})
+
+it('overwrites what was typed, and nothing that was written behind it', () => {
+  expect(at('gloss = "VA|LENCE" & phase = stroke').chosen).toBe('gloss = "VANNES" & phase = stroke')
+  expect(at('gloss = "VA| & phase = stroke').chosen).toBe('gloss = "VANNES" & phase = stroke')
+  expect(at('gloss = "VA| & recording = "meteo"').chosen).toBe('gloss = "VANNES" & recording = "meteo"')
+  expect(at('ph|as = stroke').first?.label).toBe('phase')
+})
+
+it('offers what the other fields may be', () => {
+  expect(at('phase = |').labels).toEqual(words.language.phases)
+  expect(at('phase = str|').chosen).toBe('phase = stroke')
+  expect(at('hand = |').labels).toEqual(words.language.hands)
+  expect(at('recording = |').chosen).toBe('recording = "meteo"')
+  expect(at('signer != |').chosen).toBe('signer != "anna"')
+  expect(at('duration > |').labels).toEqual(['300ms'])
+  expect(at('tier("Gloss") = |').labels).toEqual(['"…"', '$X'])
+})
+
+it('offers names of tiers, recordings, tracks and points in parentheses', () => {
+  expect(at('tier(|').chosen).toBe('tier("Gloss")')
+  expect(at('tier("Mo|').chosen).toBe('tier("Mouthing")')
+  expect(at('tier("Mo|") = "x"').chosen).toBe('tier("Mouthing") = "x"')
+  expect(at('like(|').chosen).toBe('like("meteo"@')
+  expect(at('like("vi|"@100..200)').chosen).toBe('like("villes"@100..200)')
+  expect(at('like("villes"@100..200, right_h|)').chosen).toBe('like("villes"@100..200, right_hand)')
+  expect(at('track(jaw|').chosen).toBe('track(jawOpen)')
+  expect(at('speed(left_|').chosen).toBe('speed(left_hand)')
+  expect(at('distance(he|').chosen).toBe('distance(head, ')
+  expect(at('distance(head, ne|').chosen).toBe('distance(head, neck)')
+  expect(at('gaze(|').labels).toEqual(['yaw', 'pitch'])
+})
+
+it('offers comparisons, components and what joins conditions', () => {
+  expect(at('gloss |').labels).toEqual(['=', '!=', '=~'])
+  expect(at('hand |').labels).toEqual(['=', '!='])
+  expect(at('duration |').labels).toContain('>=')
+  expect(at('speed |').labels).toEqual(['('])
+  expect(at('end(hand)|').labels).toContain('.height')
+  expect(at('end(hand).he|').chosen).toBe('end(hand).height')
+  expect(at('end(hand).height |').labels).toContain('=')
+  expect(at('end(hand).height > sh|').chosen).toBe('end(hand).height > shoulder')
+  expect(at('track(jawOpen)|').labels).toContain('.least')
+  expect(at('speed(hand) > |').labels).toEqual(['1 m/s'])
+  expect(at('contact(hand) = |').labels).toEqual(['hand', 'head', 'torso'])
+  expect(at('gloss = "A" |').labels.slice(0, 3)).toEqual(['&', '|', '->'])
+  expect(at('gloss = "A" ov|').chosen).toBe('gloss = "A" overlaps ')
+  expect(at('(gloss = "A" |').labels).toContain(')')
+  expect(at('(gloss = "A") |').labels).not.toContain(')')
+  expect(at('duration > 300ms |').labels).toContain('&')
+  expect(at('unit |').labels).toContain('&')
+})
+
+it('is silent where nothing in its lists can stand', () => {
+  for (const marked of ['gloss =~ /van|', 'gloss = "A" ->[..|', 'gloss = "VANNES|"', 'phase = stroke|', '12 |', 'tier("A") = "x|']) expect(at(marked).labels, marked).toEqual([])
+})
+
+it('offers much at a time, and not all of a large vocabulary', () => {
+  const glosses = Array.from({ length: 5000 }, (_, i) => ({ gloss: `G${i}`, tokens: 1 }))
+  expect(complete('gloss = ', 8, { ...words, glosses }).options.length).toBeLessThanOrEqual(60)
+  expect(complete('gloss = G4999', 13, { ...words, glosses: [...glosses, { gloss: 'G49990', tokens: 1 }] }).options.map(({ label }) => label)).toEqual(['G4999', 'G49990'])
+})

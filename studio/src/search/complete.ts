@@ -1,0 +1,155 @@
+import type { Vocabulary } from '../api/answers'
+import { quoted } from './answers'
+import { contextAfter, isCall, type Context } from './context'
+import { kAngles, kComponents, kMoments, kNamesOf, kNumberOf, kRelations, kTextFields, kTimes } from './language'
+import { scan, type Token } from './scan'
+
+/** What completion knows of a database; `tracks` are those of the face. */
+export type Words = Vocabulary & { readonly tracks?: readonly string[] }
+
+export interface Option {
+  /** What it is called in the list. */
+  readonly label: string
+  /** What is put in place of what was typed. */
+  readonly insert: string
+  readonly kind: 'gloss' | 'phase' | 'hand' | 'recording' | 'signer' | 'tier' | 'track' | 'word' | 'sign'
+  /** Of a gloss: how many tokens it has. */
+  readonly tokens?: number
+}
+export interface Completion {
+  readonly from: number
+  readonly to: number
+  readonly options: readonly Option[]
+  /** Whether the list may open by itself. */
+  readonly eager: boolean
+}
+
+const kMost = 60
+const kPlainFields = ['gloss', 'phase', 'hand', 'recording', 'signer', 'tier', 'duration', 'begin', 'end', 'unit']
+
+/** What may stand where the caret is, as far as it begins or holds what was typed there. */
+export function complete(text: string, caret: number, words: Words): Completion {
+  const tokens = scan(text)
+  const typing = tokens.find((token) => isTyped(token, caret))
+  const before = tokens.filter(({ end }) => end <= (typing?.begin ?? caret))
+  // Between a slash and its end a person writes what no list has; in a gap, too.
+  if (typing && (typing.kind === 'regex' || typing.kind === 'gap')) return { from: caret, to: caret, options: [], eager: false }
+  const context = contextAfter(before)
+  const typed = typing ? text.slice(typing.begin, caret).replace(/^"/, '') : ''
+  const from = typing?.begin ?? caret
+  const to = typing ? endOf(typing, text, caret) : caret
+  const rest = text.slice(to)
+  const options = matching(offered(context, words, rest, before), typed).map((option) => spaced(option, text, from, context))
+  const done = text.slice(from, to)
+  const only = typed !== '' && options.length === 1 && options[0].insert.trim() === done
+  return { from, to, options: only ? [] : options, eager: typed !== '' || (typing !== undefined && typing.kind === 'text') || context.at === 'value' || context.at === 'argument' }
+}
+
+/** Whether the caret is in a token that is being typed; behind a sign or a closed text it is not. */
+function isTyped({ kind, begin, end, closed }: Token, caret: number): boolean {
+  if (kind === 'symbol') return false
+  if (kind === 'word' || kind === 'variable') return begin < caret && caret <= end
+  return begin < caret && (caret < end || (caret === end && !closed))
+}
+
+/** Up to where a choice overwrites: of a text without its end not what was written behind it. */
+function endOf({ kind, begin, end, closed }: Token, text: string, caret: number): number {
+  if (kind !== 'text') return end
+  const behind = text.slice(caret, closed ? end - 1 : end)
+  return /[=&|()]|->/.test(behind) || text.slice(begin, end).includes('\n') ? caret : end
+}
+
+function offered(context: Context, words: Words, rest: string, before: readonly Token[]): readonly Option[] {
+  switch (context.at) {
+    case 'condition': return conditions(words, before)
+    case 'compare': {
+      const { fields, functions, links } = words.language
+      return [fields, functions, links].some((list) => list.includes(context.of)) ? compares(context.of, context.part) : []
+    }
+    case 'value': return values(context.of, context.by, context.part, words)
+    case 'argument': return argumentsOf(context.of, context.index, words, rest)
+    case 'after': return after(context.open)
+    case 'nothing': return []
+  }
+}
+
+const word = (label: string, insert = label): Option => ({ label, insert, kind: 'word' })
+const sign = (label: string, insert = label): Option => ({ label, insert, kind: 'sign' })
+
+function conditions({ language }: Words, before: readonly Token[]): Option[] {
+  const known = (name: string) => language.fields.includes(name)
+  const fields = kPlainFields.filter(known).map((name) =>
+    name === 'unit' ? word(name) : name === 'tier' ? word(name, 'tier("') : word(name, `${name} ${kTimes.includes(name) ? '>' : '='} `))
+  const calls = [...language.functions.filter((name) => name !== 'like'), ...language.links].filter((name) => isCall(name) || kTimes.includes(name))
+  const like = language.functions.includes('like') ? [word('like', 'like("')] : []
+  const last = before[before.length - 1]
+  const whole = last === undefined || last.text === '->' || last.kind === 'gap' ? [sign('@', '@ ')] : []
+  return [...fields, ...like, ...calls.map((name) => word(kTimes.includes(name) ? `${name}(…)` : name, `${name}(`)), sign('!'), sign('('), ...whole]
+}
+
+function compares(of: string, part?: string): Option[] {
+  // A function wants its parenthesis, and behind it some want or may have a component.
+  if (part === undefined && isCall(of)) return [sign('(')]
+  if (part === '' && (of === 'begin' || of === 'end')) return kComponents.map((name) => word(name))
+  const moments = part !== '' ? [] : of === 'track' || of === 'gaze' ? kMoments : of === 'distance' ? kMoments.slice(1) : []
+  const named = part === '.palm' || part === '.fingers' || part === '.x' || part === '.forward'
+  const signs = kTextFields.includes(of) || of === 'tier' ? ['=', '!=', ...(of === 'hand' ? [] : ['=~'])]
+    : of === 'contact' || part === '.contact' ? ['=']
+    : part === '.palm' || part === '.fingers' ? ['=', '!=']
+    : ['>', '<', '>=', '<=', ...(named || part === '.height' || (part === undefined && kTimes.includes(of)) ? ['=', '!='] : [])]
+  return [...signs.map((one) => sign(one, `${one} `)), ...moments.map((name) => word(name))]
+}
+
+function values(of: string, by: string, part: string | undefined, words: Words): readonly Option[] {
+  if (by === '=~') return [sign('/…/', '/')]
+  const { language } = words
+  const texts = (list: readonly string[], kind: Option['kind']) => list.map((label): Option => ({ label, insert: quoted(label), kind }))
+  const plain = (list: readonly string[], kind: Option['kind']) => list.map((label): Option => ({ label, insert: label, kind }))
+  switch (of) {
+    case 'gloss': return [...words.glosses.map(({ gloss, tokens }): Option => ({ label: gloss, insert: quoted(gloss), kind: 'gloss', tokens })), sign('$X')]
+    case 'phase': return plain(language.phases, 'phase')
+    case 'hand': return plain(language.hands, 'hand')
+    case 'recording': return texts(words.recordings, 'recording')
+    case 'signer': return texts(words.signers, 'signer')
+    case 'tier': return [sign('"…"', '"'), sign('$X')]
+  }
+  const what = part || of
+  return [...(what in kNumberOf ? [sign(kNumberOf[what])] : []), ...(kNamesOf[what] ?? []).map((name) => word(name))]
+}
+
+function argumentsOf(of: string, index: number, words: Words, rest: string): readonly Option[] {
+  const end = /^\s*[,)]/.test(rest) ? '' : ')'
+  const closing = (list: readonly string[], kind: Option['kind'], write = (one: string) => one, last = end) => list.map((label): Option => ({ label, insert: write(label) + last, kind }))
+  switch (of) {
+    case 'tier': return closing(words.tiers, 'tier', quoted)
+    case 'track': case 'mean_track': return closing(words.tracks ?? [], 'track')
+    case 'gaze': case 'mean_gaze': return closing(kAngles, 'word')
+    case 'like': return index > 0 ? closing(words.language.points, 'word') : closing(words.recordings, 'recording', quoted, /^\s*@/.test(rest) ? '' : '@')
+    case 'distance': return closing(words.language.points, 'word', undefined, index === 0 && end ? ', ' : end)
+  }
+  return words.language.functions.includes(of) ? closing(words.language.points, 'word') : []
+}
+
+function after(open: number): Option[] {
+  return [sign('&', '& '), sign('|', '| '), sign('->', '-> '), sign('->[..]', '->[..500ms] '), ...kRelations.map((name) => word(name, `${name} `)), ...(open > 0 ? [sign(')')] : [])]
+}
+
+/** What begins with what was typed, then what has it inside; accents and case do not count. */
+function matching(options: readonly Option[], typed: string): Option[] {
+  const wanted = folded(typed)
+  if (!wanted) return options.slice(0, kMost)
+  const first: Option[] = [], then: Option[] = []
+  for (const option of options) {
+    const at = folded(option.label).indexOf(wanted)
+    if (at === 0) first.push(option)
+    else if (at > 0 && option.kind !== 'sign') then.push(option)
+  }
+  return [...first, ...then].slice(0, kMost)
+}
+const folded = (text: string) => text.normalize('NFD').replace(/\p{M}/gu, '').toLowerCase()
+
+/** With a blank before it where it would stick to a comparison or a word. */
+function spaced(option: Option, text: string, from: number, context: Context): Option {
+  const sticks = from > 0 && !/[\s(!]/.test(text[from - 1]) && context.at !== 'argument' && !option.insert.startsWith('.') && option.insert !== '('
+  return sticks ? { ...option, insert: ` ${option.insert}` } : option
+}

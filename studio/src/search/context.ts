@@ -1,0 +1,60 @@
+import { kRelations, kTextFields, kTimes } from './language'
+import type { Token } from './scan'
+
+/** What may stand at the end of what was typed. */
+export type Context =
+  | { readonly at: 'condition' }
+  /** `of` is the field or function; `tier` the name of its tier, `part` the component behind a function. */
+  | { readonly at: 'compare'; readonly of: string; readonly part?: string }
+  | { readonly at: 'value'; readonly of: string; readonly by: string; readonly part?: string }
+  | { readonly at: 'argument'; readonly of: string; readonly index: number }
+  /** A condition is whole. `open` counts parentheses. */
+  | { readonly at: 'after'; readonly open: number }
+  | { readonly at: 'nothing' }
+
+const kCompare = /^(=|!=|=~|<|<=|>|>=)$/
+const kLinks: readonly string[] = ['parent', 'child', 'ancestor', 'descendant', ...kRelations]
+
+/** Reads tokens from the begin of a query, and tells what may come next. */
+export function contextAfter(tokens: readonly Token[]): Context {
+  let here: Context = { at: 'condition' }
+  /** What each open parenthesis belongs to: a group or a link, else the function's name. */
+  const open: string[] = []
+  for (const token of tokens) {
+    const { text } = token
+    const symbol = token.kind === 'symbol'
+    if (symbol && (text === '&' || text === '|' || text === '->')) here = { at: 'condition' }
+    else if (symbol && text === ')') here = closed(open.pop(), open)
+    else if (symbol && text === '(') {
+      const of: string = here.at === 'compare' ? here.of : ''
+      const call = of !== '' && !kLinks.includes(of)
+      open.push(call ? of : '')
+      here = call ? { at: 'argument', of, index: 0 } : { at: 'condition' }
+    } else if (symbol && kCompare.test(text)) here = here.at === 'compare' ? { at: 'value', of: here.of, by: text, part: here.part } : { at: 'nothing' }
+    else if (symbol && text === ',') here = here.at === 'argument' ? { at: 'argument', of: here.of, index: here.index + 1 } : here
+    else if (here.at === 'condition') here = begun(here, token, open)
+    else if (here.at === 'value') here = { at: 'after', open: open.length }
+    else if (here.at === 'after' && token.kind === 'word' && kRelations.includes(text)) here = { at: 'condition' }
+    else if (here.at === 'compare' && text.startsWith('.')) here = { at: 'compare', of: here.of, part: text }
+  }
+  return here
+}
+
+/** Behind the first token of a condition. */
+function begun(here: Context, { kind, text }: Token, open: readonly string[]): Context {
+  if (kind === 'gap' || (kind === 'symbol' && (text === '!' || text === '@'))) return here
+  if (kind !== 'word') return { at: 'nothing' }
+  if (text === 'unit') return { at: 'after', open: open.length }
+  return { at: 'compare', of: text }
+}
+
+/** Behind a parenthesis that was closed. */
+function closed(of: string | undefined, open: readonly string[]): Context {
+  if (of === undefined) return { at: 'nothing' }
+  return of === '' || of === 'like' ? { at: 'after', open: open.length } : { at: 'compare', of, part: '' }
+}
+
+/** Whether a word needs a parenthesis, as functions and links do. */
+export function isCall(word: string): boolean {
+  return !kTextFields.includes(word) && !kTimes.includes(word) && word !== 'unit'
+}

@@ -1,0 +1,56 @@
+import type { Answer } from './answers'
+
+/** Answers as the server's CSV has them. */
+export function csvOf(answers: readonly Answer[], ranked: boolean, variables: readonly string[]): string {
+  const rows = [['recording', 'tier', 'name', 'begin ms', 'end ms', ...(ranked ? ['distance'] : []), ...variables],
+    ...answers.map(({ recording, tier, name, begin, end, distance, bindings }) =>
+      [recording, tier, name, String(begin), String(end), ...(ranked ? [(distance ?? 0).toFixed(3)] : []), ...(bindings ?? [])])]
+  return rows.map((row) => row.map((field) => (/[",\r\n]/.test(field) ? `"${field.replaceAll('"', '""')}"` : field)).join(',') + '\n').join('')
+}
+
+/** Of what the server wrote the answers that are wanted; none where the database has changed meanwhile, so that they are others now. */
+export function jsonOf(found: readonly object[], wanted: readonly Answer[]): string | undefined {
+  const same = (one: Partial<Record<string, unknown>> | undefined, { recording, name, begin, end }: Answer) =>
+    one !== undefined && one.recording === recording && one.name === name && one.begin_ms === begin && one.end_ms === end
+  const rows = wanted.map((answer) => (same(found[answer.at] as Record<string, unknown>, answer) ? found[answer.at] : undefined))
+  return rows.includes(undefined) ? undefined : JSON.stringify(rows, null, 2) + '\n'
+}
+
+/** The name of a file of an answer's motion: plain on any system. */
+export function fileName({ recording, name, begin, end }: Answer, ending: string): string {
+  return `${plain(recording)}_${plain(name).slice(0, 60)}_${begin}-${end}.${ending}`
+}
+export function plain(text: string): string {
+  return text.replace(/[\\/:*?"<>|\s\p{Cc}]+/gu, '-').replace(/^[-.]+|[-.]+$/g, '') || 'x'
+}
+
+/** The answers of each recording, in the order of their first ones. */
+export function byRecording(answers: readonly Answer[]): [recording: string, answers: Answer[]][] {
+  const found = new Map<string, Answer[]>()
+  for (const answer of answers) {
+    const list = found.get(answer.recording)
+    if (list) list.push(answer)
+    else found.set(answer.recording, [answer])
+  }
+  return [...found]
+}
+
+/** Names of which no two are the same. */
+export function distinct(names: readonly string[]): string[] {
+  const taken = new Set<string>()
+  return names.map((name) => {
+    let free = name
+    for (let n = 2; taken.has(free); ++n) free = name.replace(/(\.[^.]*)?$/, ` (${n})$1`)
+    taken.add(free)
+    return free
+  })
+}
+
+/** Lets the browser save a file. */
+export function save(name: string, content: Blob): void {
+  const link = document.createElement('a')
+  link.href = URL.createObjectURL(content)
+  link.download = name
+  link.click()
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000)
+}

@@ -1,0 +1,26 @@
+import { expect, it } from 'vitest'
+import { periodOf, timeIn } from './loops'
+
+it('begins all at once, and those that are over wait for the longest', () => {
+  const period = periodOf('together', [1, 2])
+  expect(period).toBeGreaterThan(2)
+  expect(timeIn('together', 0.5, 1, period)).toBe(0.5)
+  expect(timeIn('together', 1.5, 1, period)).toBe(1)
+  expect(timeIn('together', period + 0.25, 1, period)).toBeCloseTo(0.25)
+})
+
+it('lets each go by itself', () => {
+  expect(timeIn('own', 2.5, 1, 9)).toBeCloseTo(0.5)
+})
+
+it('brings all to the same part of themselves', () => {
+  const period = periodOf('step', [1, 3])
+  expect(period).toBe(2)
+  expect([1, 3].map((length) => timeIn('step', 1, length, period) / length)).toEqual([0.5, 0.5])
+  expect(timeIn('step', 2.5, 1, period)).toBeCloseTo(0.25)
+})
+
+it('stands where there is nothing', () => {
+  expect(timeIn('own', 3, 0, 1)).toBe(0)
+  expect(periodOf('together', [])).toBe(1)
+})

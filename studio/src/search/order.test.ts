@@ -1,0 +1,39 @@
+import { expect, it } from 'vitest'
+import type { Answer } from './answers'
+import { filtered, kFound, nextOrder, ordered, type SortKey } from './order'
+
+const answer = (at: number, name: string, begin: number, end: number, more: Partial<Answer> = {}): Answer => ({ at, recording: 'meteo', tier: 'Gloss', name, begin, end, ...more })
+const list = [answer(0, 'été', 500, 900, { distance: 0.5 }), answer(1, 'b10', 100, 900, { distance: 0.2 }), answer(2, 'b9', 300, 400), answer(3, 'été', 0, 50, { recording: 'villes', bindings: ['x'] })]
+const at = (by: SortKey, down = false) => ordered(list, { by, down }, 'fr').map((one) => one.at)
+
+it('orders by every column, up and down, and leaves equal ones as they were found', () => {
+  expect(at('name')).toEqual([2, 1, 0, 3])
+  expect(at('name', true)).toEqual([0, 3, 1, 2])
+  expect(at('recording', true)).toEqual([3, 0, 1, 2])
+  expect(at('tier')).toEqual([0, 1, 2, 3])
+  expect(at('begin')).toEqual([3, 1, 2, 0])
+  expect(at('end')).toEqual([3, 2, 0, 1])
+  expect(at('duration')).toEqual([3, 2, 0, 1])
+  expect(at('distance').slice(0, 2)).toEqual([1, 0])
+  expect(at('$0')).toEqual([0, 1, 2, 3])
+  expect(at('found')).toEqual([0, 1, 2, 3])
+})
+
+it('goes from up to down to as they were found', () => {
+  const up = nextOrder(kFound, 'name')
+  expect(up).toEqual({ by: 'name', down: false })
+  expect(nextOrder(up, 'name')).toEqual({ by: 'name', down: true })
+  expect(nextOrder(nextOrder(up, 'name'), 'name')).toEqual(kFound)
+  expect(nextOrder(up, 'begin')).toEqual({ by: 'begin', down: false })
+})
+
+it('keeps what has every word that was typed', () => {
+  expect(filtered(list, ' ÉTÉ  vil ').map((one) => one.at)).toEqual([3])
+  expect(filtered(list, '')).toBe(list)
+})
+
+it('orders names word by word, numbers in them as numbers', () => {
+  const names = ['VANNES MATIN', 'VANNES', 'ÉTÉ 10', 'ÉTÉ 9', 'VANNES BREST']
+  expect(ordered(names.map((name, i) => answer(i, name, 0, 1)), { by: 'name', down: false }, 'fr').map(({ name }) => name)).toEqual(
+    ['ÉTÉ 9', 'ÉTÉ 10', 'VANNES', 'VANNES BREST', 'VANNES MATIN'])
+})

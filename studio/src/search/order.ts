@@ -1,0 +1,62 @@
+import type { Answer } from './answers'
+
+/** What answers can be ordered by; `found` is the server's own order. */
+export type SortKey = 'found' | 'recording' | 'tier' | 'name' | 'begin' | 'end' | 'duration' | 'distance' | `$${number}`
+export interface Order { readonly by: SortKey; readonly down: boolean }
+export const kFound: Order = { by: 'found', down: false }
+
+/** What a click on a column's head asks for: up, then down, then as they were found. */
+export function nextOrder(order: Order, by: SortKey): Order {
+  if (order.by !== by) return { by, down: false }
+  return order.down ? kFound : { by, down: true }
+}
+
+/** The answers that have what was typed in their name, recording or tier; case does not count. */
+export function filtered(answers: readonly Answer[], wanted: string): readonly Answer[] {
+  const words = wanted.toLowerCase().split(/\s+/).filter(Boolean)
+  if (words.length === 0) return answers
+  return answers.filter(({ name, recording, tier }) => {
+    const text = `${name} ${recording} ${tier}`.toLowerCase()
+    return words.every((word) => text.includes(word))
+  })
+}
+
+/** Those answers in an order; equal ones stay as they were found. */
+export function ordered(answers: readonly Answer[], { by, down }: Order, language: string): readonly Answer[] {
+  if (by === 'found') return answers
+  const value = textOf(by) ? rankOf(answers, textOf(by)!, language) : numberOf(by)
+  const keys = Float64Array.from(answers, value)
+  const places = Uint32Array.from(answers, (_, i) => i)
+  places.sort((a, b) => (down ? keys[b] - keys[a] : keys[a] - keys[b]) || a - b)
+  return Array.from(places, (i) => answers[i])
+}
+
+function numberOf(by: SortKey): (answer: Answer) => number {
+  if (by === 'begin') return ({ begin }) => begin
+  if (by === 'end') return ({ end }) => end
+  if (by === 'duration') return ({ begin, end }) => end - begin
+  return ({ distance }) => distance ?? Infinity
+}
+
+function textOf(by: SortKey): ((answer: Answer) => string) | undefined {
+  if (by === 'recording') return ({ recording }) => recording
+  if (by === 'tier') return ({ tier }) => tier
+  if (by === 'name') return ({ name }) => name
+  if (by.startsWith('$')) return ({ bindings }) => bindings?.[Number(by.slice(1))] ?? ''
+  return undefined
+}
+
+/**
+ * The place of each text among all. A language's own comparing is slow, and names of sequences are many but made of few words: so
+ * words are compared, once each, and texts then by the numbers of their words.
+ */
+function rankOf(answers: readonly Answer[], text: (answer: Answer) => string, language: string): (answer: Answer) => number {
+  const texts = [...new Set(answers.map(text))], words = texts.map((one) => one.split(' '))
+  const { compare } = new Intl.Collator(language, { numeric: true })
+  const numbers = new Map([...new Set(words.flat())].sort(compare).map((word, n) => [word, String.fromCharCode(1 + (n >> 15), n & 0x7fff)]))
+  const keys = words.map((list) => list.map((word) => numbers.get(word)).join(''))
+  const places = keys.map((_, i) => i).sort((a, b) => (keys[a] < keys[b] ? -1 : keys[a] > keys[b] ? 1 : 0))
+  const ranks = new Map<string, number>()
+  places.forEach((i, rank) => ranks.set(texts[i], rank))
+  return (answer) => ranks.get(text(answer))!
+}

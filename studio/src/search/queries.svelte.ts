@@ -1,0 +1,54 @@
+import { asked, keep, merged, readKept, remove, rename, restore, type Kept, type SavedQuery } from './saved'
+
+const kKey = 'signweave.queries'
+
+/** The queries that this browser keeps for its user. */
+export class Queries {
+  kept = $state.raw<Kept>(read())
+  /** Set where the browser stores nothing: all is kept until the page is left. */
+  unstored = $state(false)
+  /** The last one that was removed, and where it was. */
+  removed = $state.raw<{ readonly query: SavedQuery; readonly at: number } | undefined>()
+
+  keep(name: string, text: string): void {
+    this.change((kept) => keep(kept, name.trim(), text.trim()))
+  }
+  rename(from: string, to: string): void {
+    this.change((kept) => rename(kept, from, to))
+  }
+  remove(name: string): void {
+    const at = this.kept.saved.findIndex((one) => one.name === name)
+    if (at >= 0) this.removed = { query: this.kept.saved[at], at }
+    this.change((kept) => remove(kept, name))
+  }
+  undo(): void {
+    const { removed } = this
+    if (removed) this.change((kept) => restore(kept, removed.query, Math.min(removed.at, kept.saved.length)))
+    this.removed = undefined
+  }
+  asked(text: string): void {
+    this.change((kept) => asked(kept, text))
+  }
+  add(more: readonly SavedQuery[]): void {
+    this.change((kept) => merged(kept, more))
+  }
+
+  /** Another window may have changed them meanwhile: what is stored counts. */
+  private change(to: (kept: Kept) => Kept): void {
+    this.kept = to(this.unstored ? this.kept : read())
+    try {
+      localStorage.setItem(kKey, JSON.stringify(this.kept))
+      this.unstored = false
+    } catch {
+      this.unstored = true
+    }
+  }
+}
+
+function read(): Kept {
+  try {
+    return readKept(localStorage.getItem(kKey))
+  } catch {
+    return readKept(undefined)
+  }
+}

@@ -1,0 +1,42 @@
+import { expect, it } from 'vitest'
+import { asked, keep, kNothingKept, merged, readFile, readKept, remove, rename, restore, writeFile } from './saved'
+
+const one = { name: 'tokens', text: 'gloss = "VANNES"' }, two = { name: 'strokes', text: 'phase = stroke' }
+const both = { saved: [one, two], recent: [] }
+
+it('keeps a query under a name, and another in its place', () => {
+  expect(keep(kNothingKept, one.name, one.text).saved).toEqual([one])
+  expect(keep(both, 'tokens', 'unit').saved).toEqual([{ name: 'tokens', text: 'unit' }, two])
+})
+
+it('renames, and never gives two the same name', () => {
+  expect(rename(both, 'tokens', ' x ').saved[0].name).toBe('x')
+  expect(rename(both, 'tokens', 'strokes').saved[0].name).toBe('strokes (2)')
+  expect(rename(both, 'tokens', '  ')).toBe(both)
+  expect(rename(both, 'nobody', 'x')).toBe(both)
+})
+
+it('puts back what was removed where it was', () => {
+  const without = remove(both, 'tokens')
+  expect(without.saved).toEqual([two])
+  expect(restore(without, one, 0)).toEqual(both)
+})
+
+it('remembers what was asked lately, each once', () => {
+  let kept = kNothingKept
+  for (const text of ['a', 'b', ' a ', '']) kept = asked(kept, text)
+  expect(kept.recent).toEqual(['a', 'b'])
+  for (let i = 0; i < 50; ++i) kept = asked(kept, `q${i}`)
+  expect(kept.recent).toHaveLength(20)
+})
+
+it('reads back what it wrote to a file, and adds it', () => {
+  expect(readFile(writeFile([one, two]))).toEqual([one, two])
+  expect(merged({ saved: [one], recent: [] }, [one, { name: 'tokens', text: 'other' }, two]).saved.map(({ name }) => name)).toEqual(['tokens', 'tokens (2)', 'strokes'])
+  for (const wrong of ['', '{}', '[]', '{"signweave queries":1,"queries":[{"name":""}]}', '{"queries":[]}', 'null']) expect(readFile(wrong), wrong).toBeUndefined()
+})
+
+it('reads what is stored, whatever that is', () => {
+  expect(readKept(JSON.stringify({ saved: [one, 3, { name: 'x' }], recent: ['a', 1] }))).toEqual({ saved: [one], recent: ['a'] })
+  for (const wrong of [null, undefined, '', 'null', '3', '{', '{"saved":3}']) expect(readKept(wrong)).toEqual(kNothingKept)
+})

@@ -1,0 +1,52 @@
+import { Scene, Vector3 } from 'three'
+import { Kinematics } from '../motion/kinematics'
+import type { Pose } from '../motion/pose'
+import type { Rig, Skeleton } from '../motion/skeleton'
+import type { Body } from './body'
+import { DrawnBody } from './drawn_body'
+import type { Facing } from './facing'
+import { Lights } from './lights'
+import { Proportions } from './proportions'
+
+/** A signer who plays many motions of one skeleton, one after the other within a picture: what the graphics card holds is there once. */
+export class Actor {
+  readonly scene = new Scene()
+  readonly signer: Proportions
+  readonly model: Kinematics
+  body: Body
+  /** How many cells play with it. */
+  users = 0
+  private readonly lights: Lights
+  private readonly root = new Vector3()
+
+  constructor(skeleton: Skeleton, rig: Rig, facing: Facing) {
+    this.signer = new Proportions(skeleton, rig)
+    this.model = new Kinematics(skeleton)
+    this.body = new DrawnBody(skeleton, rig, 'plain')
+    this.lights = new Lights(this.scene, facing)
+    this.lights.suit(false)
+    this.scene.add(this.body.object)
+  }
+
+  /** Another body in place of this one, which is given up. */
+  wear(body: Body): void {
+    this.scene.remove(this.body.object)
+    this.body.dispose()
+    this.body = body
+    this.scene.add(body.object)
+    this.lights.suit(body.shines)
+  }
+
+  /** Takes a pose for the next picture. Allocates nothing. */
+  show(pose: Pose): void {
+    this.model.update(pose)
+    this.body.show(pose)
+    const at = 3 * Math.max(0, this.signer.joint('pelvis')), { positions } = this.model
+    this.lights.follow(this.root.set(positions[at], positions[at + 1], positions[at + 2]))
+  }
+
+  dispose(): void {
+    this.body.dispose()
+    this.lights.dispose()
+  }
+}

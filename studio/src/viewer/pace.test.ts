@@ -1,0 +1,27 @@
+import { expect, it } from 'vitest'
+import { Pace } from './pace'
+
+function rig() {
+  const gl = { SYNC_STATUS: 1, SIGNALED: 2, SYNC_GPU_COMMANDS_COMPLETE: 3, done: false, deleted: 0,
+    fenceSync: () => ({}), flush: () => {}, isContextLost: () => false, deleteSync: () => void ++gl.deleted, getSyncParameter: () => (gl.done ? 2 : 0) }
+  return { gl, pace: new Pace(gl as unknown as WebGL2RenderingContext) }
+}
+
+it('asks for no picture before the last is drawn', () => {
+  const { gl, pace } = rig()
+  expect(pace.ready(0)).toBe(true)
+  pace.drew(0)
+  expect(pace.ready(16)).toBe(false)
+  gl.done = true
+  expect(pace.ready(32)).toBe(true)
+  expect(gl.deleted).toBe(1)
+})
+
+it('rests after a picture that took long', () => {
+  const { gl, pace } = rig()
+  pace.drew(0)
+  gl.done = true
+  expect(pace.ready(200)).toBe(false)
+  expect(pace.ready(290)).toBe(false)
+  expect(pace.ready(301)).toBe(true)
+})

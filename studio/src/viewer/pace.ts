@@ -1,0 +1,48 @@
+/** Of the time that the graphics card takes for a picture, how much it is given to do something else before the next. */
+const kRest = 0.5
+/** Ms up to which it needs no rest. */
+const kQuick = 40
+
+/**
+ * Asks for no picture before the last is drawn. A card that is quick is not slowed down; where pictures take long, as where all is drawn by
+ * software, the rest of the page still gets its turn.
+ */
+export class Pace {
+  private fence: WebGLSync | null = null
+  private asked = 0
+  private until = 0
+
+  constructor(private readonly gl: WebGL2RenderingContext) {}
+
+  /** Whether a picture may be drawn at `now`, ms of the page's clock. */
+  ready(now: number): boolean {
+    const { gl, fence } = this
+    if (fence) {
+      if (!gl.isContextLost() && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) return false
+      gl.deleteSync(fence)
+      this.fence = null
+      const took = now - this.asked
+      this.until = took > kQuick ? now + kRest * took : 0
+    }
+    return now >= this.until
+  }
+
+  /** A picture has been asked for. */
+  drew(now: number): void {
+    const { gl } = this
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0)
+    gl.flush()
+    this.asked = now
+  }
+}
+
+let software: boolean | undefined
+
+/** Whether this browser draws by software, which a card would do a hundred times as fast. Asked once. */
+export function drawsBySoftware(): boolean {
+  if (software !== undefined) return software
+  const gl = document.createElement('canvas').getContext('webgl2', { failIfMajorPerformanceCaveat: true })
+  software = gl === null
+  gl?.getExtension('WEBGL_lose_context')?.loseContext()
+  return software
+}

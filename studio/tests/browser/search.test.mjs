@@ -1,0 +1,397 @@
+// The search: queries, answers as a table and side by side, what is done with them.
+import assert from 'node:assert/strict'
+import { readFileSync } from 'node:fs'
+import { axeFaults, transport } from './page_tools.mjs'
+import { address, kDeclared, page, test, visit } from './suite.mjs'
+import { opened } from './waits.mjs'
+
+const kAll = 'gloss =~ /.*/'
+const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not ${wanted}`)
+const addressOf = (text, more = '') => `#/demo/search?q=${encodeURIComponent(text)}${more}`
+const button = (name, options = { exact: true }) => page.getByRole('button', { name, ...options })
+const field = () => page.locator('.field textarea')
+const list = () => page.getByRole('grid', { name: 'Answers' })
+const told = () => page.locator('[data-status]')
+
+/** Until a query has its answers. */
+async function answered(count) {
+  await page.waitForFunction((n) => {
+    const line = document.querySelector('[data-status=answered]')
+    return line && (n === undefined || line.textContent.trim().replace(/,/g, '').startsWith(`${n} answer`))
+  }, count, { timeout: 60_000 })
+}
+/** Visits a query. Where it is not about playing, nothing plays: software takes long to draw. */
+async function asked(text, count, { more, still = true } = {}) {
+  await visit(addressOf(text, more), { still })
+  await answered(count)
+}
+const run = async (text, count) => {
+  await field().fill(text)
+  await page.keyboard.press('Enter')
+  await answered(count)
+}
+/** Until the player beside the table shows a loop of so many seconds. */
+const looped = (seconds) => page.waitForFunction((wanted) => {
+  const { loop } = window.signweaveStage?.transport ?? {}
+  return loop && Math.abs(loop.end - loop.begin - wanted) < 0.015 && window.signweaveStage.panes[0]?.seen
+}, seconds, { timeout: 30_000 })
+const active = () => page.evaluate(() => document.querySelector('.line.active .name')?.textContent)
+const saved = async (work) => {
+  const [download] = await Promise.all([page.waitForEvent('download'), work()])
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) }
+}
+
+test('completes a query where it stands, by keyboard alone', async () => {
+  await visit('#/demo/search', { still: true })
+  await field().focus()
+  const options = page.getByRole('listbox', { name: 'Query' }).getByRole('option')
+  const first = () => options.first()
+  await page.waitForFunction(() => { // until the vocabulary is there
+    const area = document.querySelector('textarea')
+    area.dispatchEvent(new KeyboardEvent('keydown', { key: ' ', ctrlKey: true, bubbles: true, cancelable: true }))
+    return document.querySelector('.field [role=option]')
+  }, null, { polling: 100 })
+  await page.keyboard.press('Escape')
+  assert.equal(await page.getByRole('listbox').count(), 0)
+  await page.keyboard.type('gl')
+  assert.equal(await first().locator('code').textContent(), 'gloss')
+  assert.equal(await field().getAttribute('aria-activedescendant'), null)
+  await page.keyboard.press('ArrowDown')
+  assert.equal(await page.evaluate(() => document.getElementById(document.activeElement.getAttribute('aria-activedescendant'))?.querySelector('code').textContent), 'gloss')
+  await page.keyboard.press('Enter')
+  assert.equal(await field().inputValue(), 'gloss = ')
+  await page.keyboard.type('van')
+  assert.equal((await first().textContent()).replace(/\s+/g, ' ').trim(), 'VANNES 3 tokens')
+  await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('Tab')
+  await page.keyboard.type(' & ph')
+  await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('Enter')
+  await page.keyboard.press('Control+Space')
+  assert.deepEqual(await options.locator('code').allTextContents(), ['preparation', 'stroke', 'retraction', 'hold', 'other'])
+  await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('Enter')
+  assert.equal(await field().inputValue(), 'gloss = "VANNES" & phase = stroke')
+  await page.keyboard.press('Enter')
+  await answered(3)
+  assert.equal(new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]).get('q'), 'gloss = "VANNES" & phase = stroke')
+  assert.match(await page.locator('[role=status]').filter({ hasText: 'LSF' }).textContent(), kDeclared)
+})
+
+test('marks what is at fault where it stands, and offers what was meant', async () => {
+  await visit('#/demo/search', { still: true })
+  await field().fill('gloss = "VANNES" &')
+  await page.keyboard.press('Shift+Enter')
+  await page.keyboard.type(' phase = strok')
+  await page.keyboard.press('Escape')
+  await page.keyboard.press('Enter')
+  await page.waitForFunction(() => document.querySelector('.marked')?.textContent === 'strok')
+  assert.match(await page.getByRole('alert').textContent(), /Line 2, column 10: no phase is called 'strok'/)
+  assert.equal(await field().getAttribute('aria-invalid'), 'true')
+  const { lines, left } = await page.evaluate(() => {
+    const mark = document.querySelector('.marked').getBoundingClientRect(), area = document.querySelector('textarea').getBoundingClientRect()
+    return { lines: Math.floor((mark.top + mark.height / 2 - area.top - 10) / 21), left: mark.left - area.left }
+  })
+  assert.equal(lines, 1, 'the mark is not in the second line')
+  assert.ok(left > 85 && left < 105, `the mark is at ${left}`)
+  await page.keyboard.type('e') // whoever changes the text needs no mark any more
+  assert.equal(await page.locator('.marked').count(), 0)
+  await field().fill('glos = "VANNES"')
+  await page.keyboard.press('Enter')
+  await page.waitForFunction(() => document.querySelector('.marked')?.textContent === 'glos')
+  await button('gloss').click()
+  await answered(3)
+  assert.equal(await field().inputValue(), 'gloss = "VANNES"')
+})
+
+test('hints at what the database has where nothing was found', async () => {
+  await asked('gloss = VANES & phase = stroke')
+  assert.match(await told().textContent(), /^No answers/)
+  await button('VANNES').click()
+  await answered(3)
+  assert.equal(await field().inputValue(), 'gloss = "VANNES" & phase = stroke')
+  await page.goBack()
+  await page.waitForFunction(() => /^No answers/.test(document.querySelector('[data-status=answered]')?.textContent.trim()))
+  assert.equal(await field().inputValue(), 'gloss = VANES & phase = stroke')
+})
+
+test('has examples that all find something, and tells what the language can do', async () => {
+  await visit('#/demo/search', { still: true })
+  const texts = await page.locator('section:has(#examples-title) code').allTextContents()
+  assert.ok(texts.length > 8)
+  for (const text of texts) {
+    const found = await (await fetch(`${address}/api/databases/demo/query`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ text, limit: 5 }) })).json()
+    assert.ok(found.length > 0, text)
+  }
+  await button('The language').click()
+  assert.ok((await page.locator('section:has(#language-title) dt').count()) > 25)
+  await button('What to ask for').click()
+  await button('All tokens of a gloss', {}).click()
+  await answered(3)
+})
+
+test('plays a row as a loop, goes from row to row, and opens the recording there', async () => {
+  await asked(kAll, 64, { still: false })
+  await looped(1.78)
+  assert.equal((await transport(page)).playing, true)
+  await list().focus()
+  await page.keyboard.press('ArrowDown')
+  await looped(1.37)
+  assert.equal(await active(), 'METEO')
+  await page.keyboard.press('Space')
+  assert.equal((await transport(page)).playing, false)
+  await page.keyboard.press('2')
+  assert.equal(await button('Left side').getAttribute('aria-pressed'), 'true')
+  await page.getByLabel('A little before and after').check()
+  await looped(1.77)
+  await list().focus()
+  await page.keyboard.press('End')
+  assert.equal(await active(), 'LE MANS')
+  await page.keyboard.press('Home')
+  await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('Enter')
+  await opened(page, '#/demo/recording/meteo')
+  const { loop, time } = await transport(page)
+  near(loop.begin, 2.98)
+  near(loop.end, 4.35)
+  near(time, 2.98)
+  await page.waitForFunction(() => document.querySelector('.selection')?.getBoundingClientRect().width > 20)
+})
+
+test('orders and filters answers', async () => {
+  await asked(kAll, 64)
+  const names = () => page.locator('.shown .name').allTextContents()
+  await button('Duration').click()
+  await button('Duration').click()
+  const durations = await page.locator('.shown .line > :last-child').evaluateAll((cells) => cells.map(({ textContent }) => Number(textContent.replace(/\D/g, ''))))
+  assert.deepEqual(durations, durations.toSorted((a, b) => b - a))
+  assert.equal(await page.getByRole('columnheader', { name: 'Duration' }).getAttribute('aria-sort'), 'descending')
+  await button('Name').click()
+  assert.deepEqual((await names()).slice(0, 2), ['APRES-MIDI', 'ATTENTION'])
+  await page.getByRole('searchbox').fill('vil nan')
+  await page.waitForFunction(() => document.querySelectorAll('.shown .line').length < 5)
+  assert.deepEqual([...new Set(await names())], ['NANTES'])
+  assert.match(await told().textContent(), /64 answers in .*, 2 shown/)
+})
+
+/** What a picture of the sheet takes for some seconds. */
+const drawn = (seconds = 2) => page.evaluate(async (ms) => {
+  const sheet = window.signweaveSheet
+  sheet.costs.fill(0)
+  const from = sheet.pictures, start = performance.now()
+  await new Promise((resolve) => setTimeout(resolve, ms))
+  const costs = [...sheet.costs].filter((cost) => cost > 0).sort((a, b) => a - b)
+  return { rate: (1000 * (sheet.pictures - from)) / (performance.now() - start), median: costs[costs.length >> 1] ?? 0 }
+}, 1000 * seconds)
+/** How many small players are seen, all of them drawn. */
+const seen = (least) => page.waitForFunction((n) => {
+  const cells = [...(window.signweaveSheet?.cells.values() ?? [])].filter(({ y, height }) => y + height > 0 && y < window.signweaveSheet.height)
+  return cells.length >= n && cells.every((cell) => cell.seen) && cells.length
+}, least, { timeout: 60_000 }).then((found) => found.jsonValue())
+const cells = () => page.evaluate(() => [...window.signweaveSheet.cells.entries()].map(([key, { time, motion, y, height }]) => ({ key, time, length: motion.store.seconds, y, height })))
+const held = () => page.evaluate(() => ({ ...window.signweaveSheet.held, cells: window.signweaveSheet.cells.size, actors: window.signweaveSheet.actorCount }))
+
+test('shows many tokens side by side, in step and each by itself', async () => {
+  await page.setViewportSize({ width: 1280, height: 860 })
+  await asked(kAll, 64, { more: '&view=grid', still: false })
+  const medium = await seen(12), first = await drawn()
+  await page.getByLabel('Size').selectOption('small')
+  const small = await seen(24), then = await drawn()
+  console.log(`side by side, drawn by software: ${medium} seen ${first.rate.toFixed(1)} pictures a second (main thread ${first.median.toFixed(1)} ms), ${small} seen ${then.rate.toFixed(1)} (${then.median.toFixed(1)} ms)`)
+  await page.getByRole('combobox', { name: 'Time' }).selectOption('step')
+  await page.waitForFunction(() => {
+    const parts = [...window.signweaveSheet.cells.values()].map(({ time, motion }) => time / motion.store.seconds)
+    return parts.length > 20 && Math.max(...parts) - Math.min(...parts) < 1e-6 && parts[0] > 0
+  })
+  await page.getByLabel('View').selectOption('hands')
+  assert.equal(await page.evaluate(() => [...window.signweaveSheet.cells.values()].every(({ camera }) => camera.view === 'hands')), true)
+  await list().focus()
+  await page.keyboard.press('Space')
+  const still = await cells()
+  await page.getByRole('gridcell').nth(2).hover()
+  await page.waitForFunction((before) => [...window.signweaveSheet.cells.values()].some(({ time }, i) => time !== before[i].time), still)
+  const moving = (await cells()).filter(({ time }, i) => time !== still[i].time)
+  assert.deepEqual(moving.map(({ key }) => key), [still[2].key], 'another one than the one pointed at plays')
+  await page.keyboard.press('ArrowRight')
+  await page.keyboard.press('ArrowDown')
+  assert.match(await page.evaluate(() => document.getElementById(document.activeElement.getAttribute('aria-activedescendant')).querySelector('strong').textContent), /^[A-Z]/)
+  await page.keyboard.press('Home')
+  await page.keyboard.press('ArrowRight')
+  await page.keyboard.press('Enter')
+  await opened(page, '#/demo/recording/meteo')
+  near((await transport(page)).loop.begin, 2.98)
+})
+
+test('scrolls through hundreds of small players, and holds no more for it', async () => {
+  await asked('phase =~ /.*/', 192, { more: '&view=grid' })
+  await seen(12)
+  const before = await held()
+  await list().focus()
+  for (let i = 0; i < 6; ++i) await page.keyboard.press('PageDown')
+  await seen(6)
+  await page.keyboard.press('End')
+  await seen(6)
+  assert.match(await page.evaluate(() => document.querySelector('.cell.active strong').textContent), /retraction|stroke|preparation/)
+  const after = await held()
+  assert.ok(after.cells <= before.cells + 12 && after.actors <= 2, JSON.stringify({ before, after }))
+  assert.ok(after.geometries <= 2 * before.geometries + 4 && after.textures <= 2 * before.textures + 4, JSON.stringify({ before, after }))
+  assert.equal(await page.getByText('No face captured').count() > 0, true) // villes has none
+  assert.equal(await page.evaluate(() => document.querySelectorAll('canvas').length), 1)
+  await button('Table').click()
+  await page.waitForFunction(() => window.signweaveSheet === undefined && window.signweaveStage?.panes[0]?.seen)
+})
+
+test('scrolls through a hundred thousand answers smoothly', async () => {
+  await asked('phase =~ /.*/ ->[0ms..] phase =~ /.*/ ->[0ms..] phase =~ /.*/', 100000)
+  await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen)
+  const { frames, tasks, rows, last } = await page.evaluate(async () => {
+    const view = document.querySelector('.rows'), frames = [], tasks = []
+    const observer = new PerformanceObserver((entries) => tasks.push(...entries.getEntries().map(({ duration }) => Math.round(duration))))
+    observer.observe({ entryTypes: ['longtask'] })
+    let rows = 0, before = performance.now()
+    const far = view.scrollHeight - view.clientHeight
+    for (let i = 0; i <= 180; ++i) {
+      // First as a wheel does, then as who pulls the bar.
+      if (i <= 120) view.scrollTop += 120
+      else view.scrollTop = (far * (i - 120)) / 60
+      await new Promise(requestAnimationFrame)
+      frames.push(performance.now() - before)
+      before = performance.now()
+      rows = Math.max(rows, view.querySelectorAll('[role=row]').length)
+    }
+    observer.disconnect()
+    return { frames: frames.sort((a, b) => a - b), tasks, rows, last: view.querySelector('.shown .line:last-child').getAttribute('aria-rowindex') }
+  })
+  const at = (part) => frames[Math.floor(part * (frames.length - 1))].toFixed(1)
+  console.log(`100 000 rows scrolled: ${at(0.5)} ms a frame (median; 95 %: ${at(0.95)}, most ${at(1)}), ${tasks.length} long tasks (most ${Math.max(0, ...tasks)} ms), at most ${rows} rows in the page`)
+  assert.ok(rows < 60, `${rows} rows`)
+  assert.equal(last, '100001')
+  assert.ok(Number(at(0.5)) < 50 && Number(at(0.95)) < 150, 'it does not scroll smoothly')
+  await list().focus()
+  await page.keyboard.press('Home')
+  await page.keyboard.press('PageDown')
+  const place = await page.evaluate(() => document.querySelector('.line.active').getBoundingClientRect().top - document.querySelector('.rows').getBoundingClientRect().top)
+  assert.ok(place > 0 && place < 600)
+  const sorting = await page.evaluate(async () => {
+    const start = performance.now()
+    ;[...document.querySelectorAll('[role=columnheader] button')].find(({ textContent }) => textContent.startsWith('Name')).click()
+    await new Promise(requestAnimationFrame)
+    return performance.now() - start
+  })
+  console.log(`100 000 rows ordered by name: ${Math.round(sorting)} ms`)
+})
+
+test('chooses answers by key and mouse, saves them in every format, and signs them', async () => {
+  await asked('gloss = "VANNES" | gloss = "METEO"', 5)
+  await list().focus()
+  await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('x')
+  await page.keyboard.press('End')
+  await page.keyboard.press('Shift+X')
+  await page.getByText('4 chosen', { exact: true }).waitFor()
+  await page.getByRole('checkbox', { name: 'Choose VANNES' }).nth(1).click()
+  await page.getByText('3 chosen', { exact: true }).waitFor()
+  await page.getByText('Export', { exact: true }).click()
+  const csv = await saved(() => button('CSV').click())
+  const rows = csv.bytes.toString().trim().split('\n')
+  assert.equal(csv.name, 'answers.csv')
+  assert.deepEqual([rows.length, rows[0]], [4, 'recording,tier,name,begin ms,end ms'])
+  const json = JSON.parse((await saved(() => button('JSON').click())).bytes)
+  assert.deepEqual(json.map(({ name, begin_ms }) => `${name},${begin_ms}`), rows.slice(1).map((row) => row.split(',').slice(2, 4).join()))
+  const eaf = await saved(() => button('ELAN', {}).click())
+  assert.equal(eaf.name, 'answers_eaf.zip')
+  assert.equal(eaf.bytes.toString('latin1').match(/TIER_ID="query 1"/g).length, 2)
+  const bvh = await saved(() => button('Motion, BVH').click())
+  assert.equal(bvh.name, 'answers_bvh.zip')
+  assert.equal(bvh.bytes.toString('latin1').match(/HIERARCHY/g).length, 3)
+  await page.getByText('Sign these').click()
+  const { u } = Object.fromEntries(new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]))
+  const pieces = rows.slice(1).map((row) => row.split(',')).map(([recording, , , begin, end]) => `"${recording}"@${begin}..${end}`)
+  assert.equal(u.split(' ').length, 3)
+  assert.deepEqual(u.split(' ').toSorted(), pieces.toSorted())
+  const made = await fetch(`${address}/api/databases/demo/sign`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ utterance: u }) })
+  assert.equal(made.status, 200)
+})
+
+test('finds what moves like a stretch that was selected on the timeline', async () => {
+  await visit('#/demo/recording/villes', { still: true })
+  const lane = await page.getByRole('slider', { name: 'Time' }).boundingBox(), { duration } = await transport(page)
+  await page.mouse.click(lane.x + (2 / duration) * lane.width, lane.y + 36)
+  await page.getByRole('link', { name: 'Find what moves alike' }).click()
+  await answered()
+  assert.equal(await field().inputValue(), 'like("villes"@1200..3010)')
+  const distances = (await page.locator('.shown .line > :nth-child(2)').allTextContents()).map(Number)
+  assert.ok(distances.length > 10 && distances[0] === 0)
+  assert.deepEqual(distances, distances.toSorted((a, b) => a - b))
+  assert.match(await page.locator('.line.active').textContent(), /villes.*VANNES/)
+  await page.getByLabel('Nearest').selectOption('20')
+  await answered(20)
+  await button('Side by side').click()
+  await page.waitForFunction(() => /^0\.000/.test(document.querySelector('.cell .number')?.textContent.trim()))
+})
+
+test('keeps queries under names, and remembers what was asked', async () => {
+  await visit('#/demo/search', { still: true })
+  await page.evaluate(() => localStorage.removeItem('signweave.queries'))
+  await visit('#/demo/search', { still: true })
+  await run('gloss = "VANNES"', 3)
+  await button('What to ask for').click()
+  await page.getByRole('textbox', { name: 'Name' }).fill('tokens')
+  await button('Keep this query').click()
+  await visit('#/demo/search', { still: true })
+  await button('Rename tokens').click()
+  await page.getByRole('textbox', { name: 'New name' }).fill('all of VANNES')
+  await page.keyboard.press('Enter')
+  const file = await saved(() => button('Save as a file').click())
+  await button('Delete all of VANNES').click()
+  assert.equal(await button('Delete all of VANNES').count(), 0)
+  await button('Undo').click()
+  assert.equal(await button('Delete all of VANNES').count(), 1)
+  await button('Delete all of VANNES').click()
+  await page.locator('input[type=file]').setInputFiles({ name: file.name, mimeType: 'application/json', buffer: file.bytes })
+  await page.getByText('1 queries in the file').waitFor()
+  await page.locator('input[type=file]').setInputFiles({ name: 'x.json', mimeType: 'application/json', buffer: Buffer.from('{}') })
+  await page.getByText('This is no file of queries.').waitFor()
+  assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "VANNES"')
+  await button('all of VANNES', {}).first().click()
+  await answered(3)
+})
+
+test('tells what the server refuses, and keeps what is there', async () => {
+  await asked(kAll, 64)
+  await page.route(/\/query$/, (route) => route.abort())
+  await field().fill('gloss = "VANNES"')
+  await page.keyboard.press('Enter')
+  await page.getByText('The server does not answer').waitFor()
+  assert.equal(await page.locator('.shown .line').count() > 10, true)
+  assert.equal(await field().inputValue(), 'gloss = "VANNES"')
+  await page.unroute(/\/query$/)
+  await button('Try again').click()
+  await answered(3)
+})
+
+for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
+  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+    test(`an accessibility checker finds nothing in the search, ${theme}, ${language}, ${size.width} wide`, async () => {
+      await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
+      const found = []
+      for (const hash of ['#/demo/search', addressOf('gloss = "VANNES" | gloss = "METEO"'), addressOf('like("villes"@1200..3010)', '&view=grid'), addressOf('glos = "X"'), addressOf('gloss = VANES')]) {
+        await visit(hash, { size, still: true })
+        await page.waitForFunction(() => document.querySelector('#examples-title, [data-status=answered], .marked'))
+        if (/VANNES/.test(hash)) await page.locator('summary').click()
+        found.push(...(await axeFaults(page)).map((fault) => `${hash}: ${fault}`))
+        assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= innerWidth), `${hash} is wider than the screen`)
+        if (hash === '#/demo/search') {
+          await field().fill('gloss = ')
+          await page.waitForTimeout(300)
+          await page.keyboard.press('Control+Space')
+          await page.keyboard.press('Escape')
+          await page.locator('.does button').last().click()
+          found.push(...(await axeFaults(page)).map((fault) => `language: ${fault}`))
+        }
+      }
+      await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
+      assert.deepEqual(found, [])
+    })
+  }
+}

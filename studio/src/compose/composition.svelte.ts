@@ -29,14 +29,16 @@ export class Composition {
     const { project, wrong } = projectOf(state)
     const wanted = Object.keys(state).length > 0 ? project : kept.get(this.database) ?? project
     this.written = text
-    if (this.history.now === kEmpty) this.history = begun(wanted)
-    else if (!sameProject(this.project, wanted) && wanted.places.length > 0) this.change(wanted)
+    if (this.history.now === kEmpty) {
+      this.history = begun(wanted)
+      this.settle()
+    }
+    if (!sameProject(this.project, wanted) && wanted.places.length > 0) this.change(wanted)
     return wrong
   }
   /** What the address should say; none where it says so already. */
   address(): WorkState | undefined {
     const state = stateOf(this.project), text = JSON.stringify(state)
-    kept.set(this.database, this.project)
     if (text === this.written) return undefined
     this.written = text
     return state
@@ -85,8 +87,9 @@ export class Composition {
     return selected.kind === 'all' ? -1 : this.project.places.findIndex(({ id }) => id === selected.id)
   }
 
-  /** A selection of what is gone, or of the junction before the first place, is none. */
+  /** After each step: it is kept for whoever comes back. A selection of what is gone, or of the junction before the first place, is none. */
   private settle(): void {
+    kept.set(this.database, this.project)
     const at = this.indexOf(this.selected)
     if (this.selected.kind !== 'all' && at < (this.selected.kind === 'junction' ? 1 : 0)) this.selected = { kind: 'all' }
   }

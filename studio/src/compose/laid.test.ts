@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import type { ExplainedReport, Report } from '../api/answers'
 import { candidatesOf, chosenTokens } from './candidates'
-import { laidOf } from './laid'
+import { Known, laidOf } from './laid'
 import { documentOf } from './made_document'
 import { placesOf } from './utterance'
 
@@ -28,6 +28,13 @@ it('finds each place, also where pieces hold several signs or none', () => {
   expect(places.map(({ begin, end, stretch, signs }) => [begin, end, stretch, signs.length])).toEqual([[0, 1, 0, 1], [1, 2, 0, 1], [2.5, 4.5, 1, 2], [5, 7, 2, 0], [8, 10, 3, 1]])
   expect(seams.map((seam) => seam && [seam.kind, seam.begin, seam.end])).toEqual([undefined, ['kept', 0.9, 1.1], ['made', 2, 2.45], ['made', 4.6, 5.05], ['made', 7, 7.95]])
   expect(seams[2]).toMatchObject({ method: 'gap', retraction: 1, preparation: 2, blend: 3 })
+})
+
+it('knows what was made of places that have moved since, but not their junctions', () => {
+  const known = new Known(kPlaces, laidOf(kPlaces, kReport)!)
+  const [a, b, c] = kPlaces.map(({ id }) => id)
+  expect([known.place(c)?.begin, known.seam(b, a)?.kind, known.seam(c, b)?.kind, known.seam(c, a), known.place(-1)]).toEqual([2.5, 'kept', 'made', undefined, undefined])
+  expect([known.at(0), known.at(2.7), known.at(99)]).toEqual([a, c, undefined])
 })
 
 it('says nothing of places that are not those of the report', () => {

@@ -255,6 +255,12 @@ test('copies a link that opens the same', async () => {
   assert.equal(await page.getByRole('combobox', { name: 'Transition' }).inputValue(), 'gap')
   await page.evaluate(() => (location.hash = '#/demo/compose?utterance=A&tempo=fast'))
   await page.getByText('does not understand: tempo').waitFor()
+  assert.deepEqual(await cards(), ['A'])
+  await page.getByRole('link', { name: 'Recordings' }).click()
+  await page.locator('tbody').first().waitFor()
+  await page.getByRole('link', { name: 'Compose' }).click() // whoever comes back goes on with what was there
+  await page.locator('.card').waitFor()
+  assert.deepEqual(await cards(), ['A'])
 })
 
 test('opens the paper’s scenarios, the original beside them, and starts from a recording', async () => {

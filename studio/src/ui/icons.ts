@@ -32,6 +32,6 @@ export const kIcons = {
   evaluate: 'M4 20V10M10 20V4M16 20v-7M21 20H3',
   guide: 'M12 3a9 9 0 1 1 0 18 9 9 0 0 1 0-18zM15.5 8.5l-2 5-5 2 2-5z',
   figure: 'M12 2a3.5 4 0 1 1 0 8 3.5 4 0 0 1 0-8zM5 22v-5c0-3 2-5 7-5s7 2 7 5v5',
-  save: 'M12 3v12M7 10.5l5 5 5-5M4 20h16',
+  download: 'M12 4v11M7 10l5 5 5-5M4 20h16',
 } as const
 export type IconName = keyof typeof kIcons

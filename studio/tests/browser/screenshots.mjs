@@ -27,8 +27,23 @@ const kViews = [
   { name: 'signed', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN , "LE MANS" PLUIE'), keys: ['Space'], seek: 1.4 },
   { name: 'live', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN') + '?pace=live' },
   { name: 'help', hash: '#/demo/recording/meteo?at=2.2', keys: ['?'] },
+  { name: 'search', hash: '#/demo/search' },
+  { name: 'search_completion', hash: '#/demo/search', then: async (page) => {
+    await page.locator('.field textarea').fill('gloss = "VANNES" & phase = ')
+    await page.waitForResponse(/vocabulary/).catch(() => {})
+    await page.keyboard.press('Control+Space')
+  } },
+  { name: 'search_fault', hash: '#/demo/search?q=' + encodeURIComponent('gloss = "VANNES" &\n  phase = strok') },
+  { name: 'search_table', hash: '#/demo/search?q=' + encodeURIComponent('phase = stroke & duration > 500ms'), then: shown },
+  { name: 'search_grid', hash: '#/demo/search?view=grid&q=' + encodeURIComponent('phase = stroke & like("villes"@1810..2390)'), body: 'drawn', then: shown },
   { name: 'fault', hash: '#/demo/recording/nobody' },
 ]
+
+/** Until the first answers are drawn; then nothing plays any more. */
+async function shown(page) {
+  await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen || [...(window.signweaveSheet?.cells.values() ?? [])].filter(({ seen }) => seen).length > 5, null, { timeout: 90_000 })
+  await page.locator('.play').click()
+}
 
 mkdirSync(out, { recursive: true })
 await withServer(site, async (address) => {

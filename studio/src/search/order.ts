@@ -11,6 +11,15 @@ export function nextOrder(order: Order, by: SortKey): Order {
   return order.down ? kFound : { by, down: true }
 }
 
+/** An order as the address has it: `name`, `-duration`. */
+export function orderText({ by, down }: Order): string {
+  return down ? `-${by}` : by
+}
+export function orderOf(text: string | undefined): Order {
+  const [, minus, by] = /^(-?)(recording|tier|name|begin|end|duration|distance|\$\d+)$/.exec(text ?? '') ?? []
+  return by ? { by: by as SortKey, down: minus === '-' } : kFound
+}
+
 /** The answers that have what was typed in their name, recording or tier; case does not count. */
 export function filtered(answers: readonly Answer[], wanted: string): readonly Answer[] {
   const words = wanted.toLowerCase().split(/\s+/).filter(Boolean)

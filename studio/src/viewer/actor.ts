@@ -7,6 +7,7 @@ import { DrawnBody } from './drawn_body'
 import type { Facing } from './facing'
 import { Lights } from './lights'
 import { Proportions } from './proportions'
+import type { Detail } from './solids'
 
 /** A signer who plays many motions of one skeleton, one after the other within a picture: what the graphics card holds is there once. */
 export class Actor {
@@ -19,10 +20,10 @@ export class Actor {
   private readonly lights: Lights
   private readonly root = new Vector3()
 
-  constructor(skeleton: Skeleton, rig: Rig, facing: Facing) {
+  constructor(skeleton: Skeleton, rig: Rig, facing: Facing, detail: Detail) {
     this.signer = new Proportions(skeleton, rig)
     this.model = new Kinematics(skeleton)
-    this.body = new DrawnBody(skeleton, rig, 'plain')
+    this.body = new DrawnBody(skeleton, rig, detail)
     this.lights = new Lights(this.scene, facing)
     this.lights.suit(false)
     this.scene.add(this.body.object)

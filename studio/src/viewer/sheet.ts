@@ -6,6 +6,7 @@ import { SignerCamera, type View } from './camera'
 import { facingOf } from './facing'
 import { drawsBySoftware, Pace } from './pace'
 import { Proportions } from './proportions'
+import type { Detail } from './solids'
 import { signerRenderer } from './stage'
 
 /** One small player of a sheet: a motion, where it is drawn and which moment of it. */
@@ -66,11 +67,11 @@ export class Sheet {
   }
 
   /** A cell for a motion; those with the same `skeleton` share a signer. */
-  add(key: string, motion: OpenedMotion, skeleton: string): SheetCell {
+  add(key: string, motion: OpenedMotion, skeleton: string, detail: Detail = 'plain'): SheetCell {
     let actor = this.actors.get(skeleton)
     const facing = facingOf(motion, actor?.signer ?? new Proportions(motion.store.skeleton, motion.rig))
     if (!actor) {
-      actor = new Actor(motion.store.skeleton, motion.rig, facing)
+      actor = new Actor(motion.store.skeleton, motion.rig, facing, detail)
       this.actors.set(skeleton, actor)
       this.onActor?.(actor, motion)
     }

@@ -6,5 +6,6 @@ import './compose.test.mjs'
 import './evaluate.test.mjs'
 import './compare.test.mjs'
 import './guide.test.mjs'
+import './search.test.mjs'
 
 test('no view threw anything', () => assert.deepEqual(faults, []))

@@ -47,6 +47,15 @@ const kViews = [
     await opened(page, '#/demo/recording/meteo', true)
     await page.waitForSelector('.guide section')
   } },
+  { name: 'search', hash: '#/demo/search' },
+  { name: 'search_completion', hash: '#/demo/search', then: async (page) => {
+    await page.locator('.field textarea').fill('gloss = "VANNES" & phase = ')
+    await page.waitForResponse(/vocabulary/).catch(() => {})
+    await page.keyboard.press('Control+Space')
+  } },
+  { name: 'search_fault', hash: '#/demo/search?q=' + encodeURIComponent('gloss = "VANNES" &\n  phase = strok') },
+  { name: 'search_table', hash: '#/demo/search?q=' + encodeURIComponent('phase = stroke & duration > 500ms'), then: shown },
+  { name: 'search_grid', hash: '#/demo/search?view=grid&q=' + encodeURIComponent('phase = stroke & like("villes"@1810..2390)'), body: 'drawn', then: shown },
   { name: 'fault', hash: '#/demo/recording/nobody' },
   { name: 'new_signing', hash: kCompose, then: (page) => composed(page) },
   { name: 'compose_empty', hash: '#/demo/compose', then: (page) => page.locator('.empty button').first().waitFor() },
@@ -71,6 +80,10 @@ async function scenario(page) {
   await page.locator('.empty button').first().click()
   await page.waitForFunction(() => window.signweaveStage?.panes.length === 2, null, { timeout: 90_000 })
   await composed(page, 28.2)
+/** Until the first answers are drawn; then nothing plays any more. */
+async function shown(page) {
+  await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen || [...(window.signweaveSheet?.cells.values() ?? [])].filter(({ seen }) => seen).length > 5, null, { timeout: 90_000 })
+  await page.locator('.play').click()
 }
 
 mkdirSync(out, { recursive: true })

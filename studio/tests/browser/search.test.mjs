@@ -156,6 +156,8 @@ test('plays a row as a loop, goes from row to row, and opens the recording there
   near(loop.end, 4.35)
   near(time, 2.98)
   await page.waitForFunction(() => document.querySelector('.selection')?.getBoundingClientRect().width > 20)
+  await page.goBack() // to the row that was left
+  await page.waitForFunction(() => document.querySelector('.line.active .name')?.textContent === 'METEO')
 })
 
 test('orders and filters answers', async () => {

@@ -58,12 +58,15 @@ export interface Inspected {
   readonly frames?: number; readonly frames_per_second?: number; readonly seconds?: number
   readonly tracks?: readonly string[]; readonly signs?: number; readonly phases?: number
   readonly defects?: readonly Defect[]; readonly not_measured?: string; readonly notices?: readonly Notice[]
-  readonly layout?: { readonly format: string; readonly up: string | null; readonly unit: number | string | null; readonly root_unit: number | string | null; readonly mirrored: boolean | null } | null
+  /** How a BVH file looked, as it was read or guessed: metres in a unit. */
+  readonly layout?: { readonly up: string; readonly unit: number; readonly root_unit: number; readonly root_order: string; readonly mirrored: boolean } | null
   readonly rig?: RigReport | null
   readonly tiers?: readonly TierReport[]
   readonly declarations?: Readonly<Record<string, string>>
-  /** The skeleton's joints by name, where the server tells them. */
+  /** The skeleton's joints by name. */
   readonly joints?: readonly string[]
+  /** Annotation time of frame 0. */
+  readonly clock_origin_ms?: number
 }
 export interface Inspection { readonly recordings: readonly Inspected[]; readonly notices: readonly Notice[]; readonly faults: readonly string[] }
 

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest'
-import { fits, grouped, isRight, kNone, kSettings, parametersOf, readRig, rigText, type Corrections } from './corrections'
+import { fits, grouped, isRight, kNone, kSettings, mendOf, parametersOf, readRig, rigText, type Corrections } from './corrections'
 
 const setting = (name: string) => kSettings.find((one) => one.name === name)!
 
@@ -35,4 +35,9 @@ it('reads mapping files as they are written', () => {
   const text = '# part = joint\nleft_hand = wrist#a  # beyond\n\njaw =\nnonsense\n'
   expect(readRig(text)).toEqual({ left_hand: 'wrist#a', jaw: '' })
   expect(readRig(rigText({ left_hand: 'LeftHand', jaw: '' }))).toEqual({ left_hand: 'LeftHand', jaw: '' })
+})
+
+it('takes what the server says would mend it', () => {
+  expect(mendOf('the root looks permuted: --root-order rotation_first --root-unit m would mend it')).toEqual({ root_order: 'rotation_first', root_unit: 'm' })
+  expect([mendOf('--up overrides'), mendOf('--sign-tier X would mend it')]).toEqual([undefined, undefined])
 })

@@ -92,6 +92,14 @@ export function readRig(text: string): Readonly<Record<string, string>> {
   return rig
 }
 
+/** The settings that a notice of the server says would mend what it found; none where it names none. */
+export function mendOf(notice: string): Readonly<Partial<Record<SettingName, string>>> | undefined {
+  const options = /((?:--[a-z-]+ \S+ )+)would mend it/.exec(notice)?.[1]
+  if (!options) return undefined
+  const found = [...options.matchAll(/--([a-z-]+) (\S+)/g)].map(([, name, value]) => [name.replaceAll('-', '_'), value])
+  return found.every(([name]) => kSettings.some((setting) => setting.name === name)) ? Object.fromEntries(found) : undefined
+}
+
 /** What goes into one call: recordings that are told the same. */
 export interface Group { readonly keys: readonly string[]; readonly body: Readonly<Record<string, unknown>>; /** The mapping file's text; empty where there is none. */ readonly rig: string }
 

@@ -12,8 +12,8 @@ const kTable = 'pairs.csv'
 /** After a correction, ms until the report is made anew: several go together. */
 const kSettle = 700
 
-/** What is being done. `part` is 0 to 1, of `keys` where they are told. */
-export interface Doing { readonly what: 'inspect' | 'import'; readonly keys?: readonly string[]; readonly part: number }
+/** What is being done, `part` of it being over, 0 to 1. */
+export interface Doing { readonly what: 'inspect' | 'import'; readonly part: number; /** Of an import, the recordings of the call in their order, and how far it is. */ readonly call?: { readonly keys: readonly string[]; readonly part: number } }
 
 /** One import from choosing files to what became of them. It outlives the page, so that nothing is lost where somebody looks at something else. */
 export class ImportSession {
@@ -98,14 +98,17 @@ export class ImportSession {
   }
 
   /** Sends what was not sent, and looks at all of it. */
-  async send(): Promise<void> {
+  async send(again = false): Promise<void> {
     this.fault = undefined
     const files = sendable(this.list)
     try {
       if (this.sender.isBeyond(files)) this.sender.forget()
       if (await this.sender.send(files)) await this.inspect()
     } catch (fault) {
-      if (isGone(fault)) this.sender.forget()
+      if (isGone(fault) && !again) {
+        this.sender.forget()
+        return this.send(true)
+      }
       this.fault = fault
     }
   }
@@ -147,7 +150,7 @@ export class ImportSession {
     const corrected = this.all !== kNone || this.own.size > 0
     const groups = keys ? this.groups(keys) : [{ keys: [], body: {}, rig: '' }]
     for (const [at, group] of groups.entries()) {
-      this.doing = { what: 'inspect', keys: keys && groups.flatMap(({ keys: some }) => some), part: 0 }
+      this.doing = { what: 'inspect', part: at / groups.length }
       try {
         const inspection = await this.run<Inspection>('inspect', group, (part) => (this.doing = { ...this.doing!, part: (at + part) / groups.length }))
         this.take(inspection, keys ? group.keys : undefined)
@@ -155,8 +158,7 @@ export class ImportSession {
         if (!keys) refused.clear(), stale.clear()
       } catch (fault) {
         if (isCancelled(fault)) break
-        if (isGone(fault) || !keys) {
-          if (isGone(fault)) this.sender.forget()
+        if (!keys) {
           this.fault = fault
           break
         }
@@ -178,14 +180,14 @@ export class ImportSession {
     const count = groups.reduce((sum, { keys }) => sum + keys.length, 0)
     let before = 0
     for (const group of groups) {
-      this.doing = { what: 'import', keys: group.keys, part: before / count }
+      const keys = [...group.keys].sort((a, b) => (this.nameOf(a) < this.nameOf(b) ? -1 : 1)), done = before
+      this.doing = { what: 'import', part: done / count, call: { keys, part: 0 } }
       try {
         await this.run<ImportResult>('import', group, (part, result) => {
-          this.doing = { ...this.doing!, part: (before + part * group.keys.length) / count }
+          this.doing = { what: 'import', part: (done + part * keys.length) / count, call: { keys, part } }
           if (result) this.outcome(result, group)
         })
       } catch (fault) {
-        if (isGone(fault)) this.sender.forget()
         if (!isCancelled(fault)) this.fault = fault
         break
       } finally {
@@ -211,7 +213,19 @@ export class ImportSession {
     return pairs.map((pair) => ({ ...pair, signer: this.own.get(keyOf(pair))?.signer || this.all.signer || pair.signer }))
   }
 
-  private async run<Result>(what: 'inspect' | 'import', { keys, body, rig }: Group, told: (part: number, result?: Result) => void): Promise<Result> {
+  /** Does a call of an upload; where the server has the upload no more, everything is sent again first. */
+  private async run<Result>(what: 'inspect' | 'import', group: Group, told: (part: number, result?: Result) => void): Promise<Result> {
+    try {
+      return await this.once(what, group, told)
+    } catch (fault) {
+      if (!isGone(fault)) throw fault
+      this.sender.forget()
+      if (!(await this.sender.send(sendable(this.list)))) throw fault
+      return this.once(what, group, told)
+    }
+  }
+
+  private async once<Result>(what: 'inspect' | 'import', { keys, body, rig }: Group, told: (part: number, result?: Result) => void): Promise<Result> {
     const { api, database, sender } = this
     const table = this.table()
     const parameters: Record<string, unknown> = { ...body }
@@ -255,6 +269,8 @@ export class ImportSession {
   }
 
   private touched(keys: readonly string[]): void {
+    // What was stored and is corrected now may be stored again.
+    this.outcomes = new Map([...this.outcomes].filter(([key]) => !keys.includes(key)))
     this.stale = new Set([...this.stale, ...keys])
     this.settle()
   }
@@ -291,12 +307,9 @@ export class ImportSession {
     }
   }
 
-  /** Of a file that was sent. */
-  fileOf(name: string): File | undefined {
-    return this.list.files.find((one) => one.name === name)?.file
-  }
-  endingOf(name: string): string {
-    return endingOf(name, this.formats)?.ending ?? ''
+  /** What the format of a file is called. */
+  formatOf(name: string): string {
+    return endingOf(name, this.formats)?.name ?? ''
   }
 }
 

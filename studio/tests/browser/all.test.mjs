@@ -2,5 +2,6 @@
 import assert from 'node:assert/strict'
 import { faults, test } from './suite.mjs'
 import './studio.test.mjs'
+import './corpus.test.mjs'
 
 test('no view threw anything', () => assert.deepEqual(faults, []))

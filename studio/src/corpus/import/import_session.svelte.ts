@@ -8,6 +8,7 @@ import { added, kNoFiles, sendable, withFolderNames, without, type FileList, typ
 import { extended, keyOf, paired, readTable, tableOf, type Pair, type TableFault } from './pairs'
 import { isGone, Sender } from './sender.svelte'
 
+const kParts: readonly FilePart[] = ['motion', 'annotation', 'face']
 const kTable = 'pairs.csv'
 /** After a correction, ms until the report is made anew: several go together. */
 const kSettle = 700
@@ -69,6 +70,11 @@ export class ImportSession {
       return !one.error && !this.left.has(keyOf(one.files)) && (outcome === undefined || outcome === 'failed')
     })
   }
+  /** Files of recordings that are in none, where somebody said which belong together. */
+  get unused(): readonly string[] {
+    const used = new Set(this.pairs?.flatMap(({ motion, annotation, face }) => [motion, annotation, face]))
+    return this.pairs ? kParts.flatMap((part) => this.filesOf(part)).filter((name) => !used.has(name)) : []
+  }
   outcomeOf(one: Inspected): Imported | undefined {
     return this.outcomes.get(keyOf(one.files))
   }
@@ -129,7 +135,7 @@ export class ImportSession {
   /** Another file as a part of a recording, or none. */
   pair(key: string, part: FilePart, file: string | null): void {
     const before = this.table()
-    const after = paired(before, key, part, file)
+    const after = paired(before, key, part, file, this.stemOf)
     if (after === before) return
     this.pairs = after
     const same = (one: Pair) => before.some((other) => JSON.stringify(other) === JSON.stringify(one))
@@ -199,7 +205,7 @@ export class ImportSession {
   }
 
   nameOf(key: string): string {
-    return this.reports.find(({ files }) => keyOf(files) === key)?.name ?? stemOf(key, this.formats)
+    return this.reports.find(({ files }) => keyOf(files) === key)?.name ?? this.stemOf(key)
   }
 
   private groups(keys: readonly string[]): readonly Group[] {
@@ -285,7 +291,7 @@ export class ImportSession {
   private change(list: FileList): void {
     this.list = list
     const names = new Set(list.files.map(({ name }) => name))
-    if (this.pairs) this.pairs = extended(this.pairs, names, { motion: this.filesOf('motion'), annotation: this.filesOf('annotation'), face: this.filesOf('face') }, (name) => stemOf(name, this.formats))
+    if (this.pairs) this.pairs = extended(this.pairs, names, { motion: this.filesOf('motion'), annotation: this.filesOf('annotation'), face: this.filesOf('face') }, this.stemOf)
     if (this.sender.isBeyond(sendable(list))) this.sender.forget()
     this.forgetReports()
   }
@@ -307,6 +313,7 @@ export class ImportSession {
     }
   }
 
+  readonly stemOf = (name: string): string => stemOf(name, this.formats)
   /** What the format of a file is called. */
   formatOf(name: string): string {
     return endingOf(name, this.formats)?.name ?? ''

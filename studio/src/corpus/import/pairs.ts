@@ -9,11 +9,14 @@ export type Files = Pick<Pair, FilePart>
 /** What a recording is known by while it is corrected. */
 export const keyOf = (files: Files): string => files.motion ?? files.annotation ?? ''
 
+/** A file's name without its ending: what a recording made of it is called. */
+export type Stem = (name: string) => string
+
 /**
  * With another file as a part of one recording, or none. A motion belongs to one recording, and so does a face; an annotation may serve several motions. What
- * belongs to nothing then becomes a recording of its own.
+ * belongs to nothing then becomes a recording of its own, unless another has that name: it is left out then.
  */
-export function paired(pairs: readonly Pair[], key: string, part: FilePart, file: string | null): readonly Pair[] {
+export function paired(pairs: readonly Pair[], key: string, part: FilePart, file: string | null, stem: Stem): readonly Pair[] {
   const one = pairs.find((pair) => keyOf(pair) === key)
   if (!one || one[part] === file) return pairs
   let rest = pairs.filter((pair) => pair !== one)
@@ -26,7 +29,7 @@ export function paired(pairs: readonly Pair[], key: string, part: FilePart, file
   } else if (part === 'motion') changed = { ...changed, face: null }
   else if (part === 'face' && file !== null) rest = rest.map((pair) => (pair.face === file ? { ...pair, face: null } : pair))
   else if (file !== null) rest = rest.filter(({ motion, annotation }) => motion !== null || annotation !== file)
-  return completed([...rest, ...(changed.motion || changed.annotation ? [changed] : [])], pairs)
+  return named(completed([...rest, ...(changed.motion || changed.annotation ? [changed] : [])], pairs), stem)
 }
 
 /** What `before` had and no pair has now comes as recordings of its own; faces need a motion, and stay where they lay where they have one. */
@@ -40,8 +43,14 @@ function completed(pairs: readonly Pair[], before: readonly Pair[]): readonly Pa
   return [...pairs, ...alone].sort((a, b) => (keyOf(a) < keyOf(b) ? -1 : 1))
 }
 
+/** Without annotations alone that would be called as a recording with motion is: no two can have one name. */
+function named(pairs: readonly Pair[], stem: Stem): readonly Pair[] {
+  const motions = new Set(pairs.flatMap(({ motion }) => (motion ? [stem(motion)] : [])))
+  return pairs.filter(({ motion, annotation }) => motion !== null || !motions.has(stem(annotation!)))
+}
+
 /** For files that came or went since: what is gone is in no pair, and what is new belongs to what has the same stem. */
-export function extended(pairs: readonly Pair[], names: ReadonlySet<string>, all: Readonly<Record<FilePart, readonly string[]>>, stem: (name: string) => string): readonly Pair[] {
+export function extended(pairs: readonly Pair[], names: ReadonlySet<string>, all: Readonly<Record<FilePart, readonly string[]>>, stem: Stem): readonly Pair[] {
   const here = (name: string | null) => (name !== null && names.has(name) ? name : null)
   const kept = pairs.map((pair) => ({ ...pair, motion: here(pair.motion), annotation: here(pair.annotation), face: here(pair.motion) && here(pair.face) }))
     .filter(({ motion, annotation }) => motion || annotation)
@@ -50,7 +59,7 @@ export function extended(pairs: readonly Pair[], names: ReadonlySet<string>, all
   const like = (list: readonly string[], name: string) => list.find((other) => stem(other) === stem(name)) ?? null
   const motions = all.motion.filter(isNew('motion')).map((motion): Pair => ({ motion, annotation: like(annotations, motion), face: like(faces, motion), signer: '' }))
   const alone = annotations.filter((name) => !motions.some(({ annotation }) => annotation === name)).map((annotation): Pair => ({ motion: null, annotation, face: null, signer: '' }))
-  return [...kept, ...motions, ...alone]
+  return named([...kept, ...motions, ...alone], stem)
 }
 
 /** As the server reads it (docs/formats.md). */

@@ -104,8 +104,8 @@ export function merged(review: Review, id: number): Review {
   if (!one) return review
   const list = review.phases[one.hand], other = list[list.indexOf(one) + 1]
   if (!other) return review
-  const { confidence: _, ...rest } = one
-  const whole: Phase = { ...rest, end: other.end, state: one.state === other.state ? one.state : 'open' }
+  const { confidence, ...rest } = one
+  const whole: Phase = { ...rest, end: other.end, state: one.state === other.state ? one.state : 'open', ...(confidence !== undefined && confidence === other.confidence ? { confidence } : {}) }
   return { ...review, phases: { ...review.phases, [one.hand]: list.filter((each) => each !== other).map((each) => (each === one ? whole : each)) } }
 }
 /** Adds an accepted phase where a hand has none: as much of the span as is free around its begin; nothing where that is not. */

@@ -1,5 +1,11 @@
 /** What ELAN holds, as the timeline draws it. Times are annotation time in ms. */
-export interface Annotation { readonly begin: number; readonly end: number; readonly label: string }
+export interface Annotation {
+  readonly begin: number; readonly end: number; readonly label: string
+  /** Of one that somebody decides about: it is drawn so. */
+  readonly state?: 'open' | 'accepted' | 'rejected'
+  /** The one that keys and buttons are about. */
+  readonly current?: boolean
+}
 export interface Tier {
   readonly name: string
   /** Name of the parent tier, or none. */

@@ -160,16 +160,20 @@ export class Api {
     return at.href
   }
 
+  /** What goes with a call that `fetch` does not make: where it goes to, and what it must say. */
+  request(where: string): { readonly url: string; readonly headers: Readonly<Record<string, string>> } {
+    return { url: this.address(where).href, headers: this.token ? { Authorization: `Bearer ${this.token}` } : {} }
+  }
   private address(where: string): URL {
     return new URL(`${this.base}/${where}`, document.baseURI)
   }
-  private async json<T>(where: string): Promise<T> {
-    return (await this.call(where)).json() as Promise<T>
+  async json<T>(where: string, init?: RequestInit & { headers?: Record<string, string> }): Promise<T> {
+    return (await this.call(where, init)).json() as Promise<T>
   }
-  private post(where: string, body: object, signal?: AbortSignal): Promise<Response> {
+  post(where: string, body: object, signal?: AbortSignal): Promise<Response> {
     return this.call(where, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body), signal })
   }
-  private async call(where: string, init: RequestInit & { headers?: Record<string, string> } = {}): Promise<Response> {
+  async call(where: string, init: RequestInit & { headers?: Record<string, string> } = {}): Promise<Response> {
     const headers = this.token ? { ...init.headers, Authorization: `Bearer ${this.token}` } : init.headers
     let response: Response
     try {
@@ -186,17 +190,17 @@ export class Api {
   }
 }
 
-function path(...names: string[]): string {
+export function path(...names: string[]): string {
   return names.map(encodeURIComponent).join('/')
 }
 
-function query(values: Query): string {
+export function query(values: Query): string {
   const given = Object.entries(values).filter(([, value]) => value !== undefined)
   return given.length ? `?${given.map(([name, value]) => `${name}=${encodeURIComponent(value!)}`).join('&')}` : ''
 }
 
 /** What an answer that is no success says: the server's own line, or that there was none. */
-function faultOf(body: string, status: number): ApiError | StudioFault {
+export function faultOf(body: string, status: number): ApiError | StudioFault {
   try {
     const { message, code, line, column } = (JSON.parse(body) as { error: { message: string; code: string; line?: number; column?: number } }).error
     return new ApiError(message, status, code, line && column ? { line, column } : undefined)

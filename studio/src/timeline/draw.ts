@@ -1,4 +1,4 @@
-import type { AnnotationDocument, Tier } from '../annotation/document'
+import type { Annotation, AnnotationDocument, Tier } from '../annotation/document'
 import type { FrameStore } from '../motion/frame_store'
 import { extentOf, valueAt, type Curve } from './curves'
 import { clock } from '../ui/clock'
@@ -12,7 +12,7 @@ export const kCurveHeight = 50
 /** The colours of the theme, read where the theme changes. */
 export type Colors = Readonly<Record<string, string>>
 const kColorNames = ['panel', 'raised', 'line', 'ink', 'soft', 'preparation', 'stroke', 'retraction', 'other', 'gloss', 'chip-ink', 'stroke-ink',
-  'curve-left', 'curve-right'] as const
+  'curve-left', 'curve-right', 'focus'] as const
 
 export function colorsOf(element: Element): Colors {
   const style = getComputedStyle(element)
@@ -75,20 +75,29 @@ function drawRuler(context: CanvasRenderingContext2D, { window, colors, originMs
   line(context, 0, kRulerHeight - 0.5, window.pixels, kRulerHeight - 0.5, colors.line, 1)
 }
 
+/** What is decided is told by a sign, too, not by how it looks alone. */
+const kStates: Readonly<Record<NonNullable<Annotation['state']>, string>> = { open: '?', accepted: '✓', rejected: '✗' }
+
 function drawTier(context: CanvasRenderingContext2D, { window, colors, originMs }: Drawing, tier: Tier, y: number): void {
   let from = firstEndingAfter(tier, window.begin * 1000 + originMs)
   for (; from < tier.annotations.length; ++from) {
-    const { begin, end, label } = tier.annotations[from]
+    const { begin, end, label, state, current } = tier.annotations[from]
     const left = window.x((begin - originMs) / 1000), right = window.x((end - originMs) / 1000)
     if (left > window.pixels) break
     const kind = kindOf(tier.name, tier.depth, label)
-    context.fillStyle = colors[kFill[kind]]
-    box(context, left + 0.5, y + 3, Math.max(1.5, right - left - 1), kTierHeight - 6)
+    const width = Math.max(1.5, right - left - 1), isFull = state === undefined || state === 'accepted'
+    context.fillStyle = context.strokeStyle = colors[kFill[kind]]
+    if (isFull) box(context, left + 0.5, y + 3, width, kTierHeight - 6)
+    else outline(context, left + 1.5, y + 4, Math.max(1, width - 2), kTierHeight - 8, state === 'rejected' ? [3, 3] : [], 2)
+    if (current) {
+      context.strokeStyle = colors.focus
+      outline(context, left, y + 1.5, Math.max(2, width + 1), kTierHeight - 3, [], 2.5)
+    }
     const space = Math.min(right, window.pixels) - Math.max(left, 0) - 8
     if (space < 9) continue
-    context.fillStyle = kind === 'stroke' ? colors['stroke-ink'] : colors['chip-ink']
+    context.fillStyle = !isFull ? colors[state === 'rejected' ? 'soft' : 'ink'] : kind === 'stroke' ? colors['stroke-ink'] : colors['chip-ink']
     context.textAlign = 'left'
-    context.fillText(shortened(context, label, space), Math.max(left, 0) + 4.5, y + kTierHeight / 2 + 0.5)
+    context.fillText(shortened(context, state ? `${kStates[state]} ${label}` : label, space), Math.max(left, 0) + 4.5, y + kTierHeight / 2 + 0.5)
   }
 }
 
@@ -167,6 +176,15 @@ function box(context: CanvasRenderingContext2D, x: number, y: number, width: num
   context.beginPath()
   context.roundRect(x, y, width, height, Math.min(4, width / 3))
   context.fill()
+}
+
+function outline(context: CanvasRenderingContext2D, x: number, y: number, width: number, height: number, dash: number[], thick: number): void {
+  context.lineWidth = thick
+  context.setLineDash(dash)
+  context.beginPath()
+  context.roundRect(x, y, width, height, Math.min(4, width / 3))
+  context.stroke()
+  context.setLineDash([])
 }
 
 function line(context: CanvasRenderingContext2D, x: number, y: number, toX: number, toY: number, color: string, opacity: number): void {

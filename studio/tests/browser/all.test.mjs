@@ -7,5 +7,6 @@ import './evaluate.test.mjs'
 import './compare.test.mjs'
 import './guide.test.mjs'
 import './search.test.mjs'
+import './corpus.test.mjs'
 
 test('no view threw anything', () => assert.deepEqual(faults, []))

@@ -1,7 +1,7 @@
 /** Until the view of an address is there: for the player until it draws its signers, and with `whole` until all frames have come. */
 export async function opened(page, hash, whole = false) {
   if (!/\/(recording|edit|sign)\//.test(hash)) {
-    await page.waitForFunction(() => document.querySelector('main table, main form, [role=alert]'), null, { timeout: 30000 })
+    await page.waitForFunction(() => document.querySelector('main table, main form, main [data-ready], [role=alert]'), null, { timeout: 30000 })
     return
   }
   await page.waitForFunction((all) => {

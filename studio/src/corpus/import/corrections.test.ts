@@ -1,0 +1,43 @@
+import { expect, it } from 'vitest'
+import { fits, grouped, isRight, kNone, kSettings, mendOf, parametersOf, readRig, rigText, type Corrections } from './corrections'
+
+const setting = (name: string) => kSettings.find((one) => one.name === name)!
+
+it('tells what was corrected, and only what says something about the file', () => {
+  const all: Corrections = { settings: { up: 'z', take: '2', unit: 'cm' } }
+  const one: Corrections = { settings: { unit: '0,5', mirror: 'yes', offset_ms: '-12,5', sync: '0@10  100@1010' } }
+  expect(parametersOf(all, one, 'a.bvh')).toEqual({ up: 'z', unit: '0.5', mirror: true, offset_ms: -12.5, sync: ['0@10', '100@1010'] })
+  expect(parametersOf(all, undefined, 'a.glb')).toEqual({ unit: 'cm', take: '2' })
+  expect(parametersOf(all, one, null)).toEqual({ unit: '0.5', offset_ms: -12.5, sync: ['0@10', '100@1010'] })
+})
+
+it('leaves out what is typed wrong', () => {
+  expect(parametersOf(kNone, { settings: { unit: 'feet', offset_ms: '1 s', up: 'z' } }, 'a.bvh')).toEqual({ up: 'z' })
+  expect(['', 'cm', '0.01', '1e-3', 'ft'].map((text) => isRight(setting('unit'), text))).toEqual([true, true, true, true, false])
+  expect(['30', '30000/1001', 'fast'].map((text) => isRight(setting('source_rate'), text))).toEqual([true, true, false])
+  expect(fits(setting('take'), 'x.GLB')).toBe(true)
+})
+
+it('names tiers with their hands, and those with a colon in all three parts', () => {
+  const tiers = [{ tier: 'Gloss', role: 'signs', hand: 'both' }, { tier: 'Gloss L', role: 'signs', hand: 'left' }, { tier: 'a:b', role: 'signs', hand: 'both' },
+    { tier: 'Phase', role: 'phases', hand: 'both' }, { tier: 'Note', role: '', hand: 'both' }] as const
+  expect(parametersOf(kNone, { settings: {}, tiers }, 'a.bvh')).toEqual({ sign_tier: ['Gloss', 'Gloss L:left', 'a:b:both:'], phase_tier: ['Phase'] })
+})
+
+it('makes one call for recordings that are told the same', () => {
+  const rig = { left_hand: 'wrist_a' }
+  const groups = grouped([{ key: 'a', motion: 'a.bvh' }, { key: 'b', motion: 'b.bvh', one: { settings: {}, rig } }, { key: 'c', motion: 'c.bvh', one: { settings: {} } },
+    { key: 'd', motion: null, one: { settings: {}, rig } }], { settings: {}, signer: 'Zoé' })
+  expect(groups.map(({ keys, rig: text }) => [keys, text])).toEqual([[['a', 'c', 'd'], ''], [['b'], 'left_hand = wrist_a\n']])
+})
+
+it('reads mapping files as they are written', () => {
+  const text = '# part = joint\nleft_hand = wrist#a  # beyond\n\njaw =\nnonsense\n'
+  expect(readRig(text)).toEqual({ left_hand: 'wrist#a', jaw: '' })
+  expect(readRig(rigText({ left_hand: 'LeftHand', jaw: '' }))).toEqual({ left_hand: 'LeftHand', jaw: '' })
+})
+
+it('takes what the server says would mend it', () => {
+  expect(mendOf('the root looks permuted: --root-order rotation_first --root-unit m would mend it')).toEqual({ root_order: 'rotation_first', root_unit: 'm' })
+  expect([mendOf('--up overrides'), mendOf('--sign-tier X would mend it')]).toEqual([undefined, undefined])
+})

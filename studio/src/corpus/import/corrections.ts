@@ -1,0 +1,117 @@
+import type { HandName, TierReport } from '../../api/corpus_answers'
+
+/** What an import can be told of how files are to be read, as `signweave import` calls it. */
+export interface Setting {
+  readonly name: SettingName
+  /** What can be chosen; else it is typed. */
+  readonly choices?: readonly string[]
+  readonly flag?: boolean
+  /** Endings of the motion files that it says something about; else it is about all recordings. */
+  readonly of?: readonly string[]
+  /** What may be typed. */
+  readonly pattern?: RegExp
+}
+export type SettingName = 'up' | 'unit' | 'mirror' | 'root_unit' | 'root_order' | 'source_rate' | 'take' | 'offset_ms' | 'face_offset_ms' | 'face_timecode' | 'sync' | 'replace_motion'
+
+const kKeyed = ['.fbx', '.glb', '.gltf'], kNumber = /^[-+]?\d+([.,]\d+)?$/
+const kUnit = /^(cm|m|mm|in|\d*[.,]?\d+(e-?\d+)?)$/
+export const kSettings: readonly Setting[] = [
+  { name: 'up', choices: ['y', 'z'], of: ['.bvh', '.amc'] },
+  { name: 'unit', pattern: kUnit },
+  { name: 'mirror', flag: true, of: ['.bvh'] },
+  { name: 'root_unit', pattern: kUnit, of: ['.bvh'] },
+  { name: 'root_order', choices: ['declared', 'rotation_first'], of: ['.bvh'] },
+  { name: 'source_rate', pattern: /^\d+([.,]\d+)?(\/\d+)?$/, of: ['.amc', ...kKeyed] },
+  { name: 'take', of: kKeyed },
+  { name: 'offset_ms', pattern: kNumber },
+  { name: 'sync', pattern: /^\d+([.,]\d+)?@[-+]?\d+([.,]\d+)?\s+\d+([.,]\d+)?@[-+]?\d+([.,]\d+)?$/ },
+  { name: 'face_offset_ms', pattern: kNumber },
+  { name: 'face_timecode', pattern: /^\d\d:\d\d:\d\d[:;]\d\d$/ },
+  { name: 'replace_motion', flag: true },
+]
+
+/** What a tier is told to be. */
+export interface TierRole { readonly tier: string; readonly role: TierReport['role']; readonly hand: HandName }
+/** What somebody corrected of one recording, or of all. A setting that is not there is as it is for all, and then as the file says. */
+export interface Corrections {
+  readonly settings: Readonly<Partial<Record<SettingName, string>>>
+  readonly signer?: string
+  /** All tiers of the annotation; not there where the server's guess stands. */
+  readonly tiers?: readonly TierRole[]
+  /** The joint of a part; empty where the body has no such part. */
+  readonly rig?: Readonly<Record<string, string>>
+}
+export const kNone: Corrections = { settings: {} }
+
+/** A setting that is told, not empty. */
+export function settingOf(all: Corrections, one: Corrections | undefined, name: SettingName): string {
+  return one?.settings[name] || all.settings[name] || ''
+}
+
+export const fits = ({ of }: Setting, motion: string | null) => !of || (motion !== null && of.some((ending) => motion.toLowerCase().endsWith(ending)))
+
+/** Whether a setting can be sent as it was typed. */
+export const isRight = ({ pattern }: Setting, value: string) => value === '' || !pattern || pattern.test(value.trim())
+
+/** The parameters of an import that the corrections of one recording make, but for `pairs`, `rig` and `recordings`. Wrong ones are left out. */
+export function parametersOf(all: Corrections, one: Corrections | undefined, motion: string | null): Readonly<Record<string, unknown>> {
+  const body: Record<string, unknown> = {}
+  for (const setting of kSettings) {
+    const value = settingOf(all, one, setting.name).trim()
+    if (!value || !fits(setting, motion) || !isRight(setting, value)) continue
+    const plain = setting.pattern ? value.replaceAll(',', '.') : value
+    if (setting.flag) body[setting.name] = true
+    else if (setting.name === 'sync') body.sync = plain.split(/\s+/)
+    else body[setting.name] = /_ms$/.test(setting.name) ? Number(plain) : plain
+  }
+  const tiers = one?.tiers ?? []
+  const signs = tiers.filter(({ role }) => role === 'signs'), phases = tiers.filter(({ role }) => role === 'phases')
+  if (signs.length) body.sign_tier = signs.map(signTier)
+  if (phases.length) body.phase_tier = phases.map(({ tier }) => tier)
+  return body
+}
+
+/** As `--sign-tier` takes it: a name that holds a colon is written with all three parts. */
+function signTier({ tier, hand }: TierRole): string {
+  if (tier.includes(':')) return `${tier}:${hand}:`
+  return hand === 'both' ? tier : `${tier}:${hand}`
+}
+
+/** A mapping file's text (docs/rig.md). */
+export function rigText(rig: Readonly<Record<string, string>>): string {
+  return Object.entries(rig).map(([part, joint]) => `${part} = ${joint}\n`).join('')
+}
+
+/** Reads a mapping file; lines that are none are left out. */
+export function readRig(text: string): Readonly<Record<string, string>> {
+  const rig: Record<string, string> = {}
+  for (const line of text.split(/\r?\n/)) {
+    const [whole, part, joint] = /^\s*([a-z_]+)\s*=\s*(.*?)\s*$/.exec(line.replace(/(^|\s)#.*$/, '')) ?? []
+    if (whole !== undefined) rig[part] = joint
+  }
+  return rig
+}
+
+/** The settings that a notice of the server says would mend what it found; none where it names none. */
+export function mendOf(notice: string): Readonly<Partial<Record<SettingName, string>>> | undefined {
+  const options = /((?:--[a-z-]+ \S+ )+)would mend it/.exec(notice)?.[1]
+  if (!options) return undefined
+  const found = [...options.matchAll(/--([a-z-]+) (\S+)/g)].map(([, name, value]) => [name.replaceAll('-', '_'), value])
+  return found.every(([name]) => kSettings.some((setting) => setting.name === name)) ? Object.fromEntries(found) : undefined
+}
+
+/** What goes into one call: recordings that are told the same. */
+export interface Group { readonly keys: readonly string[]; readonly body: Readonly<Record<string, unknown>>; /** The mapping file's text; empty where there is none. */ readonly rig: string }
+
+/** Puts recordings that are told the same into one call. */
+export function grouped(recordings: readonly { readonly key: string; readonly motion: string | null; readonly one?: Corrections }[], all: Corrections): readonly Group[] {
+  const groups = new Map<string, { keys: string[]; body: Readonly<Record<string, unknown>>; rig: string }>()
+  for (const { key, motion, one } of recordings) {
+    const body = parametersOf(all, one, motion), rig = motion ? rigText({ ...all.rig, ...one?.rig }) : ''
+    const same = JSON.stringify([body, rig])
+    const group = groups.get(same)
+    if (group) group.keys.push(key)
+    else groups.set(same, { keys: [key], body, rig })
+  }
+  return [...groups.values()]
+}

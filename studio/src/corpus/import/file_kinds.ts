@@ -1,0 +1,55 @@
+import type { FormatRow } from '../../api/corpus_answers'
+
+/** What a file is to an import. A companion is read with another file; a table of pairs and a mapping file are read here, and not sent. */
+export type FileKind = 'motion' | 'skeleton' | 'annotation' | 'face' | 'companion' | 'pairs' | 'rig'
+/** Why a file cannot be sent. */
+export type Refusal = 'ending' | 'film' | 'name'
+
+const kKinds: Readonly<Record<string, FileKind>> = {
+  '.bvh': 'motion', '.amc': 'motion', '.fbx': 'motion', '.glb': 'motion', '.gltf': 'motion', '.asf': 'skeleton', '.eaf': 'annotation', '.anvil': 'annotation',
+  '.face.csv': 'face',
+}
+/** Files that another one names: buffers of glTF, specifications of ANVIL. */
+const kCompanions: Readonly<Record<string, string>> = { '.bin': '.gltf', '.xml': '.anvil' }
+const kFilms = /\.(mp4|m4v|mov|avi|mpe?g|mkv|webm|wav|mp3)$/i
+
+/** The ending that the server knows and that fits best: `.face.csv` before `.csv`. A hidden file has none. */
+export function endingOf(name: string, formats: readonly FormatRow[]): FormatRow | undefined {
+  const lower = name.toLowerCase()
+  let best: FormatRow | undefined
+  for (const format of formats) {
+    if (lower.length > format.ending.length && lower.endsWith(format.ending) && (!best || format.ending.length > best.ending.length)) best = format
+  }
+  return best
+}
+
+/** What a recording made of this file is called: its name without the ending. */
+export function stemOf(name: string, formats: readonly FormatRow[]): string {
+  const format = endingOf(name, formats)
+  return format ? name.slice(0, -format.ending.length) : name.replace(/\.[^.]*$/, '')
+}
+
+/** The endings that can be imported, as a file dialog takes them. */
+export function readableEndings(formats: readonly FormatRow[]): readonly string[] {
+  return formats.filter(({ reads }) => reads).map(({ ending }) => ending)
+}
+
+/** What a file is, or why it cannot be sent. `names` are those of all files, for some are read with others. */
+export function kindOf(name: string, formats: readonly FormatRow[], names: readonly string[]): FileKind | Refusal {
+  if (!isPlain(name)) return 'name'
+  const format = endingOf(name, formats)
+  if (format?.reads) return kKinds[format.ending] ?? 'motion'
+  const lower = name.toLowerCase(), dot = lower.lastIndexOf('.'), ending = dot > 0 ? lower.slice(dot) : ''
+  const partner = kCompanions[ending]
+  if (partner && names.some((other) => other.toLowerCase().endsWith(partner))) return 'companion'
+  if (ending === '.csv' && !/\.rotations\.csv$/.test(lower)) return 'pairs'
+  if (ending === '.rig') return 'rig'
+  return kFilms.test(lower) ? 'film' : 'ending'
+}
+
+export const isRefusal = (kind: FileKind | Refusal): kind is Refusal => kind === 'ending' || kind === 'film' || kind === 'name'
+
+/** As the server has it for files of an upload: no folders, no ':', no leading dot, at most 200 bytes. */
+export function isPlain(name: string): boolean {
+  return name !== '' && new TextEncoder().encode(name).length <= 200 && !/^\.|[/\\:\u0000-\u001f\u007f]/.test(name)
+}

@@ -1,0 +1,57 @@
+import { expect, it } from 'vitest'
+import { extended, paired as pairedBy, readTable, tableOf, type Pair } from './pairs'
+
+const pair = (motion: string | null, annotation: string | null, face: string | null = null): Pair => ({ motion, annotation, face, signer: '' })
+const kPairs = [pair('a.bvh', 'aa.eaf', 'a.face.csv'), pair('b.bvh', null), pair(null, 'c.eaf')]
+const stem = (name: string) => name.split('.')[0]
+const paired = (pairs: readonly Pair[], key: string, part: 'motion' | 'annotation' | 'face', file: string | null) => pairedBy(pairs, key, part, file, stem)
+const short = (pairs: readonly Pair[]) => pairs.map(({ motion, annotation, face }) => [motion, annotation, face].map((name) => name ?? '-').join(' '))
+
+it('gives a motion another annotation, and leaves nothing out', () => {
+  expect(short(paired(kPairs, 'b.bvh', 'annotation', 'c.eaf'))).toEqual(['a.bvh aa.eaf a.face.csv', 'b.bvh c.eaf -'])
+  expect(short(paired(kPairs, 'a.bvh', 'annotation', 'c.eaf'))).toEqual(['a.bvh c.eaf a.face.csv', '- aa.eaf -', 'b.bvh - -'])
+  // One annotation may serve two motions.
+  expect(short(paired(kPairs, 'b.bvh', 'annotation', 'aa.eaf'))).toEqual(['a.bvh aa.eaf a.face.csv', 'b.bvh aa.eaf -', '- c.eaf -'])
+})
+
+it('splits a recording, and joins it again', () => {
+  const split = paired(kPairs, 'a.bvh', 'annotation', null)
+  expect(short(split)).toEqual(['a.bvh - a.face.csv', '- aa.eaf -', 'b.bvh - -', '- c.eaf -'])
+  expect(short(paired(split, 'aa.eaf', 'motion', 'a.bvh'))).toEqual(short(kPairs))
+})
+
+it('gives an annotation another motion with that motion’s face', () => {
+  expect(short(paired(kPairs, 'c.eaf', 'motion', 'a.bvh'))).toEqual(['a.bvh c.eaf a.face.csv', '- aa.eaf -', 'b.bvh - -'])
+  expect(short(paired(kPairs, 'a.bvh', 'motion', null))).toEqual(['a.bvh - a.face.csv', '- aa.eaf -', 'b.bvh - -', '- c.eaf -'])
+})
+
+it('moves a face, which only one motion has', () => {
+  expect(short(paired(kPairs, 'b.bvh', 'face', 'a.face.csv'))).toEqual(['a.bvh aa.eaf -', 'b.bvh - a.face.csv', '- c.eaf -'])
+})
+
+it('writes tables that it reads again, quotes and all', () => {
+  const pairs = [{ ...pair('one, two.bvh', 'a "b".eaf', 'f.face.csv'), signer: 'Zoé', offset: '-120', faceOffset: '20' }, pair(null, 'c.eaf')]
+  const names = new Set(['one, two.bvh', 'a "b".eaf', 'f.face.csv', 'c.eaf'])
+  expect(readTable(tableOf(pairs), names)).toEqual({ pairs, faults: [] })
+})
+
+it('reads tables with paths, and names files that were not chosen', () => {
+  const text = '\ufeffmotion,annotation\r\nday 1/a.bvh,..\\eaf\\aa.eaf\r\n\r\nb.bvh,missing.eaf\n,,someone\n"x\ny.bvh",\n'
+  const { pairs, faults } = readTable(text, new Set(['a.bvh', 'aa.eaf', 'b.bvh', 'x\ny.bvh']))
+  expect(short(pairs)).toEqual(['a.bvh aa.eaf -', 'x\ny.bvh - -'])
+  expect(faults).toEqual([{ line: 4, file: 'missing.eaf' }, { line: 5 }])
+})
+
+it('takes files that came later to what has their stem, and forgets those that went', () => {
+  const all = { motion: ['a.bvh', 'd.bvh'], annotation: ['aa.eaf', 'd.eaf', 'e.eaf'], face: ['d.face.csv'] }
+  const pairs = extended([pair('a.bvh', 'c.eaf', 'a.face.csv'), pair('gone.bvh', null)], new Set(Object.values(all).flat()), all, (name) => name.split('.')[0])
+  expect(short(pairs)).toEqual(['a.bvh - -', 'd.bvh d.eaf d.face.csv', '- aa.eaf -', '- e.eaf -'])
+})
+
+it('leaves out an annotation that would be called as a recording with motion is', () => {
+  const pairs = [pair('a.bvh', 'a.eaf'), pair(null, 'c.eaf')]
+  const split = paired(pairs, 'a.bvh', 'annotation', null)
+  expect(short(split)).toEqual(['a.bvh - -', '- c.eaf -'])
+  expect(short(paired(split, 'a.bvh', 'annotation', 'a.eaf'))).toEqual(['a.bvh a.eaf -', '- c.eaf -'])
+  expect(short(paired(pairs, 'c.eaf', 'motion', 'a.bvh'))).toEqual(['a.bvh c.eaf -'])
+})

@@ -1,0 +1,157 @@
+import type { Proposals } from '../../api/corpus_answers'
+
+export type Hand = 'right' | 'left'
+export const kHands: readonly Hand[] = ['right', 'left']
+/** What a phase can be, in the order of a movement. */
+export const kKinds = ['preparation', 'stroke', 'hold', 'retraction'] as const
+export type State = 'open' | 'accepted' | 'rejected'
+export type Edge = 'begin' | 'end'
+
+/** A phase of one hand under review; annotation time in whole ms, half-open. `kind` is one of kKinds, or what a file had. */
+export interface Phase {
+  readonly id: number; readonly hand: Hand; readonly kind: string; readonly begin: number; readonly end: number; readonly state: State
+  /** Of a proposal: the mean probability of its kind. */
+  readonly confidence?: number
+}
+/** The phases of both hands, those of a hand in time order; they never overlap. Every operation gives another one. */
+export interface Review { readonly phases: Readonly<Record<Hand, readonly Phase[]>>; /** The next phase's id. */ readonly next: number }
+export const kEmpty: Review = { phases: { right: [], left: [] }, next: 1 }
+
+/** The frames of the motion in annotation time. */
+export interface Frames { readonly originMs: number; readonly rate: number; readonly count: number }
+/** The begin of a frame, in whole ms as EAF has them; of one that the motion has, or its end. None lies before 0, where EAF has no time. */
+export function msOf(frame: number, { originMs, rate, count }: Frames): number {
+  return Math.max(0, Math.round(originMs + (1000 * Math.min(Math.max(0, frame), count)) / rate))
+}
+export const frameOf = (ms: number, { originMs, rate, count }: Frames) => Math.min(count, Math.max(0, Math.round(((ms - originMs) * rate) / 1000)))
+const snapped = (ms: number, frames: Frames) => msOf(frameOf(ms, frames), frames)
+
+/** What the segmenter proposes, at whole frames. Its rests are what lies between phases. */
+export function reviewOf({ hands }: Proposals, frames: Frames): Review {
+  let review = kEmpty
+  for (const hand of kHands) {
+    for (const { phase, begin_ms, end_ms, confidence } of hands[hand] ?? []) {
+      if (phase === 'rest') continue
+      const begin = snapped(begin_ms + frames.originMs, frames), end = snapped(end_ms + frames.originMs, frames)
+      if (end > begin) review = put(review, { hand, kind: phase, begin, end, state: 'open', confidence })
+    }
+  }
+  return review
+}
+
+/** All phases of both hands in the order of time. */
+export function inOrder({ phases }: Review): readonly Phase[] {
+  return [...phases.right, ...phases.left].sort((a, b) => a.begin - b.begin || (a.hand === b.hand ? 0 : a.hand === 'right' ? -1 : 1))
+}
+export const find = ({ phases }: Review, id: number | undefined): Phase | undefined => phases.right.find((one) => one.id === id) ?? phases.left.find((one) => one.id === id)
+
+/** The phase after one (direction 1) or before it (−1) in time; with `open` the next that is not decided, from the begin again where none follows. */
+export function following(review: Review, id: number | undefined, direction: 1 | -1, open = false): Phase | undefined {
+  const all = inOrder(review), at = all.findIndex((one) => one.id === id)
+  if (!open) return all[at < 0 ? (direction > 0 ? 0 : all.length - 1) : at + direction]
+  return [...all.slice(at + 1), ...all.slice(0, Math.max(0, at))].find(({ state }) => state === 'open')
+}
+
+export interface Progress { readonly all: number; readonly accepted: number; readonly rejected: number; readonly open: number }
+export function progressOf(review: Review): Progress {
+  const all = inOrder(review), count = (wanted: State) => all.filter(({ state }) => state === wanted).length
+  return { all: all.length, accepted: count('accepted'), rejected: count('rejected'), open: count('open') }
+}
+
+export const decided = (review: Review, id: number, state: State) => changed(review, id, { state })
+export const retyped = (review: Review, id: number, kind: string) => changed(review, id, { kind })
+/** Accepts whatever is not decided. */
+export function acceptedAll({ phases, next }: Review): Review {
+  const accept = (list: readonly Phase[]) => list.map((one): Phase => (one.state === 'open' ? { ...one, state: 'accepted' } : one))
+  return { phases: { right: accept(phases.right), left: accept(phases.left) }, next }
+}
+
+/**
+ * Moves a begin or an end to the nearest frame. What touched there goes along, what is in the way makes room, and every phase keeps at least a frame: the border
+ * stops where its neighbour would have none.
+ */
+export function moved(review: Review, id: number, edge: Edge, ms: number, frames: Frames): Review {
+  const one = find(review, id)
+  if (!one) return review
+  const list = review.phases[one.hand], at = list.indexOf(one)
+  const other = list[edge === 'begin' ? at - 1 : at + 1]
+  const low = edge === 'begin' ? (other ? after(other.begin, frames) : msOf(0, frames)) : after(one.begin, frames)
+  const high = edge === 'begin' ? before(one.end, frames) : other ? before(other.end, frames) : msOf(frames.count, frames)
+  const to = Math.min(high, Math.max(low, snapped(ms, frames)))
+  if (to === one[edge] || low > high) return review
+  const far: Edge = edge === 'begin' ? 'end' : 'begin'
+  const touched = other && (other[far] === one[edge] || (edge === 'begin' ? other.end > to : other.begin < to))
+  const next = changed(review, id, { [edge]: to })
+  return touched ? changed(next, other.id, { [far]: to }) : next
+}
+/** Moves a begin or an end by whole frames. */
+export function stepped(review: Review, id: number, edge: Edge, by: number, frames: Frames): Review {
+  const one = find(review, id)
+  return one ? moved(review, id, edge, msOf(frameOf(one[edge], frames) + by, frames), frames) : review
+}
+const after = (ms: number, frames: Frames) => msOf(frameOf(ms, frames) + 1, frames)
+const before = (ms: number, frames: Frames) => msOf(frameOf(ms, frames) - 1, frames)
+
+/** Cuts a phase in two at the nearest frame; nothing where one of them would be empty. The second is the newest. */
+export function split(review: Review, id: number, ms: number, frames: Frames): Review {
+  const one = find(review, id), at = snapped(ms, frames)
+  if (!one || at <= one.begin || at >= one.end) return review
+  return put(changed(review, id, { end: at }), { ...one, begin: at })
+}
+/** Makes one of a phase and the one after it on its hand, with what lies between them. It is of the first one's kind; where they were decided otherwise it is open. */
+export function merged(review: Review, id: number): Review {
+  const one = find(review, id)
+  if (!one) return review
+  const list = review.phases[one.hand], other = list[list.indexOf(one) + 1]
+  if (!other) return review
+  const { confidence, ...rest } = one
+  const whole: Phase = { ...rest, end: other.end, state: one.state === other.state ? one.state : 'open', ...(confidence !== undefined && confidence === other.confidence ? { confidence } : {}) }
+  return { ...review, phases: { ...review.phases, [one.hand]: list.filter((each) => each !== other).map((each) => (each === one ? whole : each)) } }
+}
+/** Adds an accepted phase where a hand has none: as much of the span as is free around its begin; nothing where that is not. */
+export function addedTo(review: Review, hand: Hand, kind: string, span: { readonly begin: number; readonly end: number }, frames: Frames): Review {
+  const begin = snapped(span.begin, frames), list = review.phases[hand]
+  if (list.some((one) => one.begin <= begin && begin < one.end)) return review
+  const end = Math.min(snapped(span.end, frames), list.find((one) => one.begin > begin)?.begin ?? Infinity)
+  return end > begin ? put(review, { hand, kind, begin, end, state: 'accepted' }) : review
+}
+/** Adds what `more` has where this one has nothing; what reaches into something is cut. */
+export function filled(review: Review, more: Review): Review {
+  let result = review
+  for (const one of inOrder(more)) {
+    const around = result.phases[one.hand].filter((other) => other.begin < one.end && one.begin < other.end)
+    let { begin } = one
+    for (const { begin: from, end: to } of [...around, { begin: one.end, end: one.end }]) {
+      if (from > begin) result = put(result, { ...one, begin, end: from })
+      begin = Math.max(begin, to)
+    }
+  }
+  return result
+}
+
+/** With another phase, which must lie in a gap. */
+export function put({ phases, next }: Review, { hand, kind, begin, end, state, confidence }: Omit<Phase, 'id'>): Review {
+  const one: Phase = { id: next, hand, kind, begin, end, state, ...(confidence === undefined ? {} : { confidence }) }
+  return { phases: { ...phases, [hand]: [...phases[hand], one].sort((a, b) => a.begin - b.begin) }, next: next + 1 }
+}
+
+function changed(review: Review, id: number, change: Partial<Phase>): Review {
+  const of = (list: readonly Phase[]) => (list.some((one) => one.id === id) ? list.map((one) => (one.id === id ? { ...one, ...change } : one)) : list)
+  return { ...review, phases: { right: of(review.phases.right), left: of(review.phases.left) } }
+}
+
+/** What is wrong with a review that came from outside: empty where nothing is. */
+export function faultsOf({ phases, next }: Review): readonly string[] {
+  const faults: string[] = []
+  const ids = new Set<number>()
+  for (const hand of kHands) {
+    phases[hand].forEach((one, at) => {
+      const { id, begin, end } = one, last = phases[hand][at - 1]
+      if (one.hand !== hand || ids.has(id) || id >= next) faults.push(`id ${id}`)
+      if (!Number.isInteger(begin) || !Number.isInteger(end) || begin < 0 || end <= begin) faults.push(`span ${begin}..${end}`)
+      if (last && last.end > begin) faults.push(`overlap at ${begin}`)
+      ids.add(id)
+    })
+  }
+  return faults
+}

@@ -1,5 +1,5 @@
 // What every browser test shares: one browser, one server with a demo corpus (and with an empty database beside it that tests may change), one page.
-import { after, before, test as run } from 'node:test'
+import { after, afterEach, before, test as run } from 'node:test'
 import { withBrowser } from './chromium.mjs'
 import { linkVideo, withServer } from './server.mjs'
 import { opened } from './waits.mjs'
@@ -30,6 +30,8 @@ before(async () => {
   })
 })
 after(() => over?.())
+// Colours and language that a test chose are not those of the next.
+afterEach(() => page?.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language'))).catch(() => {}))
 
 /** Opens a page. What is not about characters is asked of the drawn body, which software draws quickly; null is what was chosen before. `still`: nothing plays by itself. */
 export async function visit(hash, { size = { width: 1280, height: 720 }, whole = false, body = 'drawn', still = false } = {}) {

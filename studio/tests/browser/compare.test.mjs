@@ -39,6 +39,8 @@ async function begin(fluency = 'Deaf signer') {
   await page.getByLabel(fluency).check()
   await button('Begin').click()
 }
+/** A dialog tells only later that it was closed. */
+const closed = () => page.waitForFunction(() => !document.querySelector('dialog'))
 const answered = (count) => page.waitForFunction((n) => JSON.parse(localStorage.getItem('signweave.study.demo')).sessions.reduce((sum, { answers }) => sum + answers.length, 0) === n, count)
 
 test('a viewer takes part by keyboard alone, a reload goes on with the same trial, and the votes are saved', async () => {
@@ -201,9 +203,11 @@ test('viewers follow each other, what came out is shown on purpose, and deleting
   assert.equal(await page.locator('#outcome-title').count(), 0)
   await button('Show what came out').click()
   await button('Not now').click()
+  await closed()
   assert.equal(await page.locator('#outcome-title').count(), 0)
   await button('Show what came out').click()
   await button('Show it').click()
+  await page.locator('#outcome-title').waitFor()
   const cells = () => page.locator('[aria-labelledby=outcome-title] tbody tr').first().locator('td, th').allTextContents()
   assert.deepEqual((await cells()).slice(1, 5), ['hermite', '2', '100 % (2/2)', '34–100 %'])
   await page.getByLabel('Votes of').selectOption({ label: 'Deaf signer' })
@@ -211,6 +215,7 @@ test('viewers follow each other, what came out is shown on purpose, and deleting
   await button('Delete the study').click()
   assert.match(await page.getByRole('dialog').textContent(), /its 2 votes/)
   await page.keyboard.press('Escape')
+  await closed()
   assert.ok(await kept())
   await button('Delete the study').click()
   await button('Delete').click()

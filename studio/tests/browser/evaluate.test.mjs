@@ -142,7 +142,7 @@ for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
       await result()
       for (const summary of await page.locator('summary').all()) await summary.click()
       assert.deepEqual(await axeFaults(page), [])
-      assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth), 'wider than the screen')
+      assert.ok(await page.evaluate(() => document.scrollingElement.scrollHeight <= innerHeight && document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth), 'wider than the screen')
       await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
     })
   }

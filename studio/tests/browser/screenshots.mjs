@@ -1,5 +1,6 @@
 // Takes a picture of every view: screenshots.mjs SITE OUT_FOLDER [ONLY]. Look at them at full size.
 import { mkdirSync } from 'node:fs'
+import { join } from 'node:path'
 import { withBrowser } from './chromium.mjs'
 import { linkVideo, withServer } from './server.mjs'
 import { drawn, opened } from './waits.mjs'
@@ -62,7 +63,23 @@ const kViews = [
   { name: 'compose_tokens', hash: kCompose, then: async (page) => { await composed(page); await page.locator('.card').nth(1).click(); await page.locator('aside .token').first().waitFor() } },
   { name: 'compose_compare', hash: kCompose, then: async (page) => { await composed(page); await compared(page) } },
   { name: 'compose_scenario', hash: '#/demo/compose', then: scenario },
+  { name: 'import', hash: '#/mine/import', then: chooseFiles },
+  { name: 'import_report', hash: '#/mine/import', then: async (page, folder) => {
+    await chooseFiles(page, folder)
+    await page.locator('.acts .primary').click()
+    await page.locator('article').waitFor({ timeout: 120_000 })
+    await page.locator('.report').evaluate((report) => report.scrollIntoView())
+  } },
+  { name: 'storage', hash: '#/demo', then: (page) => page.locator('.head button').last().click() },
+  { name: 'phases', hash: '#/demo/phases/meteo', then: async (page) => {
+    await page.waitForFunction(() => document.querySelector('.bench[data-ready]') && window.signweaveStage?.panes[0]?.seen, null, { timeout: 90_000 })
+    for (const key of ['ArrowDown', 'Enter', 'Enter', 'Delete', 'Enter']) await page.keyboard.press(key)
+  } },
 ]
+function chooseFiles(page, folder) {
+  const names = ['meteo.bvh', 'meteo.eaf', 'meteo.face.csv', 'villes.bvh', 'villes.eaf']
+  return page.locator('input[type=file]:not([webkitdirectory])').setInputFiles(names.map((name) => join(folder, 'corpus', name)))
+}
 
 /** Until what is composed is there, at a moment with the hands up. */
 async function composed(page, at = 2) {
@@ -87,7 +104,7 @@ async function shown(page) {
 }
 
 mkdirSync(out, { recursive: true })
-await withServer(site, async (address) => {
+await withServer(site, async (address, folder) => {
   for (const [theme, language, size, label] of [['dark', 'en', kDesk, 'dark'], ['light', 'fr', kDesk, 'light_fr'], ['dark', 'fr', kPhone, 'phone']]) {
     await withBrowser(async (context) => {
       for (const view of kViews) {
@@ -101,7 +118,7 @@ await withServer(site, async (address) => {
         await opened(page, view.hash, true)
         if (view.seek !== undefined) await page.evaluate((to) => { const { transport } = window.signweaveStage; transport.pause(); transport.seek(to); window.signweaveStage.touch() }, view.seek)
         for (const key of view.keys ?? []) await page.keyboard.press(key)
-        await view.then?.(page)
+        await view.then?.(page, folder)
         await drawn(page)
         await page.screenshot({ path: `${out}/${name}.png`, fullPage: view.tall })
         console.log(`${out}/${name}.png`)
@@ -109,4 +126,4 @@ await withServer(site, async (address) => {
       }
     }, { viewport: size, colorScheme: theme, locale: language === 'fr' ? 'fr-FR' : 'en-GB' })
   }
-}, linkVideo)
+}, linkVideo, { mine: true })

@@ -80,6 +80,8 @@ export class ImportSession {
   }
 
   async add(more: readonly Picked[]): Promise<void> {
+    // What was stored is over: more files are another import.
+    if (this.outcomes.size > 0 && this.wanted.length === 0) this.clear()
     this.change(added(this.list, more, this.formats))
     await this.readTables()
   }

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest'
-import { Pace } from './pace'
+import { isSoftware, Pace } from './pace'
 
 function rig() {
   const gl = { SYNC_STATUS: 1, SIGNALED: 2, SYNC_GPU_COMMANDS_COMPLETE: 3, done: false, deleted: 0,
@@ -24,4 +24,9 @@ it('rests after a picture that took long', () => {
   expect(pace.ready(200)).toBe(false)
   expect(pace.ready(290)).toBe(false)
   expect(pace.ready(301)).toBe(true)
+})
+
+it('knows renderers that need no card', () => {
+  for (const name of ['ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero)), SwiftShader driver)', 'llvmpipe (LLVM 15)', 'Microsoft Basic Render Driver']) expect(isSoftware(name), name).toBe(true)
+  for (const name of ['ANGLE (Intel, Mesa Intel(R) UHD Graphics 620)', 'Apple GPU']) expect(isSoftware(name), name).toBe(false)
 })

@@ -42,7 +42,13 @@ let software: boolean | undefined
 export function drawsBySoftware(): boolean {
   if (software !== undefined) return software
   const gl = document.createElement('canvas').getContext('webgl2', { failIfMajorPerformanceCaveat: true })
-  software = gl === null
+  const names = gl?.getExtension('WEBGL_debug_renderer_info')
+  software = gl === null || (names !== undefined && names !== null && isSoftware(String(gl?.getParameter(names.UNMASKED_RENDERER_WEBGL))))
   gl?.getExtension('WEBGL_lose_context')?.loseContext()
   return software
+}
+
+/** By what the renderers that need no card call themselves. */
+export function isSoftware(renderer: string): boolean {
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(renderer)
 }

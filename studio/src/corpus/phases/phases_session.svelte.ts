@@ -3,11 +3,10 @@ import { readEaf } from '../../annotation/eaf'
 import type { StoredRecording } from '../../api/corpus_answers'
 import type { Api } from '../../api/client'
 import { annotationBytes, proposals, storedRecording } from '../../api/corpus_calls'
-import { ApiError } from '../../api/fault'
 import { emptyEaf, isChecked, readChecked } from './checked_tiers'
 import { dropDraft, isOf, keepDraft, keptDraft, type Draft } from './draft'
 import { begun, pushed, redone, undone, type History } from './history'
-import { acceptedAll, decided, filled, find, following, inOrder, kEmpty, reviewOf, type Frames, type Review, type State } from './review'
+import { acceptedAll, decided, filled, find, following, inOrder, kEmpty, reviewOf, within, type Frames, type Review, type State } from './review'
 import { decoded } from './xml_text'
 
 const kNoTiers: AnnotationDocument = { tiers: [] }
@@ -50,10 +49,8 @@ export class PhasesSession {
     this.status = 'opening'
     this.fault = undefined
     try {
-      const [info, bytes] = await Promise.all([storedRecording(this.api, this.database, this.recording), this.annotation()])
-      this.info = info
+      const info = await this.read()
       this.frames = { originMs: info.clock_origin_ms ?? 0, rate: info.frames_per_second ?? 0, count: info.frames ?? 0 }
-      this.take(bytes)
       const draft = keptDraft(this.database, this.recording)
       const stored = readChecked(readEaf(this.eaf))
       if (draft && isOf(draft, this.frames)) this.begin(draft.review, 'draft')
@@ -134,7 +131,7 @@ export class PhasesSession {
   /** Takes over a review that was of another motion, as far as it fits. */
   takeOther(): void {
     if (!this.other) return
-    const review = this.other.review
+    const review = within(this.other.review, this.frames)
     this.other = undefined
     this.begin(review, 'draft')
     this.keep()
@@ -146,7 +143,7 @@ export class PhasesSession {
 
   /** The annotation as it is now was stored: what is decided is kept there. */
   async stored(): Promise<void> {
-    this.take(await this.annotation())
+    await this.read()
     this.base = this.review
     this.changed = false
     // What is still open is in no file, so it stays here.
@@ -164,16 +161,12 @@ export class PhasesSession {
     this.changed = this.review !== this.base
     this.kept = keepDraft(this.database, this.recording, { frames: this.frames, review: this.review })
   }
-  private async annotation(): Promise<ArrayBuffer | undefined> {
-    try {
-      return await annotationBytes(this.api, this.database, this.recording)
-    } catch (fault) {
-      if (fault instanceof ApiError && fault.status === 404) return undefined
-      throw fault
-    }
-  }
-  private take(bytes: ArrayBuffer | undefined): void {
-    this.eaf = bytes ? decoded(bytes) : emptyEaf(this.info?.motion_file ?? '', new Date().toISOString())
+  /** Asks for the recording and its annotation as they are stored; one that has none gets an empty document. */
+  private async read(): Promise<StoredRecording> {
+    const info = (this.info = await storedRecording(this.api, this.database, this.recording))
+    const bytes = info.annotation_file ? await annotationBytes(this.api, this.database, this.recording) : undefined
+    this.eaf = bytes ? decoded(bytes) : emptyEaf(info.motion_file, new Date().toISOString())
     this.document = { tiers: readEaf(this.eaf).tiers.filter(({ name }) => isChecked(name) === undefined) }
+    return info
   }
 }

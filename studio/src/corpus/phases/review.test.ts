@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest'
 import { begun, pushed, redone, undone } from './history'
-import { acceptedAll, addedTo, decided, faultsOf, filled, find, following, frameOf, inOrder, kEmpty, merged, moved, msOf, progressOf, put, retyped, reviewOf, split, stepped, type Frames, type Review } from './review'
+import { acceptedAll, addedTo, decided, faultsOf, filled, find, following, frameOf, inOrder, kEmpty, merged, moved, msOf, progressOf, put, retyped, reviewOf, split, stepped, within, type Frames, type Review } from './review'
 
 /** 30 frames a second: no frame but every third begins at a whole ms. */
 const kFrames: Frames = { originMs: 0, rate: 30, count: 300 }
@@ -92,6 +92,12 @@ it('fills gaps with proposals, cut where something is', () => {
   const all = sound(filled(kReview, more))
   expect(spans(all)).toEqual([[0, 1000], [1000, 2000], [2000, 3000], [3000, 4000], [5000, 6000]])
   expect(spans(all, 'left')).toEqual([[500, 1500]])
+})
+
+it('takes of a review of another motion what this one has frames for', () => {
+  const short = sound(within(decided(kReview, 2, 'accepted'), { originMs: 0, rate: 25, count: 40 }))
+  expect([spans(short), spans(short, 'left')]).toEqual([[[0, 1000], [1000, 1600]], [[520, 1520]]])
+  expect(short.phases.right[1].state).toBe('accepted')
 })
 
 it('undoes and does again', () => {

@@ -129,6 +129,16 @@ export function filled(review: Review, more: Review): Review {
   return result
 }
 
+/** Of a review of another motion: what this one has frames for, at whole frames. */
+export function within(review: Review, frames: Frames): Review {
+  let result = kEmpty
+  for (const one of inOrder(review)) {
+    const begin = snapped(one.begin, frames), end = snapped(one.end, frames)
+    if (end > begin) result = put(result, { ...one, begin, end })
+  }
+  return result
+}
+
 /** With another phase, which must lie in a gap. */
 export function put({ phases, next }: Review, { hand, kind, begin, end, state, confidence }: Omit<Phase, 'id'>): Review {
   const one: Phase = { id: next, hand, kind, begin, end, state, ...(confidence === undefined ? {} : { confidence }) }

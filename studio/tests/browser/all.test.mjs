@@ -3,5 +3,6 @@ import assert from 'node:assert/strict'
 import { faults, test } from './suite.mjs'
 import './studio.test.mjs'
 import './corpus.test.mjs'
+import './phases.test.mjs'
 
 test('no view threw anything', () => assert.deepEqual(faults, []))

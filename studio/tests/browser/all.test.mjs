@@ -8,5 +8,6 @@ import './compare.test.mjs'
 import './guide.test.mjs'
 import './search.test.mjs'
 import './corpus.test.mjs'
+import './phases.test.mjs'
 
 test('no view threw anything', () => assert.deepEqual(faults, []))

@@ -50,9 +50,10 @@ const kViews = [
   } },
   { name: 'search', hash: '#/demo/search' },
   { name: 'search_completion', hash: '#/demo/search', then: async (page) => {
-    await page.locator('.field textarea').fill('gloss = "VANNES" & phase = ')
-    await page.waitForResponse(/vocabulary/).catch(() => {})
-    await page.keyboard.press('Control+Space')
+    for (let i = 0; i < 50 && !(await page.locator('.field [role=option]').count()); ++i) { // until the vocabulary is there
+      await page.locator('.field textarea').fill('gloss = "VANNES" & phase = ')
+      await page.keyboard.press('Control+Space')
+    }
   } },
   { name: 'search_fault', hash: '#/demo/search?q=' + encodeURIComponent('gloss = "VANNES" &\n  phase = strok') },
   { name: 'search_table', hash: '#/demo/search?q=' + encodeURIComponent('phase = stroke & duration > 500ms'), then: shown },
@@ -100,7 +101,7 @@ async function scenario(page) {
 /** Until the first answers are drawn; then nothing plays any more. */
 async function shown(page) {
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen || [...(window.signweaveSheet?.cells.values() ?? [])].filter(({ seen }) => seen).length > 5, null, { timeout: 90_000 })
-  await page.locator('.play').click()
+  await page.evaluate(() => document.querySelector('.play').click()) // at once: while it plays, software has no time for a mouse
 }
 
 mkdirSync(out, { recursive: true })

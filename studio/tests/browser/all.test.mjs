@@ -5,9 +5,9 @@ import './studio.test.mjs'
 import './compose.test.mjs'
 import './evaluate.test.mjs'
 import './compare.test.mjs'
-import './guide.test.mjs'
 import './search.test.mjs'
 import './corpus.test.mjs'
 import './phases.test.mjs'
+import './guide.test.mjs'
 
 test('no view threw anything', () => assert.deepEqual(faults, []))

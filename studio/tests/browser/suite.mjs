@@ -37,7 +37,8 @@ afterEach(() => page?.evaluate(() => (localStorage.removeItem('signweave.theme')
 export async function visit(hash, { size = { width: 1280, height: 720 }, whole = false, body = 'drawn', still = false } = {}) {
   await page?.close()
   page = await context.newPage()
-  if (body) await page.addInitScript((who) => localStorage.setItem('signweave.body', who), body)
+  // A frame of its own, such as a drawing, may have no storage.
+  if (body) await page.addInitScript((who) => { try { localStorage.setItem('signweave.body', who) } catch {} }, body)
   page.on('pageerror', (error) => faults.push(error.message))
   await page.setViewportSize(size)
   if (still) await page.emulateMedia({ reducedMotion: 'reduce' })

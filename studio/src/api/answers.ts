@@ -35,8 +35,6 @@ export interface Statistics {
   readonly all: Transitions
   readonly recordings: readonly (Transitions & { readonly recording: string })[]
 }
-/** A gloss, and of how many tokens. */
-export interface GlossRow { readonly gloss: string; readonly sign_ms: Spread }
 /** One sign of a report: where it is in the new motion and where it was recorded. */
 export interface ReportSign {
   readonly gloss: string; readonly begin_ms: number; readonly end_ms: number; readonly recording: string

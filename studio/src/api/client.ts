@@ -1,6 +1,6 @@
 import { readFrames, type FrameTaker } from '../motion/frames_body'
 import type { Declarations } from '../motion/source'
-import type { CharacterRow, DatabaseRow, ExplainedReport, GlossRow, JobBegun, JobState, MediaRow, NoticeRow, RecordingInfo, RecordingRow, SignAnswer, Statistics, TransitionRow, Vocabulary } from './answers'
+import type { CharacterRow, DatabaseRow, ExplainedReport, JobBegun, JobState, MediaRow, NoticeRow, RecordingInfo, RecordingRow, SignAnswer, Statistics, TransitionRow, Vocabulary } from './answers'
 import { ApiError, StudioFault } from './fault'
 
 type Query = Readonly<Record<string, string | number | undefined>>
@@ -54,10 +54,6 @@ export class Api {
   }
   statistics(database: string, recording?: string): Promise<Statistics> {
     return this.json(path('databases', database, 'stats') + query({ recording }))
-  }
-  /** What can be signed, the most frequent first. */
-  async glosses(database: string): Promise<readonly GlossRow[]> {
-    return (await this.json<{ glosses: GlossRow[] }>(path('databases', database, 'stats') + query({ glosses: 'true' }))).glosses
   }
   async statisticsPlot(database: string, recording?: string): Promise<Blob> {
     return (await this.call(path('databases', database, 'stats') + query({ format: 'svg', recording }))).blob()

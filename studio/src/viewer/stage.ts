@@ -76,6 +76,11 @@ export class Stage {
     return this.width <= this.height
   }
 
+  /** Whether the last picture is of all that was asked for: of frames that are there, with cameras that have come to rest. */
+  get still(): boolean {
+    return !this.dirty && !this.transport.playing && !this.panes.some(({ waiting }) => waiting)
+  }
+
   /** Mean and most of the last pictures. */
   cost(): FrameCost {
     const count = Math.min(this.pictures, this.costs.length)

@@ -11,14 +11,14 @@ export async function opened(page, hash, whole = false) {
   }, whole && !/pace=live/.test(hash), { timeout: 90000 })
 }
 
-/** Until what was asked for is on the screen: the view has come, and what does not play is drawn no more. */
+/** Until what was asked for is on the screen: the frames have come, the camera rests, and what does not play is drawn no more. However long one picture takes. */
 export async function drawn(page) {
-  await page.waitForTimeout(300)
   await page.waitForFunction(async () => {
     const stage = window.signweaveStage
     if (!stage || stage.transport.playing) return true
     const from = stage.pictures
+    for (let i = 0; i < 3; ++i) await new Promise(requestAnimationFrame)
     await new Promise((resolve) => setTimeout(resolve, 400))
-    return stage.pictures === from
+    return stage.still && stage.pictures === from
   }, null, { timeout: 90_000 })
 }

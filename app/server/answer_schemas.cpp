@@ -7,9 +7,9 @@ namespace {
 // properties than are told may come with a later version.
 constexpr const char* kDatabaseAnswers = R"json({
   "Databases": {"type": "object", "required": ["databases"], "properties": {
-    "databases": {"type": "array", "items": {"type": "object", "required": ["name", "writable", "recordings"],
-      "properties": {"name": {"type": "string"}, "writable": {"type": "boolean"},
-        "recordings": {"type": "integer"}}}}}},
+    "databases": {"type": "array", "items": {"type": "object", "required": ["name", "writable", "recordings", "declarations"],
+      "properties": {"name": {"type": "string"}, "writable": {"type": "boolean"}, "recordings": {"type": "integer"},
+        "declarations": {"$ref": "#/components/schemas/Declarations"}}}}}},
   "Database": {"type": "object",
     "required": ["engine", "engine_version", "entries", "bytes_on_disk", "layout", "usage", "access_mode", "compact_mm",
                  "weights", "recordings"],

@@ -27,7 +27,10 @@ Path at(Path rest) {
 TEST(Api, ListsTheDatabasesThatAreServed) {
   const json list = json_in(reading().get({"databases"}))["databases"];
   ASSERT_EQ(list.size(), 1u);
-  EXPECT_EQ(list[0], (json{{"name", "demo"}, {"writable", false}, {"recordings", 2}}));
+  EXPECT_THAT(list[0]["declarations"].dump(), HasSubstr("placeholder shapes"));
+  json row = list[0];
+  row.erase("declarations");
+  EXPECT_EQ(row, (json{{"name", "demo"}, {"writable", false}, {"recordings", 2}}));
 }
 
 TEST(Api, AWrongPathIsNotFoundWithNearMatches) {

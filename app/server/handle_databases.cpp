@@ -1,7 +1,9 @@
 #include "app/calls/info_call.h"
+#include "app/calls/json.h"
 #include "app/calls/vocabulary_call.h"
 #include "app/server/routes.h"
 #include "signweave/database/check.h"
+#include "signweave/database/declarations.h"
 
 namespace signweave::server {
 
@@ -12,7 +14,12 @@ ApiResponse list_databases(Call& call) {
   for (const auto& one : call.state.databases.all()) {
     const std::shared_ptr<const Contents> contents = one->database().contents();
     call.declare_all(*contents);
-    list.push_back({{"name", one->name()}, {"writable", one->writable()}, {"recordings", contents->recordings.size()}});
+    Declarations declarations;
+    for (const RecordingInfo& info : contents->recordings) add_new(info.declarations, declarations);
+    list.push_back({{"name", one->name()},
+                    {"writable", one->writable()},
+                    {"recordings", contents->recordings.size()},
+                    {"declarations", calls::declarations_json(declarations)}});
   }
   return json_answer(json{{"databases", std::move(list)}});
 }

@@ -1,6 +1,8 @@
 /// What the calls of docs/http.md answer, as far as the studio reads it. Times are ms, lengths metres.
 
-export interface DatabaseRow { readonly name: string; readonly recordings: number; readonly writable: boolean }
+import type { Declarations } from '../motion/source'
+
+export interface DatabaseRow { readonly name: string; readonly recordings: number; readonly writable: boolean; readonly declarations: Declarations }
 export interface RecordingRow {
   readonly name: string; readonly signer: string; readonly frames: number; readonly frames_per_second: number; readonly joints: number
   readonly tracks: readonly string[]; readonly defects: number

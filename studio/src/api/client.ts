@@ -24,8 +24,8 @@ export interface QueryWishes { readonly text: string; readonly limit?: number }
 
 /** The calls of docs/http.md that the studio makes. */
 export class Api {
-  /** What answers so far have said of their recordings. */
-  onDeclarations?: (declarations: Declarations) => void
+  /** Told what an answer says of its recordings, and of which database it is; none where the address of the call does not tell. */
+  onDeclarations?: (declarations: Declarations, database: string | undefined) => void
   /** Told of every call that was answered: for who follows what somebody does. */
   onAnswered?: (call: Answered) => void
 
@@ -33,7 +33,9 @@ export class Api {
   constructor(private readonly base = 'api', private readonly token = '') {}
 
   async databases(): Promise<readonly DatabaseRow[]> {
-    return (await this.json<{ databases: DatabaseRow[] }>('databases')).databases
+    const { databases } = await this.json<{ databases: DatabaseRow[] }>('databases')
+    for (const { name, declarations } of databases) if (Object.keys(declarations).length > 0) this.onDeclarations?.(declarations, name)
+    return databases
   }
   /** The signers that this server can put motion on; none where it was given none. */
   async characters(): Promise<readonly CharacterRow[]> {
@@ -180,7 +182,8 @@ export class Api {
     }
     if (!response.ok) throw faultOf(await response.text().catch(() => ''), response.status)
     const declared = response.headers.get('Signweave-Declarations')
-    if (declared) this.onDeclarations?.(declarationsOf(declared))
+    // The list of databases says in each row what is of that one.
+    if (declared && where !== 'databases') this.onDeclarations?.(declarationsOf(declared), databaseOf(where))
     this.onAnswered?.({ method: init.method ?? 'GET', where, body: typeof init.body === 'string' ? init.body : '' })
     return response
   }
@@ -193,6 +196,12 @@ export function path(...names: string[]): string {
 export function query(values: Query): string {
   const given = Object.entries(values).filter(([, value]) => value !== undefined)
   return given.length ? `?${given.map(([name, value]) => `${name}=${encodeURIComponent(value!)}`).join('&')}` : ''
+}
+
+/** The database that a call is about. */
+function databaseOf(where: string): string | undefined {
+  const [, name] = /^databases\/([^/?]+)/.exec(where) ?? []
+  return name && decodeURIComponent(name)
 }
 
 /** What an answer that is no success says: the server's own line, or that there was none. */

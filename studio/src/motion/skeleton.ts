@@ -32,12 +32,3 @@ export function chainTo(skeleton: Skeleton, joint: number): number[] {
   for (let j = joint; j >= 0; j = skeleton.joints[j].parent) chain.unshift(j)
   return chain
 }
-
-/** Positions of all joints in model space with every local rotation identity: [3 · joint], metres. */
-export function restPositions(skeleton: Skeleton): Float32Array {
-  const rest = new Float32Array(3 * skeleton.joints.length)
-  skeleton.joints.forEach((joint, j) => {
-    for (let k = 0; k < 3; ++k) rest[3 * j + k] = joint.offset[k] + (joint.parent < 0 ? 0 : rest[3 * joint.parent + k])
-  })
-  return rest
-}

@@ -1,18 +1,16 @@
 import { Scene, Vector3 } from 'three'
 import { Kinematics } from '../motion/kinematics'
 import type { Pose } from '../motion/pose'
-import type { Rig, Skeleton } from '../motion/skeleton'
 import type { Body } from './body'
 import { DrawnBody } from './drawn_body'
 import type { Facing } from './facing'
 import { Lights } from './lights'
-import { Proportions } from './proportions'
+import type { Proportions } from './proportions'
 import type { Detail } from './solids'
 
 /** A signer who plays many motions of one skeleton, one after the other within a picture: what the graphics card holds is there once. */
 export class Actor {
   readonly scene = new Scene()
-  readonly signer: Proportions
   readonly model: Kinematics
   body: Body
   /** How many cells play with it. */
@@ -20,10 +18,9 @@ export class Actor {
   private readonly lights: Lights
   private readonly root = new Vector3()
 
-  constructor(skeleton: Skeleton, rig: Rig, facing: Facing, detail: Detail) {
-    this.signer = new Proportions(skeleton, rig)
-    this.model = new Kinematics(skeleton)
-    this.body = new DrawnBody(skeleton, rig, detail)
+  constructor(readonly signer: Proportions, facing: Facing, detail: Detail) {
+    this.model = new Kinematics(signer.skeleton)
+    this.body = new DrawnBody(signer, detail)
     this.lights = new Lights(this.scene, facing)
     this.lights.suit(false)
     this.scene.add(this.body.object)

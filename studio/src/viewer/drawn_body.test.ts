@@ -26,7 +26,7 @@ it('knows where up, left and front are from the skeleton alone', () => {
 })
 
 it('draws a body that moves with its joints, with faces outward, and says that its face is neutral', () => {
-  const body = new DrawnBody(kLying, kRig)
+  const body = new DrawnBody(new Proportions(kLying, kRig))
   expect(body.hasFace).toBe(false)
   const pose = restPose(kLying)
   pose.positions.set([0, 3, 0], 0)
@@ -53,7 +53,7 @@ it('draws a body that moves with its joints, with faces outward, and says that i
 })
 
 it('draws bones where the rig map knows nothing', () => {
-  const body = new DrawnBody(kLying, {})
+  const body = new DrawnBody(new Proportions(kLying, {}))
   const mesh = body.object.children.find((one): one is SkinnedMesh => (one as SkinnedMesh).isSkinnedMesh)!
   expect(mesh.geometry.getAttribute('position').count).toBeGreaterThan(100)
   body.dispose()

@@ -1,10 +1,9 @@
 import { Bone, type BufferGeometry, Group, Matrix4, MeshLambertMaterial, Skeleton as SkinSkeleton, SkinnedMesh } from 'three'
 import type { Pose } from '../motion/pose'
-import type { Rig, Skeleton } from '../motion/skeleton'
 import type { Body } from './body'
 import { DrawnFace } from './drawn_face'
 import { drawnGeometry } from './drawn_solids'
-import { Proportions } from './proportions'
+import type { Proportions } from './proportions'
 import { Shared } from './shared'
 import type { Detail } from './solids'
 
@@ -21,8 +20,8 @@ export class DrawnBody implements Body {
   private readonly face?: DrawnFace
   private readonly surface: string
 
-  constructor(skeleton: Skeleton, rig: Rig, detail: Detail = 'fine') {
-    const proportions = new Proportions(skeleton, rig)
+  constructor(proportions: Proportions, detail: Detail = 'fine') {
+    const { skeleton, rig } = proportions
     this.bones = skeleton.joints.map(({ name, offset }) => {
       const bone = new Bone()
       bone.name = name
@@ -31,12 +30,9 @@ export class DrawnBody implements Body {
     })
     skeleton.joints.forEach(({ parent }, j) => (parent < 0 ? this.object : this.bones[parent]).add(this.bones[j]))
     const material = new MeshLambertMaterial({ vertexColors: true })
-    this.surface = JSON.stringify([detail, rig, skeleton.joints.map(({ parent, offset }) => [parent, offset])])
+    this.surface = JSON.stringify([detail, rig, skeleton.joints.map(({ parent }) => parent), ...proportions.stance.rotations, ...proportions.stance.positions])
     this.mesh = new SkinnedMesh(kSurfaces.take(this.surface, () => drawnGeometry(proportions, detail)), material)
-    const inverses = skeleton.joints.map((_, j) => {
-      const at = proportions.ofJoint(j)
-      return new Matrix4().makeTranslation(-at.x, -at.y, -at.z)
-    })
+    const inverses = skeleton.joints.map((_, j) => proportions.matrixOf(j).invert())
     this.mesh.bind(new SkinSkeleton(this.bones, inverses), new Matrix4())
     this.mesh.frustumCulled = false
     this.object.add(this.mesh)

@@ -10,7 +10,7 @@ const kCommon = 2 * kOfSide.length
 
 /** Eyes, lids, brows and mouth of the drawn signer, moved by tracks of the ARKit names. */
 export class DrawnFace {
-  /** Hangs on the head's joint, whose space at rest is model space moved to the joint. */
+  /** Hangs on the head's joint. */
   readonly object = new Group()
   readonly moves: boolean
   /** Of each weight the index of its track, or −1. */
@@ -32,8 +32,8 @@ export class DrawnFace {
     const s = (this.s = p.scale)
     const shape = headShape(p)!
     const origin = p.at('head')!
-    this.object.quaternion.copy(facing(p))
-    const inverse = this.object.quaternion.clone().invert()
+    const faced = facing(p), inverse = faced.clone().invert()
+    this.object.quaternion.copy(p.turnOf(p.joint('head')).invert()).multiply(faced)
     const here = (at: Vector3) => at.sub(origin).applyQuaternion(inverse)
     const center = here(shape.center.clone())
     const white = this.material(0xf4f1ec), dark = this.material(0x241a16), skin = this.material(0xcf9877)

@@ -4,32 +4,30 @@ import { restPose } from '../motion/pose'
 import { chainTo } from '../motion/skeleton'
 import type { OpenedMotion } from '../motion/source'
 import type { Proportions } from './proportions'
+import { someFrames } from './stance'
 
 /** Which way a signer faces: unit vectors in model space, level, and how large the signer is. */
 export interface Facing { readonly up: Vector3; readonly left: Vector3; readonly front: Vector3; readonly scale: number }
-
-/** Frames that are looked at. */
-const kLooked = 40
 
 /**
  * Which way the shoulders face in the mean of the frames that are here, at most some of them: captures face where they were made,
  * whatever their skeleton does at rest. Where nothing tells it, as at rest.
  */
-export function facingOf({ store, rig }: OpenedMotion, signer: Proportions): Facing {
+export function facingOf(motion: OpenedMotion, signer: Proportions): Facing {
+  const { store, rig } = motion
   const left = rig.left_upper_arm?.joint, right = rig.right_upper_arm?.joint
   if (left === undefined || right === undefined) return signer
-  const here = Array.from({ length: store.length }, (_, frame) => frame).filter((frame) => store.has(frame))
-  const step = Math.max(1, Math.floor(here.length / kLooked))
+  const frames = someFrames(motion)
   const joints = [...new Set([...chainTo(store.skeleton, left), ...chainTo(store.skeleton, right)])].sort((a, b) => a - b)
   const pose = restPose(store.skeleton), model = new Kinematics(store.skeleton), place = model.positions
   const across = new Vector3(), one = new Vector3()
-  for (let i = 0; i < here.length; i += step) {
-    store.sample(here[i] / store.rate, pose)
+  for (const frame of frames) {
+    store.sample(frame / store.rate, pose)
     model.update(pose, joints)
     one.fromArray(place, 3 * left).sub(new Vector3().fromArray(place, 3 * right)).setY(0)
     if (one.lengthSq() > 1e-4) across.add(one.normalize())
   }
-  if (across.length() <= 0.1 * Math.ceil(here.length / step)) return signer
+  if (across.length() <= 0.1 * frames.length) return signer
   const up = new Vector3(0, 1, 0)
   across.normalize()
   return { up, left: across, front: across.clone().cross(up), scale: signer.scale }

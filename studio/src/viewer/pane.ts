@@ -10,6 +10,7 @@ import { DrawnBody } from './drawn_body'
 import { Lights } from './lights'
 import { facingOf, type Facing } from './facing'
 import { Proportions } from './proportions'
+import { stanceOf } from './stance'
 import { Trails } from './trails'
 
 /** One motion on the stage: its signer, light and camera. */
@@ -42,7 +43,7 @@ export class Pane {
   constructor(readonly motion: OpenedMotion) {
     this.store = motion.store
     const { skeleton } = motion.store
-    this.signer = new Proportions(skeleton, motion.rig)
+    this.signer = new Proportions(skeleton, motion.rig, stanceOf(motion))
     this.facing = facingOf(motion, this.signer)
     this.camera = new SignerCamera(this.signer, this.facing)
     this.cameras = this.alone = [this.camera]
@@ -51,7 +52,7 @@ export class Pane {
     this.model = new Kinematics(skeleton)
     this.trails = new Trails(motion.store)
     this.bones = new BonesOverlay(skeleton, this.model)
-    this.body = new DrawnBody(skeleton, motion.rig)
+    this.body = new DrawnBody(this.signer)
     this.lights = new Lights(this.scene, this.facing)
     this.lights.suit(false)
     this.scene.add(this.body.object, this.trails.object, this.bones.object)

@@ -1,7 +1,9 @@
-import { Vector3 } from 'three'
-import { restPositions, type Rig, type Skeleton } from '../motion/skeleton'
+import { Matrix4, Quaternion, Vector3 } from 'three'
+import { Kinematics } from '../motion/kinematics'
+import { restPose, type Pose } from '../motion/pose'
+import type { Rig, Skeleton } from '../motion/skeleton'
 
-/** Where a signer's parts are in the rest pose, and which way the signer faces; model space, metres. */
+/** Where a signer's parts are in the pose that the body is drawn in, and which way the signer faces then; model space, metres. */
 export class Proportions {
   readonly up = new Vector3(0, 1, 0)
   /** To the signer's left. */
@@ -9,10 +11,12 @@ export class Proportions {
   readonly front = new Vector3(0, 0, 1)
   /** How large the signer is beside one whose shoulders are 0.35 m apart. */
   readonly scale: number
-  private readonly rest: Float32Array
+  private readonly model: Kinematics
 
-  constructor(readonly skeleton: Skeleton, readonly rig: Rig) {
-    this.rest = restPositions(skeleton)
+  /** `stance` is at rest where not given; see `stanceOf`. */
+  constructor(readonly skeleton: Skeleton, readonly rig: Rig, readonly stance: Pose = restPose(skeleton)) {
+    this.model = new Kinematics(skeleton)
+    this.model.update(stance)
     const pelvis = this.at('pelvis'), neck = this.at('neck') ?? this.at('head')
     const left = this.at('left_upper_arm'), right = this.at('right_upper_arm')
     if (pelvis && neck && neck.distanceTo(pelvis) > 0.05) this.up.copy(neck).sub(pelvis).normalize()
@@ -31,12 +35,20 @@ export class Proportions {
     const found = this.rig[part]
     if (!found) return undefined
     const at = this.ofJoint(found.joint)
-    if (found.offset) at.add(new Vector3(...found.offset))
+    if (found.offset) at.add(new Vector3(...found.offset).applyQuaternion(this.turnOf(found.joint)))
     return at
   }
 
   ofJoint(joint: number): Vector3 {
-    return new Vector3(this.rest[3 * joint], this.rest[3 * joint + 1], this.rest[3 * joint + 2])
+    return new Vector3().fromArray(this.model.positions, 3 * joint)
+  }
+  /** How a joint is turned. */
+  turnOf(joint: number): Quaternion {
+    return new Quaternion().fromArray(this.model.rotations, 4 * joint)
+  }
+  /** From a joint's own space to model space. */
+  matrixOf(joint: number): Matrix4 {
+    return new Matrix4().compose(this.ofJoint(joint), this.turnOf(joint), new Vector3(1, 1, 1))
   }
 
   /** A place told by steps to the left, up and to the front, in metres of a signer of scale 1. */

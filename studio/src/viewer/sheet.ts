@@ -7,6 +7,7 @@ import { facingOf } from './facing'
 import { drawsBySoftware, Pace } from './pace'
 import { Proportions } from './proportions'
 import type { Detail } from './solids'
+import { stanceOf } from './stance'
 import { signerRenderer } from './stage'
 
 /** One small player of a sheet: a motion, where it is drawn and which moment of it. */
@@ -69,9 +70,10 @@ export class Sheet {
   /** A cell for a motion; those with the same `skeleton` share a signer. */
   add(key: string, motion: OpenedMotion, skeleton: string, detail: Detail = 'plain'): SheetCell {
     let actor = this.actors.get(skeleton)
-    const facing = facingOf(motion, actor?.signer ?? new Proportions(motion.store.skeleton, motion.rig))
+    const signer = actor?.signer ?? new Proportions(motion.store.skeleton, motion.rig, stanceOf(motion))
+    const facing = facingOf(motion, signer)
     if (!actor) {
-      actor = new Actor(motion.store.skeleton, motion.rig, facing, detail)
+      actor = new Actor(signer, facing, detail)
       this.actors.set(skeleton, actor)
       this.onActor?.(actor, motion)
     }

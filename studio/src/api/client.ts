@@ -3,6 +3,9 @@ import type { Declarations } from '../motion/source'
 import type { CharacterRow, DatabaseRow, ExplainedReport, JobBegun, JobState, MediaRow, NoticeRow, RecordingInfo, RecordingRow, SignAnswer, Statistics, TransitionRow, Vocabulary } from './answers'
 import { ApiError, StudioFault } from './fault'
 
+/** How long a server may be silent while a job is under way there, in ms. */
+const kPatience = 30_000
+
 type Query = Readonly<Record<string, string | number | undefined>>
 
 /** Which piece of a recording, in ms of annotation time, and what is made anew in it. */
@@ -123,13 +126,20 @@ export class Api {
   job<Result>(id: string): Promise<JobState<Result>> {
     return this.json(path('jobs', id))
   }
-  /** Waits until a job is over, and gives its result; throws what it failed with. `told` hears how far it is. */
+  /** Waits until a job is over, and gives its result; throws what it failed with. `told` hears how far it is. A server that does not answer for a while is waited for: the job goes on there. */
   async result<Result>({ job }: JobBegun, told: (state: JobState<Result>) => void = () => {}, signal?: AbortSignal): Promise<Result> {
-    for (let wait = 100; ; wait = Math.min(1000, wait * 1.3)) {
-      const state = await this.job<Result>(job)
-      told(state)
-      if (state.state === 'done') return state.result!
-      if (state.state === 'failed' || state.state === 'cancelled') throw new ApiError(state.error?.message ?? state.state, 500, state.error?.code ?? state.state)
+    for (let wait = 100, away = 0; ; wait = Math.min(1000, wait * 1.3)) {
+      let state: JobState<Result> | undefined
+      try {
+        state = await this.job<Result>(job)
+      } catch (fault) {
+        // What is told of it, such as that there is no such job, is no silence.
+        if (fault instanceof ApiError || away > kPatience) throw fault
+      }
+      away = state ? 0 : away + wait
+      if (state) told(state)
+      if (state?.state === 'done') return state.result!
+      if (state?.state === 'failed' || state?.state === 'cancelled') throw new ApiError(state.error?.message ?? state.state, 500, state.error?.code ?? state.state)
       await new Promise((resolve) => setTimeout(resolve, wait))
       if (signal?.aborted) throw signal.reason
     }

@@ -1,0 +1,45 @@
+import { afterEach, beforeEach, expect, it, vi } from 'vitest'
+import { Api } from './client'
+import { ApiError, StudioFault } from './fault'
+
+/** What the server answers, one after the other; none where it is away. The last again and again. */
+function answering(...answers: readonly ({ status?: number; body: object } | undefined)[]) {
+  let n = 0
+  vi.stubGlobal('fetch', () => {
+    const answer = answers[Math.min(n++, answers.length - 1)]
+    return answer ? Promise.resolve(new Response(JSON.stringify(answer.body), { status: answer.status ?? 200 })) : Promise.reject(new TypeError('Failed to fetch'))
+  })
+}
+beforeEach(() => void vi.useFakeTimers())
+afterEach(() => (vi.useRealTimers(), vi.unstubAllGlobals()))
+
+/** What comes of a job when time passes. */
+async function waited(api: Api): Promise<unknown> {
+  const over = api.result({ job: '7' }).catch((fault: unknown) => fault)
+  await vi.advanceTimersByTimeAsync(120_000)
+  return over
+}
+
+it('waits for a job through a silence of the server', async () => {
+  answering({ body: { state: 'running' } }, undefined, undefined, { body: { state: 'done', result: 'stored' } })
+  expect(await waited(new Api())).toBe('stored')
+})
+
+it('gives a job up where the server stays away, or says that there is none', async () => {
+  answering(undefined)
+  expect(await waited(new Api())).toBeInstanceOf(StudioFault)
+  answering({ status: 404, body: { error: { message: 'no job 7', code: 'not_found' } } })
+  expect(await waited(new Api())).toBeInstanceOf(ApiError)
+})
+
+it('tells what recordings declare by the database that the call was about', async () => {
+  const api = new Api(), heard: unknown[] = []
+  api.onDeclarations = (declarations, database) => heard.push([database, declarations])
+  const said = { 'signweave:placeholder': 'shapes' }
+  vi.stubGlobal('fetch', (url: string) => Promise.resolve(new Response(JSON.stringify({ databases: [{ name: 'a', declarations: said }, { name: 'b', declarations: {} }], recordings: [] }),
+    { headers: /b%C3%A9|databases$/.test(url) ? { 'Signweave-Declarations': JSON.stringify(said) } : {} })))
+  await api.databases()
+  await api.recordings('a')
+  await api.recordings('bé')
+  expect(heard).toEqual([['a', said], ['bé', said]])
+})

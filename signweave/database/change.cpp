@@ -25,6 +25,13 @@ namespace signweave {
 
 namespace {
 
+/// Where a file lay is nothing that a database tells others: of `…/a.eaf: Gloss` it keeps `a.eaf: Gloss`.
+void drop_folder(std::string& where, const std::string& file) {
+  if (file.empty()) return;
+  const std::size_t at = where.rfind('/' + file);
+  if (at != std::string::npos) where.erase(0, at + 1);
+}
+
 void require_tolerance(float tolerance) {
   if (tolerance >= 0 && std::isfinite(tolerance)) return;
   throw Error(ErrorCode::bad_input, "a tolerance must be 0 or a length in metres");
@@ -204,6 +211,13 @@ void Database::put(const Recording& recording, const Progress& progress) {
   info.tiers_given = recording.tiers_given;
   info.signer_given = recording.signer_given;
   info.notices = recording.notices;
+  for (Notice& notice : info.notices) {
+    for (const std::string& file : {recording.motion ? recording.motion->file : info.motion_file,
+                                    recording.motion ? recording.motion->face_file : info.face_file,
+                                    recording.annotation ? recording.annotation->file : info.annotation_file}) {
+      drop_folder(notice.where, file);
+    }
+  }
   info.rig = rig;
   if (new_rig) info.defects = std::move(defects);
   if (recording.motion) {

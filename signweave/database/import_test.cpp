@@ -285,6 +285,18 @@ TEST_F(ImportTest, SignsOutsideTheMotionAreReported) {
   EXPECT_THAT(notices_, testing::Contains(HasSubstr("2 of 3 signs lie outside the motion (the first: B at 400 ms)")));
 }
 
+TEST_F(ImportTest, NoticesAreKeptWithoutTheFoldersThatTheFilesLayIn) {
+  write_motion("sub/a.bvh", 1, 50);
+  write_annotation("sub/a.eaf", {"A", "B", "C"});
+  import_all();
+  const std::shared_ptr<const Contents> contents = Database(folder_ / "db", kv::Access::read_only).contents();
+  std::vector<std::string> places;
+  for (const Notice& notice : contents->recordings.at(0).notices) places.push_back(notice.where);
+  EXPECT_THAT(places, testing::Contains("a.eaf"));
+  EXPECT_THAT(places, testing::Contains("a.bvh"));
+  EXPECT_THAT(places, testing::Not(testing::Contains(HasSubstr(folder_.string()))));
+}
+
 TEST_F(ImportTest, PhaseLabelsAreReadFromATable) {
   write_text("labels.txt", "# ours\nVorbereitung = preparation\n  Halten=stroke\n");
   const auto labels = read_phase_labels(files() / "labels.txt");

@@ -294,7 +294,7 @@ TEST_F(ImportTest, NoticesAreKeptWithoutTheFoldersThatTheFilesLayIn) {
   for (const Notice& notice : contents->recordings.at(0).notices) places.push_back(notice.where);
   EXPECT_THAT(places, testing::Contains("a.eaf"));
   EXPECT_THAT(places, testing::Contains("a.bvh"));
-  EXPECT_THAT(places, testing::Not(testing::Contains(HasSubstr(folder_.string()))));
+  EXPECT_THAT(places, testing::Not(testing::Contains(HasSubstr(files().string()))));
 }
 
 TEST_F(ImportTest, PhaseLabelsAreReadFromATable) {

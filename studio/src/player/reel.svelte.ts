@@ -1,7 +1,7 @@
 import type { Declarations, MotionSource } from '../motion/source'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport } from '../viewer/transport'
-import { Opening } from './opening'
+import { Worn } from './opening'
 
 const kTellMs = 200
 
@@ -12,6 +12,8 @@ export interface ReelSource {
   /** From the first's time to this one's; the same where not given. Asked for when all are open. */
   readonly timeOf?: (first: Strand, own: Strand) => (seconds: number) => number
 }
+
+interface Opened { readonly strands: readonly Strand[]; readonly times: ReadonlyMap<Strand, (seconds: number) => number> }
 
 /** Motions that are shown together for as long as somebody looks at them, without annotation of their own. */
 export class Reel implements Showing {
@@ -25,16 +27,27 @@ export class Reel implements Showing {
   arrivals = $state(0)
   /** One for each motion that is shown. */
   declarations = $state.raw<readonly Declarations[]>([])
-  private current?: Opening
-  private next?: Opening
-  private closed = false
+  private readonly worn: Worn<Opened>
   private told = 0
-  private times = new Map<Strand, (seconds: number) => number>()
+  private times: Opened['times'] = new Map()
 
   /** `sources` makes them in a character's joints (none: the recordings' own). Several may be told one at a time: close the reel before. */
   constructor(private readonly sources: (character: string | undefined) => readonly ReelSource[], character: Promise<string | undefined>,
               private readonly onOpen?: () => void) {
-    character.then((name) => this.wear(name)).catch((fault: unknown) => this.fail(fault))
+    this.worn = new Worn<Opened>(character, {
+      open: async (opening) => {
+        const all = this.sources(opening.character)
+        const strands = await Promise.all(all.map(({ role, source }) => opening.strand(role, source)))
+        return { strands, times: new Map(strands.map((strand, i) => [strand, all[i].timeOf?.(strands[0], strand) ?? ((seconds: number) => seconds)])) }
+      },
+      shown: (opened) => this.show(opened),
+      progress: (source) => this.progress(source),
+      note: (fault) => (this.trouble = fault),
+      fail: (fault) => {
+        this.fault = fault
+        this.status = 'failed'
+      },
+    })
   }
 
   timeOf(strand: Strand): (seconds: number) => number {
@@ -43,36 +56,16 @@ export class Reel implements Showing {
 
   /** The same motions in another character's joints; what is shown stays until they are there. */
   wear(character: string | undefined): void {
-    const newest = this.next ?? this.current
-    if (this.closed || (newest && newest.character === character)) return
-    this.next?.close()
-    const next = (this.next = new Opening(character, (fault) => this.note(fault), (source) => this.progress(source)))
-    const all = this.sources(character)
-    Promise.all(all.map(({ role, source }) => next.strand(role, source))).then((strands) => {
-      if (this.next !== next) return
-      this.current?.close()
-      this.current = next
-      this.next = undefined
-      this.times = new Map(strands.map((strand, i) => [strand, all[i].timeOf?.(strands[0], strand) ?? ((seconds: number) => seconds)]))
-      this.show(strands)
-    }).catch((fault: unknown) => {
-      next.close()
-      if (this.next !== next) return
-      this.next = undefined
-      if (this.current) this.note(fault)
-      else this.fail(fault)
-    })
+    this.worn.wear(character)
   }
 
   close(): void {
-    this.closed = true
-    this.current?.close()
-    this.next?.close()
-    this.next = undefined
+    this.worn.close()
   }
 
-  private show(strands: readonly Strand[]): void {
+  private show({ strands, times }: Opened): void {
     const first = this.strands.length === 0
+    this.times = times
     this.strands = strands
     this.transport.rate = strands[0].motion.store.rate
     this.transport.duration = Math.max(...strands.map(({ motion }) => motion.store.seconds))
@@ -84,18 +77,8 @@ export class Reel implements Showing {
 
   private progress(source: MotionSource): void {
     const now = performance.now()
-    if (this.closed || (!source.complete && now - this.told < kTellMs)) return
+    if (!source.complete && now - this.told < kTellMs) return
     this.told = now
     ++this.arrivals
-  }
-
-  private note(fault: unknown): void {
-    if (!this.closed) this.trouble = fault
-  }
-
-  private fail(fault: unknown): void {
-    if (this.closed) return
-    this.fault = fault
-    this.status = 'failed'
   }
 }

@@ -11,7 +11,7 @@ import { StreamSource } from '../motion/stream_source'
 import type { Route } from '../ui/route'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport } from '../viewer/transport'
-import { Opening } from './opening'
+import { Worn, type Opening } from './opening'
 
 /** What the player can show. */
 export type Shown = Extract<Route, { page: 'recording' | 'sign' | 'edit' }>
@@ -44,23 +44,29 @@ export class Session implements Showing {
   leftOut = $state(0)
   /** Pairs the strands sign by sign; else by time. */
   bySign = $state(true)
-  /** What is open, and what is being opened in another character's joints. */
-  private current?: Opening
-  private next?: Opening
+  private readonly worn: Worn<{ strands: readonly Strand[]; main: Strand }>
   private steps = $state.raw<Steps | undefined>()
   /** Of an edit, the annotation of the recording that was edited. */
   original = $state.raw<AnnotationDocument>(kEmpty)
   private originalRead?: Promise<void>
   /** Of a live stream: from which frame on which gloss is signed; none at rest. */
   private readonly places: { frame: number; gloss?: string }[] = []
-  private closed = false
   private told = 0
 
   /** `character` names whose joints the poses are for; none for the recordings' own. */
   constructor(private readonly api: Api, readonly shown: Shown, character: Promise<string | undefined>) {
     if (shown.page === 'recording') this.transport.time = shown.at || Math.max(0, (shown.span?.[0] ?? 0) / 1000)
+    this.worn = new Worn(character, {
+      open: (opening) => this.strandsOf(opening),
+      shown: ({ strands, main }) => this.show(strands, main),
+      progress: (source) => this.progress(source),
+      note: (fault) => (this.trouble = fault),
+      fail: (fault) => {
+        this.fault = fault
+        this.status = 'failed'
+      },
+    })
     this.annotateAll()
-    character.then((name) => this.wear(name)).catch((fault: unknown) => this.fail(fault))
   }
 
   /** The time of a strand beside a time of the main one, both in seconds from frame 0. */
@@ -94,30 +100,11 @@ export class Session implements Showing {
 
   /** The same motions in another character's joints; what is shown stays until they are there. */
   wear(character: string | undefined): void {
-    const newest = this.next ?? this.current
-    if (this.closed || (newest && newest.character === character)) return
-    this.next?.close()
-    const next = (this.next = new Opening(character, (fault) => this.note(fault), (source) => this.progress(source)))
-    this.strandsOf(next).then(({ strands, main }) => {
-      if (this.next !== next) return
-      this.current?.close()
-      this.current = next
-      this.next = undefined
-      this.show(strands, main)
-    }).catch((fault: unknown) => {
-      next.close()
-      if (this.next !== next) return
-      this.next = undefined
-      if (this.current) this.note(fault)
-      else this.fail(fault)
-    })
+    this.worn.wear(character)
   }
 
   close(): void {
-    this.closed = true
-    this.current?.close()
-    this.next?.close()
-    this.next = undefined
+    this.worn.close()
   }
 
   private async strandsOf(opening: Opening): Promise<{ strands: readonly Strand[]; main: Strand }> {
@@ -180,7 +167,7 @@ export class Session implements Showing {
   private async annotate(eaf: Promise<string>): Promise<void> {
     try {
       const read = readEaf(await eaf)
-      if (!this.closed) this.document = read
+      if (!this.worn.closed) this.document = read
     } catch (fault) {
       // What cannot be signed is told by the motion, which is refused alike.
       if (!(fault instanceof ApiError && (fault.status === 404 || fault.status === 400))) this.note(fault)
@@ -211,7 +198,6 @@ export class Session implements Showing {
   }
 
   private progress(source: MotionSource): void {
-    if (this.closed) return
     const main = source === this.main?.source
     if (main) {
       const first = this.transport.duration === 0
@@ -229,13 +215,7 @@ export class Session implements Showing {
   }
 
   private note(fault: unknown): undefined {
-    if (!this.closed) this.trouble = fault
-  }
-
-  private fail(fault: unknown): void {
-    if (this.closed) return
-    this.fault = fault
-    this.status = 'failed'
+    this.worn.note(fault)
   }
 }
 

@@ -42,7 +42,7 @@ it('keeps what is shown until the same is there in other joints', async () => {
   await settled()
   expect(events.slice(4)).toEqual(['closed d', 'beside: no d'])
   worn.close()
-  made.get('c')!.source.onProgress?.({} as never)
+  made.get('c')!.source.onProgress?.(true)
   expect(events.slice(6)).toEqual(['closed c'])
 })
 

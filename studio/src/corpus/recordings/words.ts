@@ -21,7 +21,9 @@ const en = {
   mode_by_joint_and_frame: 'by joint and frame: one joint, pieces of time',
   perPacket: 'Frames in a piece', perPacketHint: 'as many as fit well', compactField: 'Rounded within, mm', compactHint: 'Empty: as it is. 0: exactly. 0.1 takes an eighth to a quarter of the space. What was rounded stays so.',
   documents: 'How annotation is stored', documents_document: 'each document in one record', documents_node: 'each annotation a record',
-  now: 'Now, for those to come: {mode}', start: 'Change', running: 'Storing anew…', changed: 'Stored anew: {n} of {all}', wrong: 'This is no number that can be used here',
+  now: 'Now, for those to come: {mode}', start: 'Change', running: 'Storing anew…',
+  stopped: 'Cancelled: everything is as it was.', stoppedSome: 'Cancelled: what was stored anew until then stays so, the others are as they were.',
+  changed: 'Stored anew: {n} of {all}', wrong: 'This is no number that can be used here',
   sortedBy: 'Sort by {name}',
 }
 export type RecordingsWords = { readonly [key in keyof typeof en]: string }
@@ -48,7 +50,9 @@ const fr: RecordingsWords = {
   mode_by_joint_and_frame: 'by joint and frame : une articulation, morceaux de temps',
   perPacket: 'Images par morceau', perPacketHint: 'autant qu’il convient', compactField: 'Arrondi à, mm', compactHint: 'Vide : tel quel. 0 : exactement. 0,1 prend un huitième à un quart de la place. Ce qui a été arrondi le reste.',
   documents: 'Stockage de l’annotation', documents_document: 'chaque document en un enregistrement', documents_node: 'chaque annotation séparément',
-  now: 'Maintenant, pour ceux à venir : {mode}', start: 'Changer', running: 'Nouveau stockage…', changed: 'Stockés à nouveau : {n} sur {all}', wrong: 'Ce n’est pas un nombre utilisable ici',
+  now: 'Maintenant, pour ceux à venir : {mode}', start: 'Changer', running: 'Nouveau stockage…',
+  stopped: 'Annulé : tout est comme avant.', stoppedSome: 'Annulé : ce qui était déjà stocké à nouveau le reste, les autres sont comme avant.',
+  changed: 'Stockés à nouveau : {n} sur {all}', wrong: 'Ce n’est pas un nombre utilisable ici',
   sortedBy: 'Trier par {name}',
 }
 export const words: Readonly<Record<'en' | 'fr', RecordingsWords>> = { en, fr }

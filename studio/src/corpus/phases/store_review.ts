@@ -1,8 +1,12 @@
 import type { Imported, ImportResult, Inspected, Inspection } from '../../api/corpus_answers'
 import type { Api } from '../../api/client'
 import { beginUpload, discardUpload, openUpload, sendFile } from '../../api/corpus_calls'
+import { isPlain } from '../import/file_kinds'
+import { tableOf } from '../import/pairs'
 import type { Written } from './checked_tiers'
 import { encoded } from './xml_text'
+
+const kTable = 'pairs.csv'
 
 /** Which tiers the phases of signs come from: a choice, and the tiers that it means. */
 export interface PhaseChoice { readonly kind: 'now' | 'right' | 'left' | 'both'; readonly tiers: readonly string[] }
@@ -29,19 +33,29 @@ export function isTold(report: Inspected, { tiers }: PhaseChoice): boolean {
   return taken.length === tiers.length && tiers.every((tier) => taken.includes(tier))
 }
 
-/** A document that lies with the server, ready to be stored. */
-export interface Sent { readonly upload: string; readonly report: Inspected | undefined }
+/** A document that lies with the server, ready to be stored; `body` says which recording it is of. */
+export interface Sent { readonly upload: string; readonly body: object; readonly report: Inspected | undefined }
 
-/** Sends the document alone, under the recording's name, and has it looked at. */
+/** The name that a recording's document is sent under, and the table that says which recording it is of where that name does not. */
+export function filesFor(recording: string): { readonly file: string; readonly table?: string } {
+  if (isPlain(`${recording}.eaf`)) return { file: `${recording}.eaf` }
+  // A folder in front, or what no file may be called.
+  const last = `${recording.split('/').at(-1)}.eaf`, file = isPlain(last) ? last : 'review.eaf'
+  return { file, table: tableOf([{ motion: null, annotation: file, face: null, signer: '', name: recording }]) }
+}
+
+/** Sends the document alone, and has it looked at. */
 export async function sendReview(api: Api, database: string, recording: string, text: string, signal: AbortSignal): Promise<Sent> {
   const upload = await openUpload(api, database)
-  await sendFile(api, database, upload, `${recording}.eaf`, new Blob([encoded(text)]), () => {}, signal)
-  const { recordings } = await api.result<Inspection>(await beginUpload(api, database, upload, 'inspect', {}), () => {}, signal)
-  return { upload, report: recordings[0] }
+  const { file, table } = filesFor(recording), body = table ? { pairs: kTable } : {}
+  await sendFile(api, database, upload, file, new Blob([encoded(text)]), () => {}, signal)
+  if (table) await sendFile(api, database, upload, kTable, new Blob([table]), () => {}, signal)
+  const { recordings } = await api.result<Inspection>(await beginUpload(api, database, upload, 'inspect', body), () => {}, signal)
+  return { upload, body, report: recordings[0] }
 }
 /** Stores what was sent: the recording's annotation is replaced. */
-export async function storeSent(api: Api, database: string, { upload, report }: Sent, choice: PhaseChoice | undefined): Promise<Imported> {
-  const body = choice && report && !isTold(report, choice) ? { phase_tier: choice.tiers } : {}
+export async function storeSent(api: Api, database: string, { upload, body: about, report }: Sent, choice: PhaseChoice | undefined): Promise<Imported> {
+  const body = { ...about, ...(choice && report && !isTold(report, choice) ? { phase_tier: choice.tiers } : {}) }
   const { recordings } = await api.result<ImportResult>(await beginUpload(api, database, upload, 'import', body))
   return recordings[0]
 }

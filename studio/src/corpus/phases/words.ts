@@ -30,7 +30,7 @@ const en = {
   download: 'Save as EAF', store: 'Store in the database',
   storeWhat: 'The annotation of {name} in {database} is replaced by this file: its tiers as they are, and those above. The motion stays.',
   storeAnvil: 'The stored annotation is ANVIL ({file}): it becomes EAF.', storeNew: 'The recording has no annotation yet: this becomes it.',
-  readOnly: '{database} is served for reading only: save the EAF, and import it elsewhere.', noPlain: 'The recording’s name is no file name that can be sent: save the EAF, and import it with the command line.',
+  readOnly: '{database} is served for reading only: save the EAF, and import it elsewhere.',
   signPhases: 'Where phases of signs come from', fromNow: 'as now: {tiers}', fromChecked: 'the checked phases: {tier}', fromBoth: 'the checked phases of both hands', noSigns: 'There are no signs: the phases can be seen and exported, and belong to signs once there are glosses.',
   looking: 'Looking at it…', storing: 'Storing…', outcome: 'Stored: {outcome}', unknownRecording: 'The server does not know the recording {name}: nothing was stored.', cancel: 'Cancel', close: 'Close', again: 'Look again',
 }
@@ -67,7 +67,7 @@ const fr: PhasesWords = {
   download: 'Enregistrer en EAF', store: 'Stocker dans la base',
   storeWhat: 'L’annotation de {name} dans {database} est remplacée par ce fichier : ses tiers tels quels, et ceux ci-dessus. Le mouvement reste.',
   storeAnvil: 'L’annotation stockée est en ANVIL ({file}) : elle devient EAF.', storeNew: 'L’enregistrement n’a pas encore d’annotation : ceci le devient.',
-  readOnly: '{database} n’est servie qu’en lecture : enregistrez l’EAF, et importez-le ailleurs.', noPlain: 'Le nom de l’enregistrement n’est pas un nom de fichier qui peut être envoyé : enregistrez l’EAF, et importez-le en ligne de commande.',
+  readOnly: '{database} n’est servie qu’en lecture : enregistrez l’EAF, et importez-le ailleurs.',
   signPhases: 'D’où viennent les phases des signes', fromNow: 'comme maintenant : {tiers}', fromChecked: 'les phases vérifiées : {tier}', fromBoth: 'les phases vérifiées des deux mains', noSigns: 'Il n’y a pas de signes : les phases peuvent être vues et exportées, et appartiendront à des signes dès qu’il y aura des gloses.',
   looking: 'Examen…', storing: 'Enregistrement…', outcome: 'Stocké : {outcome}', unknownRecording: 'Le serveur ne connaît pas l’enregistrement {name} : rien n’a été stocké.', cancel: 'Annuler', close: 'Fermer', again: 'Examiner à nouveau',
 }

@@ -38,7 +38,8 @@ it('says that there is no tier where somebody took all for something else, and w
 
 it('makes one call for recordings that are told the same', () => {
   const rig = { left_hand: 'wrist_a' }
-  const groups = grouped([{ key: 'a', motion: 'a.bvh' }, { key: 'b', motion: 'b.bvh', one: { settings: {}, rig } }, { key: 'c', motion: 'c.bvh', one: { settings: {} } },
+  const groups = grouped([{ key: 'a', motion: 'a.bvh' }, { key: 'b', motion: 'b.bvh', one: { settings: {}, rig } },
+    { key: 'c', motion: 'c.bvh', one: { settings: {} } },
     { key: 'd', motion: null, one: { settings: {}, rig } }], { settings: {}, signer: 'Zoé' })
   expect(groups.map(({ keys, rig: text }) => [keys, text])).toEqual([[['a', 'c', 'd'], ''], [['b'], 'left_hand = wrist_a\n']])
 })

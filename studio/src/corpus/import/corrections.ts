@@ -13,7 +13,8 @@ export interface Setting {
   /** What may be typed. */
   readonly pattern?: RegExp
 }
-export type SettingName = 'up' | 'unit' | 'mirror' | 'root_unit' | 'root_order' | 'source_rate' | 'take' | 'offset_ms' | 'face_offset_ms' | 'face_timecode' | 'sync' | 'replace_motion'
+export type SettingName = 'up' | 'unit' | 'mirror' | 'root_unit' | 'root_order' | 'source_rate' | 'take' | 'offset_ms' | 'face_offset_ms' | 'face_timecode'
+  | 'sync' | 'replace_motion'
   | 'no_sign_tier' | 'no_phase_tier'
 
 const kKeyed = ['.fbx', '.glb', '.gltf'], kNumber = /^[-+]?\d+([.,]\d+)?$/
@@ -109,10 +110,12 @@ export function mendOf(notice: string): Readonly<Partial<Record<SettingName, str
 }
 
 /** What goes into one call: recordings that are told the same. */
-export interface Group { readonly keys: readonly string[]; readonly body: Readonly<Record<string, unknown>>; /** The mapping file's text; empty where there is none. */ readonly rig: string }
+export interface Group { readonly keys: readonly string[]; readonly body: Readonly<Record<string, unknown>>;
+  /** The mapping file's text; empty where there is none. */ readonly rig: string }
 
 /** Puts recordings that are told the same into one call. */
-export function grouped(recordings: readonly { readonly key: string; readonly motion: string | null; readonly one?: Corrections }[], all: Corrections): readonly Group[] {
+export function grouped(recordings: readonly { readonly key: string; readonly motion: string | null; readonly one?: Corrections }[],
+  all: Corrections): readonly Group[] {
   const groups = new Map<string, { keys: string[]; body: Readonly<Record<string, unknown>>; rig: string }>()
   for (const { key, motion, one } of recordings) {
     const body = parametersOf(all, one, motion), rig = motion ? rigText({ ...all.rig, ...one?.rig }) : ''

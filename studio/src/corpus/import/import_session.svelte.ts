@@ -14,7 +14,12 @@ const kTable = 'pairs.csv'
 const kSettle = 700
 
 /** What is being done, `part` of it being over, 0 to 1. */
-export interface Doing { readonly what: 'inspect' | 'import'; readonly part: number; /** Of an import, the recordings of the call in their order, and how far it is. */ readonly call?: { readonly keys: readonly string[]; readonly part: number } }
+export interface Doing {
+  readonly what: 'inspect' | 'import'
+  readonly part: number
+  /** Of an import, the recordings of the call in their order, and how far it is. */
+  readonly call?: { readonly keys: readonly string[]; readonly part: number }
+}
 
 /** One import from choosing files to what became of them. It outlives the page, so that nothing is lost where somebody looks at something else. */
 export class ImportSession {

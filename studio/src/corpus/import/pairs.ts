@@ -64,8 +64,10 @@ export function extended(pairs: readonly Pair[], names: ReadonlySet<string>, all
   const isNew = (part: FilePart) => (name: string) => !kept.some((pair) => pair[part] === name)
   const annotations = all.annotation.filter(isNew('annotation')), faces = all.face.filter(isNew('face'))
   const like = (list: readonly string[], name: string) => list.find((other) => stem(other) === stem(name)) ?? null
-  const motions = all.motion.filter(isNew('motion')).map((motion): Pair => ({ motion, annotation: like(annotations, motion), face: like(faces, motion), signer: '' }))
-  const alone = annotations.filter((name) => !motions.some(({ annotation }) => annotation === name)).map((annotation): Pair => ({ motion: null, annotation, face: null, signer: '' }))
+  const motions = all.motion.filter(isNew('motion'))
+    .map((motion): Pair => ({ motion, annotation: like(annotations, motion), face: like(faces, motion), signer: '' }))
+  const alone = annotations.filter((name) => !motions.some(({ annotation }) => annotation === name))
+    .map((annotation): Pair => ({ motion: null, annotation, face: null, signer: '' }))
   return named([...kept, ...motions, ...alone], stem)
 }
 

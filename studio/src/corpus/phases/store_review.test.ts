@@ -2,7 +2,8 @@ import { expect, it } from 'vitest'
 import type { HandName, Inspected, TierReport } from '../../api/corpus_answers'
 import { choicesOf, filesFor, isTold } from './store_review'
 
-const tier = (name: string, role: TierReport['role'], hand: HandName = 'both'): TierReport => ({ tier: name, parent: null, annotations: 1, labels: 1, role, hand })
+const tier = (name: string, role: TierReport['role'], hand: HandName = 'both'): TierReport => ({ tier: name, parent: null, annotations: 1, labels: 1, role,
+  hand })
 const report = (...tiers: TierReport[]): Inspected => ({ name: 'a', files: { motion: null, annotation: 'a.eaf', face: null }, known: true, tiers })
 const kWritten = [{ hand: 'right' as const, name: 'RH', count: 3 }, { hand: 'left' as const, name: 'LH', count: 5 }]
 const kinds = (one: Inspected) => choicesOf(one, kWritten).map(({ kind }) => kind)

@@ -12,8 +12,8 @@ const kTable = 'pairs.csv'
 export interface PhaseChoice { readonly kind: 'now' | 'right' | 'left' | 'both'; readonly tiers: readonly string[] }
 
 /**
- * What can be chosen, the best first; none where there are no signs. Tiers that were in use stay so where they are others than the checked ones; else the hand that does
- * more, for a sign of both hands would have the phases of both, one over the other. Signs with a tier for each hand take both.
+ * What can be chosen, the best first; none where there are no signs. Tiers that were in use stay so where they are others than the checked ones; else the
+ * hand that does more, for a sign of both hands would have the phases of both, one over the other. Signs with a tier for each hand take both.
  */
 export function choicesOf(report: Inspected, written: Written['tiers']): readonly PhaseChoice[] {
   const signs = report.tiers?.filter(({ role }) => role === 'signs') ?? []
@@ -21,7 +21,8 @@ export function choicesOf(report: Inspected, written: Written['tiers']): readonl
   const ours = written.map(({ name }) => name)
   const taken = report.tiers?.filter(({ role }) => role === 'phases').map(({ tier }) => tier) ?? []
   const now = taken.filter((tier) => !ours.includes(tier))
-  const hands = [...written].sort((a, b) => Number(taken.includes(b.name)) - Number(taken.includes(a.name)) || b.count - a.count).map(({ hand, name }): PhaseChoice => ({ kind: hand, tiers: [name] }))
+  const hands = [...written].sort((a, b) => Number(taken.includes(b.name)) - Number(taken.includes(a.name)) || b.count - a.count)
+    .map(({ hand, name }): PhaseChoice => ({ kind: hand, tiers: [name] }))
   const both: readonly PhaseChoice[] = ours.length > 1 ? [{ kind: 'both', tiers: ours }] : []
   const own = now.length > 0 ? [{ kind: 'now' as const, tiers: now }] : []
   return signs.every(({ hand }) => hand !== 'both') && signs.length > 1 ? [...own, ...both, ...hands] : [...own, ...hands, ...both]

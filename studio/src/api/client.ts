@@ -123,20 +123,28 @@ export class Api {
   vocabulary(database: string): Promise<Vocabulary> {
     return this.json(path('databases', database, 'vocabulary'))
   }
-  job<Result>(id: string): Promise<JobState<Result>> {
-    return this.json(path('jobs', id))
+  /** How far a job is; of its list of recordings only those at `from` and after it. */
+  job<Result>(id: string, from = 0): Promise<JobState<Result>> {
+    return this.json(path('jobs', id) + (from > 0 ? query({ from }) : ''))
   }
   /** Waits until a job is over, and gives its result; throws what it failed with. `told` hears how far it is. A server that does not answer for a while is waited for: the job goes on there. */
   async result<Result>({ job }: JobBegun, told: (state: JobState<Result>) => void = () => {}, signal?: AbortSignal): Promise<Result> {
+    const recordings: unknown[] = []
     for (let wait = 100, away = 0; ; wait = Math.min(1000, wait * 1.3)) {
       let state: JobState<Result> | undefined
       try {
-        state = await this.job<Result>(job)
+        state = await this.job<Result>(job, recordings.length)
       } catch (fault) {
         // What is told of it, such as that there is no such job, is no silence.
         if (fault instanceof ApiError || away > kPatience) throw fault
       }
       away = state ? 0 : away + wait
+      // A long list comes in parts, each once.
+      const more = (state?.result as { recordings?: unknown } | undefined)?.recordings
+      if (state && Array.isArray(more)) {
+        for (const one of more) recordings.push(one)
+        state = { ...state, result: { ...state.result!, recordings } }
+      }
       if (state) told(state)
       if (state?.state === 'done') return state.result!
       if (state?.state === 'failed' || state?.state === 'cancelled') throw new ApiError(state.error?.message ?? state.state, 500, state.error?.code ?? state.state)

@@ -3,7 +3,7 @@ import type { FilePart, FormatRow, Imported, ImportResult, Inspected, Inspection
 import { beginUpload, cancelJob, formats, isWritable } from '../../api/corpus_calls'
 import { ApiError } from '../../api/fault'
 import { grouped, kNone, readRig, type Corrections, type Group } from './corrections'
-import { endingOf, stemOf } from './file_kinds'
+import { endingOf, isRefusal, stemOf } from './file_kinds'
 import { added, kNoFiles, sendable, withFolderNames, without, type FileList, type Picked } from './file_list'
 import { extended, keyOf, paired, readTable, tableOf, type Pair, type TableFault } from './pairs'
 import { isGone, Sender } from './sender.svelte'
@@ -14,7 +14,12 @@ const kTable = 'pairs.csv'
 const kSettle = 700
 
 /** What is being done, `part` of it being over, 0 to 1. */
-export interface Doing { readonly what: 'inspect' | 'import'; readonly part: number; /** Of an import, the recordings of the call in their order, and how far it is. */ readonly call?: { readonly keys: readonly string[]; readonly part: number } }
+export interface Doing {
+  readonly what: 'inspect' | 'import'
+  readonly part: number
+  /** Of an import, the recordings of the call in their order, and how far it is. */
+  readonly call?: { readonly keys: readonly string[]; readonly part: number }
+}
 
 /** One import from choosing files to what became of them. It outlives the page, so that nothing is lost where somebody looks at something else. */
 export class ImportSession {
@@ -85,8 +90,17 @@ export class ImportSession {
     this.change(added(this.list, more, this.formats))
     await this.readTables()
   }
+  /** Takes files out. Reports of recordings that had one are made anew, the others stay. */
   remove(ids: readonly number[]): void {
-    this.change(without(this.list, ids, this.formats))
+    const gone = this.list.files.filter(({ id }) => ids.includes(id))
+    const list = without(this.list, ids, this.formats)
+    const isPart = (kind: string) => kParts.some((part) => part === kind)
+    // Of what is read with others, or was kept back, nobody knows which reports it is about.
+    if (this.reports.length === 0 || gone.some(({ kind, clash }) => clash || !(isRefusal(kind) || isPart(kind)))) return this.change(list)
+    const before = this.table()
+    this.list = list
+    if (gone.every(({ kind }) => isRefusal(kind))) return
+    this.repair(before, this.extended(before))
   }
   renameClashes(): void {
     this.change(withFolderNames(this.list, this.formats))
@@ -110,7 +124,6 @@ export class ImportSession {
     this.fault = undefined
     const files = sendable(this.list)
     try {
-      if (this.sender.isBeyond(files)) this.sender.forget()
       if (await this.sender.send(files)) await this.inspect()
     } catch (fault) {
       if (isGone(fault) && !again) {
@@ -138,10 +151,19 @@ export class ImportSession {
   pair(key: string, part: FilePart, file: string | null): void {
     const before = this.table()
     const after = paired(before, key, part, file, this.stemOf)
-    if (after === before) return
+    if (after !== before) this.repair(before, after)
+  }
+  private repair(before: readonly Pair[], after: readonly Pair[]): void {
+    const told = new Set(before.map((one) => JSON.stringify(one))), here = new Set(after.map(keyOf))
     this.pairs = after
-    const same = (one: Pair) => before.some((other) => JSON.stringify(other) === JSON.stringify(one))
-    this.touched(after.filter((one) => !same(one)).map(keyOf))
+    const over = this.reports.map(({ files }) => keyOf(files)).filter((key) => !here.has(key))
+    this.touched([...over, ...after.filter((one) => !told.has(JSON.stringify(one))).map(keyOf)])
+  }
+  /** The keys of recordings that there still are, as somebody said which files belong together. */
+  private present(keys: Iterable<string>): readonly string[] {
+    if (!this.pairs) return [...keys]
+    const here = new Set(this.pairs.map(keyOf))
+    return [...keys].filter((key) => here.has(key))
   }
   want(keys: readonly string[], wanted: boolean): void {
     const left = new Set(this.left)
@@ -156,7 +178,7 @@ export class ImportSession {
     this.fault = undefined
     const refused = new Map(this.refused), stale = new Set(this.stale)
     const corrected = this.all !== kNone || this.own.size > 0
-    const groups = keys ? this.groups(keys) : [{ keys: [], body: {}, rig: '' }]
+    const groups = keys ? this.groups(this.present(keys)) : [{ keys: [], body: {}, rig: '' }]
     for (const [at, group] of groups.entries()) {
       this.doing = { what: 'inspect', part: at / groups.length }
       try {
@@ -176,7 +198,9 @@ export class ImportSession {
       }
     }
     this.refused = refused
-    this.stale = stale
+    this.stale = new Set(this.present(stale))
+    const there = new Set(this.present(this.reports.map(({ files }) => keyOf(files))))
+    this.reports = this.reports.filter(({ files }) => there.has(keyOf(files)))
     // What was corrected before files were added holds for them, too.
     if (!keys && corrected && !this.fault && this.reports.length > 0) await this.inspect(this.reports.map(({ files }) => keyOf(files)))
   }
@@ -206,13 +230,14 @@ export class ImportSession {
     this.onimported?.()
   }
 
+  private readonly names = $derived(new Map(this.reports.map(({ files, name }) => [keyOf(files), name])))
   nameOf(key: string): string {
-    return this.reports.find(({ files }) => keyOf(files) === key)?.name ?? this.stemOf(key)
+    return this.names.get(key) ?? this.stemOf(key)
   }
 
   private groups(keys: readonly string[]): readonly Group[] {
-    const table = this.table()
-    return grouped(keys.map((key) => ({ key, motion: table.find((pair) => keyOf(pair) === key)?.motion ?? null, one: this.own.get(key) })), this.all)
+    const motions = new Map(this.table().map((pair) => [keyOf(pair), pair.motion]))
+    return grouped(keys.map((key) => ({ key, motion: motions.get(key) ?? null, one: this.own.get(key) })), this.all)
   }
 
   /** Which files belong together, with their signers, as the next call is to have it. */
@@ -235,6 +260,7 @@ export class ImportSession {
 
   private async once<Result>(what: 'inspect' | 'import', { keys, body, rig }: Group, told: (part: number, result?: Result) => void): Promise<Result> {
     const { api, database, sender } = this
+    await sender.retract(sendable(this.list))
     const table = this.table()
     const parameters: Record<string, unknown> = { ...body }
     if (this.pairs || table.some(({ signer }) => signer !== '')) {
@@ -268,9 +294,9 @@ export class ImportSession {
   }
 
   private outcome({ recordings }: ImportResult, group: Group): void {
-    const outcomes = new Map(this.outcomes)
+    const outcomes = new Map(this.outcomes), keys = new Map(group.keys.map((key) => [this.nameOf(key), key]))
     for (const one of recordings) {
-      const key = group.keys.find((each) => this.nameOf(each) === one.name)
+      const key = keys.get(one.name)
       if (key !== undefined) outcomes.set(key, one)
     }
     this.outcomes = outcomes
@@ -292,10 +318,13 @@ export class ImportSession {
 
   private change(list: FileList): void {
     this.list = list
-    const names = new Set(list.files.map(({ name }) => name))
-    if (this.pairs) this.pairs = extended(this.pairs, names, { motion: this.filesOf('motion'), annotation: this.filesOf('annotation'), face: this.filesOf('face') }, this.stemOf)
-    if (this.sender.isBeyond(sendable(list))) this.sender.forget()
+    if (this.pairs) this.pairs = this.extended(this.pairs)
     this.forgetReports()
+  }
+  /** Pairs for the files that are there now. */
+  private extended(pairs: readonly Pair[]): readonly Pair[] {
+    const names = new Set(this.list.files.map(({ name }) => name))
+    return extended(pairs, names, { motion: this.filesOf('motion'), annotation: this.filesOf('annotation'), face: this.filesOf('face') }, this.stemOf)
   }
   private forgetReports(): void {
     this.reports = this.notices = this.faults = []

@@ -315,6 +315,12 @@ TEST(ApiChanges, AnUploadThatIsNeverFinishedIsSwept) {
   const std::string id = upload_of(api, {});
   upload_of(api, {});
   EXPECT_THAT(fault_of(api.get(at({"uploads", id}))), StartsWith("404"));
+  TestApi full(true, {.uploads = 1, .upload_idle = Seconds(3)});  // of a page that was closed
+  const std::string left = upload_of(full, {});
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  const std::string taken = upload_of(full, {});
+  EXPECT_EQ(full.get(at({"uploads", taken})).status, 200);
+  EXPECT_THAT(fault_of(full.get(at({"uploads", left}))), StartsWith("404"));
   TestApi slow(true);
   const std::string given_up = upload_of(slow, {{"a.bvh", "x"}});
   EXPECT_EQ(slow.send("DELETE", at({"uploads", given_up})).status, 200);

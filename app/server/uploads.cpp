@@ -93,6 +93,7 @@ void Uploads::require_open(const std::string& database, const std::string& id, c
 std::string Uploads::open(const std::string& database) {
   sweep();
   const std::lock_guard lock(mutex_);
+  if (uploads_.size() >= most_) give_way();
   if (uploads_.size() >= most_) {
     throw StatusError(503, "busy", fmt::format("{} uploads are open already; finish one, or wait", uploads_.size()));
   }
@@ -182,6 +183,15 @@ void Uploads::remove(std::map<std::string, Upload>::iterator upload) {
   std::error_code ignored;
   fs::remove_all(upload->second.folder, ignored);
   uploads_.erase(upload);
+}
+
+void Uploads::give_way() {
+  auto oldest = uploads_.end();
+  for (auto one = uploads_.begin(); one != uploads_.end(); ++one) {
+    if (!one->second.held && (oldest == uploads_.end() || one->second.touched < oldest->second.touched)) oldest = one;
+  }
+  if (oldest == uploads_.end() || std::chrono::steady_clock::now() - oldest->second.touched < idle_ / 6) return;
+  remove(oldest);
 }
 
 void Uploads::sweep() {

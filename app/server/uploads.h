@@ -23,7 +23,8 @@ class Uploads {
   Uploads(const Uploads&) = delete;
   Uploads& operator=(const Uploads&) = delete;
 
-  /// A new upload for a database. Throws StatusError 503 where there are as many as may be.
+  /// A new upload for a database. Where there are as many as may be, the one that nobody touched for longest gives way,
+  /// if that is a sixth of the idle time: pages are closed without a word. Else throws StatusError 503.
   std::string open(const std::string& database);
   /// Takes a file: `from` is moved where it is given, else `body` is written. Takes the place of a file of the same
   /// name. Throws Error{not_found}, Error{bad_input} for what is no plain file name, StatusError 413, Error{conflict}
@@ -56,6 +57,7 @@ class Uploads {
     bool held = false;
   };
 
+  void give_way();
   Upload& at(const std::string& database, const std::string& id);
   const Upload& at(const std::string& database, const std::string& id) const;
   const Upload& at_open(const std::string& database, const std::string& id) const;

@@ -1,8 +1,9 @@
+import type { JobBegun } from '../../api/answers'
 import type { Imported, ImportResult, Inspected, Inspection } from '../../api/corpus_answers'
 import type { Api } from '../../api/client'
-import { beginUpload, discardUpload, openUpload, sendFile } from '../../api/corpus_calls'
+import { beginUpload, cancelJob, discardUpload, openUpload, sendFile } from '../../api/corpus_calls'
 import type { Written } from './checked_tiers'
-import { encoded } from './xml_text'
+import { encoded } from '../../annotation/xml_text'
 
 /** Which tiers the phases of signs come from: a choice, and the tiers that it means. */
 export interface PhaseChoice { readonly kind: 'now' | 'right' | 'left' | 'both'; readonly tiers: readonly string[] }
@@ -35,9 +36,18 @@ export interface Sent { readonly upload: string; readonly report: Inspected | un
 /** Sends the document alone, under the recording's name, and has it looked at. */
 export async function sendReview(api: Api, database: string, recording: string, text: string, signal: AbortSignal): Promise<Sent> {
   const upload = await openUpload(api, database)
-  await sendFile(api, database, upload, `${recording}.eaf`, new Blob([encoded(text)]), () => {}, signal)
-  const { recordings } = await api.result<Inspection>(await beginUpload(api, database, upload, 'inspect', {}), () => {}, signal)
-  return { upload, report: recordings[0] }
+  let job: JobBegun | undefined
+  try {
+    await sendFile(api, database, upload, `${recording}.eaf`, new Blob([encoded(text)]), () => {}, signal)
+    job = await beginUpload(api, database, upload, 'inspect', {})
+    const { recordings } = await api.result<Inspection>(job, () => {}, signal)
+    return { upload, report: recordings[0] }
+  } catch (fault) {
+    // A server has room for a few uploads only; one that is still looked at is not given up before that ends.
+    if (job) await cancelJob(api, job.job).catch(() => {})
+    await discardUpload(api, database, upload).catch(() => {})
+    throw fault
+  }
 }
 /** Stores what was sent: the recording's annotation is replaced. */
 export async function storeSent(api: Api, database: string, { upload, report }: Sent, choice: PhaseChoice | undefined): Promise<Imported> {

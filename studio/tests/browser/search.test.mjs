@@ -149,6 +149,7 @@ test('plays a row as a loop, goes from row to row, and opens the recording there
   assert.equal(await active(), 'LE MANS')
   await page.keyboard.press('Home')
   await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('x')
   await page.keyboard.press('Enter')
   await opened(page, '#/demo/recording/meteo')
   const { loop, time } = await transport(page)
@@ -156,8 +157,10 @@ test('plays a row as a loop, goes from row to row, and opens the recording there
   near(loop.end, 4.35)
   near(time, 2.98)
   await page.waitForFunction(() => document.querySelector('.selection')?.getBoundingClientRect().width > 20)
-  await page.goBack() // to the row that was left
-  await page.waitForFunction(() => document.querySelector('.line.active .name')?.textContent === 'METEO')
+  await page.goBack() // to the row that was left, what was chosen, and the keys where they were
+  await page.waitForFunction(() => document.querySelector('.line.active .name')?.textContent === 'METEO' && document.activeElement?.matches('.rows'))
+  await page.getByText('1 chosen', { exact: true }).waitFor()
+  assert.deepEqual(await page.locator('.shown .line:has(input:checked) .name').allTextContents(), ['METEO'])
 })
 
 test('orders and filters answers', async () => {
@@ -285,6 +288,45 @@ test('scrolls through a hundred thousand answers smoothly', async () => {
     return performance.now() - start
   })
   console.log(`100 000 rows ordered by name: ${Math.round(sorting)} ms`)
+  // No address holds so many: it is said, and none is made.
+  await button('Choose all').click()
+  await page.getByText('At most 200 can be signed at a time: choose fewer.').waitFor()
+  assert.equal(await button('Sign these').isDisabled(), true)
+  assert.ok(await page.evaluate(() => [...document.querySelectorAll('a')].every(({ href }) => href.length < 10_000)))
+})
+
+test('says of a search that was stopped that there may be more', async () => {
+  await asked('gloss = "METEO"')
+  await page.evaluate(() => {
+    const real = window.fetch
+    // Two answers come, and then no more until it is given up.
+    window.fetch = (where, init) => !String(where).endsWith('/query') ? real(where, init) : Promise.resolve(new Response(new ReadableStream({
+      start(stream) {
+        stream.enqueue(new TextEncoder().encode('recording,tier,name,begin ms,end ms\nmeteo,Gloss,A,0,100\nmeteo,Gloss,B,100,200\n'))
+        init.signal.addEventListener('abort', () => stream.error(init.signal.reason))
+      },
+    })))
+  })
+  await field().fill(kAll)
+  await page.keyboard.press('Enter')
+  await page.getByText('2 so far').waitFor()
+  await button('Stop').click()
+  await page.waitForFunction(() => document.querySelector('[data-status=stopped]')?.textContent.trim() === 'Stopped after 2 answers; there may be more')
+  await page.getByText('Export', { exact: true }).click()
+  await page.getByLabel('the 2 that came before it was stopped; there may be more').waitFor()
+  await button('What to ask for').click()
+  assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "METEO"')
+})
+
+test('shows every column whole beside the player', async () => {
+  for (const [query, more] of [['like("villes"@1200..3010)', ''], ['gloss = $X', '']]) {
+    await asked(query, undefined, { more })
+    const { wide, cut } = await page.evaluate(() => {
+      const view = document.querySelector('.rows'), cells = [...view.querySelectorAll('[role=columnheader], .sort, .cell.right')]
+      return { wide: view.scrollWidth - view.clientWidth, cut: cells.filter((cell) => cell.scrollWidth > cell.clientWidth).map(({ textContent }) => textContent) }
+    })
+    assert.deepEqual({ wide, cut }, { wide: 0, cut: [] }, query)
+  }
 })
 
 test('chooses answers by key and mouse, saves them in every format, and signs them', async () => {
@@ -310,6 +352,13 @@ test('chooses answers by key and mouse, saves them in every format, and signs th
   const bvh = await saved(() => button('Motion, BVH').click())
   assert.equal(bvh.name, 'answers_bvh.zip')
   assert.equal(bvh.bytes.toString('latin1').match(/HIERARCHY/g).length, 3)
+  // The menu closes by key, and by a click elsewhere.
+  await page.keyboard.press('Escape')
+  assert.equal(await page.evaluate(() => document.activeElement.matches('summary') && !document.activeElement.parentElement.open), true)
+  await page.keyboard.press('Enter')
+  await button('CSV').waitFor()
+  await told().click()
+  await button('CSV').waitFor({ state: 'hidden' })
   await page.getByText('Sign these').click()
   const { u } = Object.fromEntries(new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]))
   const pieces = rows.slice(1).map((row) => row.split(',')).map(([recording, , , begin, end]) => `"${recording}"@${begin}..${end}`)
@@ -361,6 +410,37 @@ test('keeps queries under names, and remembers what was asked', async () => {
   assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "VANNES"')
   await button('all of VANNES', {}).first().click()
   await answered(3)
+  // A name that is taken: it is told before, and can be undone.
+  await run('gloss = "METEO"')
+  await button('What to ask for').click()
+  await page.getByRole('textbox', { name: 'Name' }).fill('all of VANNES')
+  await button('Replace all of VANNES').click()
+  const kept = () => page.locator('section:has(#saved-title) code').allTextContents()
+  assert.deepEqual(await kept(), ['gloss = "METEO"'])
+  await page.getByText('all of VANNES was replaced').waitFor()
+  await button('Undo').click()
+  assert.deepEqual(await kept(), ['gloss = "VANNES"'])
+})
+
+test('gives up an export when the page is left', async () => {
+  await asked('gloss = "VANNES" | gloss = "METEO"', 5)
+  let release
+  const held = new Promise((resolve) => (release = resolve))
+  await page.route(/format=bvh/, async (route) => {
+    await held
+    await route.continue().catch(() => {})
+  })
+  let downloads = 0
+  page.on('download', () => ++downloads)
+  await page.getByText('Export', { exact: true }).click()
+  const asking = page.waitForRequest(/format=bvh/), given = page.waitForEvent('requestfailed', (request) => /format=bvh/.test(request.url()))
+  await button('Motion, BVH').click()
+  await asking
+  await page.evaluate(() => (location.hash = '#/demo'))
+  await given
+  release()
+  await page.unroute(/format=bvh/)
+  assert.equal(downloads, 0)
 })
 
 test('tells what the server refuses, and keeps what is there', async () => {

@@ -319,8 +319,8 @@ test('says of a search that was stopped that there may be more', async () => {
 })
 
 test('shows every column whole beside the player', async () => {
-  for (const [query, more] of [['like("villes"@1200..3010)', ''], ['gloss = $X', '']]) {
-    await asked(query, undefined, { more })
+  for (const query of ['like("villes"@1200..3010)', 'gloss = $X ->[0ms..] gloss = $Y']) {
+    await asked(query)
     const { wide, cut } = await page.evaluate(() => {
       const view = document.querySelector('.rows'), cells = [...view.querySelectorAll('[role=columnheader], .sort, .cell.right')]
       return { wide: view.scrollWidth - view.clientWidth, cut: cells.filter((cell) => cell.scrollWidth > cell.clientWidth).map(({ textContent }) => textContent) }

@@ -94,11 +94,22 @@ function participantOf(tiers: readonly Element[]): string | undefined {
   return said.size === 1 ? [...said][0] || undefined : undefined
 }
 
-/** The hands whose checked phases are there in `now`, and others than in `before`. */
-export function rewritten(before: AnnotationDocument, now: AnnotationDocument): readonly Hand[] {
-  const of = ({ tiers }: AnnotationDocument, hand: Hand) => JSON.stringify(tiers.filter(({ name }) => pattern(hand).test(name)).map(({ name, annotations }) => [name, annotations]))
-  return kHands.filter((hand) => now.tiers.some(({ name }) => pattern(hand).test(name)) && of(before, hand) !== of(now, hand))
+/** What the checked phases of each hand are, as a short text that is another one where they are others; empty where there are none. */
+export type Stand = Readonly<Record<Hand, string>>
+export function standOf({ tiers }: AnnotationDocument): Stand {
+  const of = (hand: Hand) => {
+    const ours = tiers.filter(({ name }) => pattern(hand).test(name))
+    return ours.length > 0 ? `${ours.length} ${hashOf(JSON.stringify(ours.map(({ name, annotations }) => [name, annotations])))}` : ''
+  }
+  return { right: of('right'), left: of('left') }
 }
+function hashOf(text: string): string {
+  let hash = 0x811c9dc5
+  for (let i = 0; i < text.length; ++i) hash = Math.imul(hash ^ text.charCodeAt(i), 0x01000193)
+  return (hash >>> 0).toString(36)
+}
+/** The hands that have checked phases, and others than they had. */
+export const rewritten = (before: Stand, now: Stand): readonly Hand[] => kHands.filter((hand) => now[hand] !== '' && now[hand] !== before[hand])
 
 /** A document without anything, for a recording that has none. */
 export function emptyEaf(motionFile: string, date: string): string {

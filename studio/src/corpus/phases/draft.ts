@@ -1,7 +1,8 @@
+import type { Stand } from './checked_tiers'
 import { faultsOf, type Frames, type Review } from './review'
 
 /** A review that is neither stored nor given up, and of what. */
-export interface Draft { readonly frames: Frames; readonly review: Review }
+export interface Draft { readonly frames: Frames; readonly review: Review; /** The checked phases that were stored when it was begun. */ readonly stand?: Stand }
 
 const keyOf = (database: string, recording: string) => `signweave.review.${encodeURIComponent(database)}/${encodeURIComponent(recording)}`
 const kVersion = 1
@@ -20,7 +21,7 @@ export function keepDraft(database: string, recording: string, draft: Draft, see
     const key = keyOf(database, recording)
     if (revisionIn(storage.getItem(key)) !== seen) return 'changed'
     const revision = Math.random().toString(36).slice(2)
-    storage.setItem(key, JSON.stringify({ version: kVersion, revision, frames: draft.frames, review: draft.review }))
+    storage.setItem(key, JSON.stringify({ version: kVersion, revision, ...draft }))
     return { revision }
   } catch {
     return 'full'
@@ -29,8 +30,8 @@ export function keepDraft(database: string, recording: string, draft: Draft, see
 /** What was kept; none where there is nothing that can be used. */
 export function keptDraft(database: string, recording: string, storage: Storage = localStorage): Draft | undefined {
   try {
-    const { version, frames, review } = JSON.parse(storage.getItem(keyOf(database, recording)) ?? 'null') as Draft & { version: number }
-    return version === kVersion && faultsOf(review).length === 0 ? { frames, review } : undefined
+    const { version, frames, review, stand } = JSON.parse(storage.getItem(keyOf(database, recording)) ?? 'null') as Draft & { version: number }
+    return version === kVersion && faultsOf(review).length === 0 ? { frames, review, ...(stand ? { stand } : {}) } : undefined
   } catch {
     return undefined
   }

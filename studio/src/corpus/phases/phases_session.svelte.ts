@@ -3,13 +3,14 @@ import { readEaf } from '../../annotation/eaf'
 import type { StoredRecording } from '../../api/corpus_answers'
 import type { Api } from '../../api/client'
 import { annotationBytes, proposals, storedRecording } from '../../api/corpus_calls'
-import { emptyEaf, isChecked, readChecked, rewritten } from './checked_tiers'
+import { emptyEaf, isChecked, readChecked, rewritten, standOf, type Stand } from './checked_tiers'
 import { dropDraft, isKeyOf, isOf, keepDraft, keptDraft, revisionOf, type Draft, type Revision } from './draft'
 import { begun, pushed, redone, undone, type History } from './history'
 import { acceptedAll, decided, filled, find, following, inOrder, kEmpty, reviewOf, within, type Frames, type Hand, type Review, type State } from './review'
 import { decoded } from '../../annotation/xml_text'
 
 const kNoTiers: AnnotationDocument = { tiers: [] }
+const kNone: Stand = { right: '', left: '' }
 
 /** The phases of a recording under review: proposed, or taken up where somebody left them; and its annotation beside them. */
 export class PhasesSession {
@@ -38,6 +39,9 @@ export class PhasesSession {
   eaf = $state.raw('')
   /** Hands whose checked phases somebody else has stored since this review was begun: those stay. */
   beside = $state.raw<readonly Hand[]>([])
+  /** The checked phases that were stored when it was begun, and that are now. */
+  private begunOn: Stand = kNone
+  private stand: Stand = kNone
   private readonly abort = new AbortController()
   private base?: Review
   private seen: Revision
@@ -61,10 +65,9 @@ export class PhasesSession {
       this.frames = framesOf(this.info!)
       this.seen = revisionOf(this.database, this.recording)
       this.elsewhere = undefined
-      this.beside = []
       const draft = keptDraft(this.database, this.recording)
       const stored = this.readStored()
-      if (draft && isOf(draft, this.frames)) this.begin(draft.review, 'draft')
+      if (draft && isOf(draft, this.frames)) this.begin(draft.review, 'draft', draft.stand)
       else {
         this.other = draft
         if (stored) this.begin(stored, 'stored')
@@ -143,9 +146,9 @@ export class PhasesSession {
   /** Takes over a review that was of another motion, as far as it fits. */
   takeOther(): void {
     if (!this.other) return
-    const review = within(this.other.review, this.frames)
+    const review = within(this.other.review, this.frames), { stand } = this.other
     this.other = undefined
-    this.begin(review, 'draft')
+    this.begin(review, 'draft', stand)
     this.keep()
   }
   dropOther(): void {
@@ -160,6 +163,7 @@ export class PhasesSession {
     this.elsewhere = undefined
     this.seen = revisionOf(this.database, this.recording)
     this.history = pushed(this.history, draft.review)
+    this.isOn(draft.stand)
     this.changed = true
     if (!find(draft.review, this.current)) this.current = undefined
   }
@@ -175,9 +179,9 @@ export class PhasesSession {
    * reviewed.
    */
   async renew(): Promise<'same' | 'annotation' | 'motion'> {
-    const before = this.eaf, found = this.found
+    const found = this.found
     await this.read()
-    if (this.found !== found) this.beside = [...new Set([...this.beside, ...rewritten(readEaf(before), readEaf(this.eaf))])]
+    this.isOn(this.begunOn)
     if (!isOf({ frames: framesOf(this.info!), review: this.review }, this.frames)) return 'motion'
     return this.found === found ? 'same' : 'annotation'
   }
@@ -185,7 +189,7 @@ export class PhasesSession {
   /** The annotation as it is now was stored: what is decided is kept there. */
   async stored(): Promise<void> {
     await this.read()
-    this.beside = []
+    this.isOn()
     this.base = this.review
     this.changed = false
     // What is still open is in no file, so it stays here.
@@ -208,17 +212,24 @@ export class PhasesSession {
     this.elsewhere = same ? undefined : { draft: keptDraft(this.database, this.recording) }
   }
 
-  private begin(review: Review, from: 'draft' | 'stored' | 'proposed'): void {
+  private begin(review: Review, from: 'draft' | 'stored' | 'proposed', stand?: Stand): void {
     this.history = begun(review)
+    this.isOn(stand)
     this.from = from
     this.base = from === 'draft' ? undefined : review
     this.changed = from === 'draft'
     this.current = undefined
   }
+  /** The review was begun where these phases were stored: those that are now, where nothing else is known. */
+  private isOn(stand = this.stand): void {
+    this.begunOn = stand
+    const hands = rewritten(stand, this.stand)
+    if (hands.join() !== this.beside.join()) this.beside = hands
+  }
   private keep(): void {
     this.changed = this.review !== this.base
     if (this.elsewhere) return
-    const done = keepDraft(this.database, this.recording, { frames: this.frames, review: this.review }, this.seen)
+    const done = keepDraft(this.database, this.recording, { frames: this.frames, review: this.review, stand: this.begunOn }, this.seen)
     if (done === 'changed') return this.lookElsewhere()
     this.kept = done !== 'full'
     if (done !== 'full') this.seen = done.revision
@@ -232,7 +243,9 @@ export class PhasesSession {
     if (this.eaf && found === this.found) return
     this.found = found
     this.eaf = found ?? emptyEaf(info.motion_file, new Date().toISOString())
-    this.document = { tiers: readEaf(this.eaf).tiers.filter(({ name }) => isChecked(name) === undefined) }
+    const document = readEaf(this.eaf)
+    this.stand = standOf(document)
+    this.document = { tiers: document.tiers.filter(({ name }) => isChecked(name) === undefined) }
   }
 }
 

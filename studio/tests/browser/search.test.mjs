@@ -1,46 +1,17 @@
-// The search: queries, answers as a table and side by side, what is done with them.
+// The search: queries, answers as a table and side by side.
 import assert from 'node:assert/strict'
-import { readFileSync } from 'node:fs'
 import { axeFaults, transport } from './page_tools.mjs'
+import { addressOf, answered, asked, button, field, kAll, list, told } from './search_tools.mjs'
 import { address, kDeclared, page, test, visit } from './suite.mjs'
 import { opened } from './waits.mjs'
 
-const kAll = 'gloss =~ /.*/'
 const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not ${wanted}`)
-const addressOf = (text, more = '') => `#/demo/search?q=${encodeURIComponent(text)}${more}`
-const button = (name, options = { exact: true }) => page.getByRole('button', { name, ...options })
-const field = () => page.locator('.field textarea')
-const list = () => page.getByRole('grid', { name: 'Answers' })
-const told = () => page.locator('[data-status]')
-
-/** Until a query has its answers. */
-async function answered(count) {
-  await page.waitForFunction((n) => {
-    const line = document.querySelector('[data-status=answered]')
-    return line && (n === undefined || line.textContent.trim().replace(/,/g, '').startsWith(`${n} answer`))
-  }, count, { timeout: 60_000 })
-}
-/** Visits a query. Where it is not about playing, nothing plays: software takes long to draw. */
-async function asked(text, count, { more, still = true } = {}) {
-  await visit(addressOf(text, more), { still })
-  await answered(count)
-}
-const run = async (text, count) => {
-  await field().fill(text)
-  await page.keyboard.press('Enter')
-  await answered(count)
-}
 /** Until the player beside the table shows a loop of so many seconds. */
 const looped = (seconds) => page.waitForFunction((wanted) => {
   const { loop } = window.signweaveStage?.transport ?? {}
   return loop && Math.abs(loop.end - loop.begin - wanted) < 0.015 && window.signweaveStage.panes[0]?.seen
 }, seconds, { timeout: 30_000 })
 const active = () => page.evaluate(() => document.querySelector('.line.active .name')?.textContent)
-const saved = async (work) => {
-  const [download] = await Promise.all([page.waitForEvent('download'), work()])
-  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) }
-}
-
 test('completes a query where it stands, by keyboard alone', async () => {
   await visit('#/demo/search', { still: true })
   await field().focus()
@@ -295,29 +266,6 @@ test('scrolls through a hundred thousand answers smoothly', async () => {
   assert.ok(await page.evaluate(() => [...document.querySelectorAll('a')].every(({ href }) => href.length < 10_000)))
 })
 
-test('says of a search that was stopped that there may be more', async () => {
-  await asked('gloss = "METEO"')
-  await page.evaluate(() => {
-    const real = window.fetch
-    // Two answers come, and then no more until it is given up.
-    window.fetch = (where, init) => !String(where).endsWith('/query') ? real(where, init) : Promise.resolve(new Response(new ReadableStream({
-      start(stream) {
-        stream.enqueue(new TextEncoder().encode('recording,tier,name,begin ms,end ms\nmeteo,Gloss,A,0,100\nmeteo,Gloss,B,100,200\n'))
-        init.signal.addEventListener('abort', () => stream.error(init.signal.reason))
-      },
-    })))
-  })
-  await field().fill(kAll)
-  await page.keyboard.press('Enter')
-  await page.getByText('2 so far').waitFor()
-  await button('Stop').click()
-  await page.waitForFunction(() => document.querySelector('[data-status=stopped]')?.textContent.trim() === 'Stopped after 2 answers; there may be more')
-  await page.getByText('Export', { exact: true }).click()
-  await page.getByLabel('the 2 that came before it was stopped; there may be more').waitFor()
-  await button('What to ask for').click()
-  assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "METEO"')
-})
-
 test('shows every column whole beside the player', async () => {
   for (const query of ['like("villes"@1200..3010)', 'gloss = $X ->[0ms..] gloss = $Y']) {
     await asked(query)
@@ -327,45 +275,6 @@ test('shows every column whole beside the player', async () => {
     })
     assert.deepEqual({ wide, cut }, { wide: 0, cut: [] }, query)
   }
-})
-
-test('chooses answers by key and mouse, saves them in every format, and signs them', async () => {
-  await asked('gloss = "VANNES" | gloss = "METEO"', 5)
-  await list().focus()
-  await page.keyboard.press('ArrowDown')
-  await page.keyboard.press('x')
-  await page.keyboard.press('End')
-  await page.keyboard.press('Shift+X')
-  await page.getByText('4 chosen', { exact: true }).waitFor()
-  await page.getByRole('checkbox', { name: 'Choose VANNES' }).nth(1).click()
-  await page.getByText('3 chosen', { exact: true }).waitFor()
-  await page.getByText('Export', { exact: true }).click()
-  const csv = await saved(() => button('CSV').click())
-  const rows = csv.bytes.toString().trim().split('\n')
-  assert.equal(csv.name, 'answers.csv')
-  assert.deepEqual([rows.length, rows[0]], [4, 'recording,tier,name,begin ms,end ms'])
-  const json = JSON.parse((await saved(() => button('JSON').click())).bytes)
-  assert.deepEqual(json.map(({ name, begin_ms }) => `${name},${begin_ms}`), rows.slice(1).map((row) => row.split(',').slice(2, 4).join()))
-  const eaf = await saved(() => button('ELAN', {}).click())
-  assert.equal(eaf.name, 'answers_eaf.zip')
-  assert.equal(eaf.bytes.toString('latin1').match(/TIER_ID="query 1"/g).length, 2)
-  const bvh = await saved(() => button('Motion, BVH').click())
-  assert.equal(bvh.name, 'answers_bvh.zip')
-  assert.equal(bvh.bytes.toString('latin1').match(/HIERARCHY/g).length, 3)
-  // The menu closes by key, and by a click elsewhere.
-  await page.keyboard.press('Escape')
-  assert.equal(await page.evaluate(() => document.activeElement.matches('summary') && !document.activeElement.parentElement.open), true)
-  await page.keyboard.press('Enter')
-  await button('CSV').waitFor()
-  await told().click()
-  await button('CSV').waitFor({ state: 'hidden' })
-  await page.getByText('Sign these').click()
-  const { u } = Object.fromEntries(new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]))
-  const pieces = rows.slice(1).map((row) => row.split(',')).map(([recording, , , begin, end]) => `"${recording}"@${begin}..${end}`)
-  assert.equal(u.split(' ').length, 3)
-  assert.deepEqual(u.split(' ').toSorted(), pieces.toSorted())
-  const made = await fetch(`${address}/api/databases/demo/sign`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ utterance: u }) })
-  assert.equal(made.status, 200)
 })
 
 test('finds what moves like a stretch that was selected on the timeline', async () => {
@@ -383,64 +292,6 @@ test('finds what moves like a stretch that was selected on the timeline', async 
   await answered(20)
   await button('Side by side').click()
   await page.waitForFunction(() => /^0\.000/.test(document.querySelector('.cell .number')?.textContent.trim()))
-})
-
-test('keeps queries under names, and remembers what was asked', async () => {
-  await visit('#/demo/search', { still: true })
-  await page.evaluate(() => localStorage.removeItem('signweave.queries'))
-  await visit('#/demo/search', { still: true })
-  await run('gloss = "VANNES"', 3)
-  await button('What to ask for').click()
-  await page.getByRole('textbox', { name: 'Name' }).fill('tokens')
-  await button('Keep this query').click()
-  await visit('#/demo/search', { still: true })
-  await button('Rename tokens').click()
-  await page.getByRole('textbox', { name: 'New name' }).fill('all of VANNES')
-  await page.keyboard.press('Enter')
-  const file = await saved(() => button('Save as a file').click())
-  await button('Delete all of VANNES').click()
-  assert.equal(await button('Delete all of VANNES').count(), 0)
-  await button('Undo').click()
-  assert.equal(await button('Delete all of VANNES').count(), 1)
-  await button('Delete all of VANNES').click()
-  await page.locator('input[type=file]').setInputFiles({ name: file.name, mimeType: 'application/json', buffer: file.bytes })
-  await page.getByText('1 queries in the file').waitFor()
-  await page.locator('input[type=file]').setInputFiles({ name: 'x.json', mimeType: 'application/json', buffer: Buffer.from('{}') })
-  await page.getByText('This is no file of queries.').waitFor()
-  assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "VANNES"')
-  await button('all of VANNES', {}).first().click()
-  await answered(3)
-  // A name that is taken: it is told before, and can be undone.
-  await run('gloss = "METEO"')
-  await button('What to ask for').click()
-  await page.getByRole('textbox', { name: 'Name' }).fill('all of VANNES')
-  await button('Replace all of VANNES').click()
-  const kept = () => page.locator('section:has(#saved-title) code').allTextContents()
-  assert.deepEqual(await kept(), ['gloss = "METEO"'])
-  await page.getByText('all of VANNES was replaced').waitFor()
-  await button('Undo').click()
-  assert.deepEqual(await kept(), ['gloss = "VANNES"'])
-})
-
-test('gives up an export when the page is left', async () => {
-  await asked('gloss = "VANNES" | gloss = "METEO"', 5)
-  let release
-  const held = new Promise((resolve) => (release = resolve))
-  await page.route(/format=bvh/, async (route) => {
-    await held
-    await route.continue().catch(() => {})
-  })
-  let downloads = 0
-  page.on('download', () => ++downloads)
-  await page.getByText('Export', { exact: true }).click()
-  const asking = page.waitForRequest(/format=bvh/), given = page.waitForEvent('requestfailed', (request) => /format=bvh/.test(request.url()))
-  await button('Motion, BVH').click()
-  await asking
-  await page.evaluate(() => (location.hash = '#/demo'))
-  await given
-  release()
-  await page.unroute(/format=bvh/)
-  assert.equal(downloads, 0)
 })
 
 test('tells what the server refuses, and keeps what is there', async () => {

@@ -43,8 +43,11 @@ export async function sendReview(api: Api, database: string, recording: string, 
     const { recordings } = await api.result<Inspection>(job, () => {}, signal)
     return { upload, report: recordings[0] }
   } catch (fault) {
-    // A server has room for a few uploads only; one that is still looked at is not given up before that ends.
-    if (job) await cancelJob(api, job.job).catch(() => {})
+    // A server has room for a few uploads only; one that is still looked at cannot be given up before that ends.
+    if (job) {
+      await cancelJob(api, job.job).catch(() => {})
+      await api.result(job).catch(() => {})
+    }
     await discardUpload(api, database, upload).catch(() => {})
     throw fault
   }

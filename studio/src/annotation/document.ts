@@ -2,7 +2,7 @@
 export interface Annotation {
   readonly begin: number; readonly end: number; readonly label: string
   /** Of one that somebody decides about: it is drawn so. */
-  readonly state?: 'open' | 'accepted' | 'rejected'
+  readonly state?: 'open' | 'accepted' | 'unseen' | 'rejected'
   /** The one that keys and buttons are about. */
   readonly current?: boolean
 }

@@ -12,8 +12,8 @@ export const storedRecording = (api: Api, database: string, recording: string): 
 export const proposals = (api: Api, database: string, recording: string, signal?: AbortSignal): Promise<Proposals> =>
   api.json(path('databases', database, 'recordings', recording, 'segment'), { signal })
 /** The annotation's bytes, in whatever encoding it was stored. */
-export async function annotationBytes(api: Api, database: string, recording: string): Promise<ArrayBuffer> {
-  return (await api.call(path('databases', database, 'recordings', recording, 'annotation'))).arrayBuffer()
+export async function annotationBytes(api: Api, database: string, recording: string, signal?: AbortSignal): Promise<ArrayBuffer> {
+  return (await api.call(path('databases', database, 'recordings', recording, 'annotation'), { signal })).arrayBuffer()
 }
 
 export async function openUpload(api: Api, database: string): Promise<string> {

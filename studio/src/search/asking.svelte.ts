@@ -7,7 +7,7 @@ const kTellMs = 250
 
 /** A query that is asked, and its answers as they come. What was found before stays until something else comes. */
 export class Asking {
-  status = $state<'idle' | 'asking' | 'answered' | 'failed'>('idle')
+  status = $state<'idle' | 'asking' | 'answered' | 'stopped' | 'failed'>('idle')
   answers = $state.raw<readonly Answer[]>([])
   variables = $state.raw<readonly string[]>([])
   ranked = $state(false)
@@ -17,6 +17,8 @@ export class Asking {
   text = $state('')
   /** To which the answers are. */
   answered = $state('')
+  /** Whether all answers have come: not where it was stopped, or broke off. */
+  whole = $state(true)
   /** Rises with every query that is answered, not with every piece of an answer. */
   number = $state(0)
   /** From the question to the last answer. */
@@ -50,7 +52,7 @@ export class Asking {
   /** Gives up what is under way. */
   stop(): void {
     this.abort?.abort()
-    if (this.status === 'asking') this.status = this.answered ? 'answered' : 'idle'
+    if (this.status === 'asking') this.status = !this.answered ? 'idle' : this.whole ? 'answered' : 'stopped'
   }
 
   /** As if nothing had been asked. */
@@ -61,6 +63,7 @@ export class Asking {
     this.notices = []
     this.fault = undefined
     this.text = this.answered = ''
+    this.whole = true
   }
 
   private async read(csv: ReadableStream<Uint8Array>, text: string, signal: AbortSignal): Promise<void> {
@@ -72,6 +75,7 @@ export class Asking {
     const tell = () => {
       told = performance.now()
       this.answers = come.slice()
+      this.whole = false
       if (this.answered !== text || come.length === 0) this.begin(reader, text)
     }
     for (let first = true; ; first = false) {
@@ -84,6 +88,7 @@ export class Asking {
       if (performance.now() - told > kTellMs) tell()
     }
     tell()
+    this.whole = true
   }
 
   private begin(reader: AnswerReader, text: string): void {

@@ -21,6 +21,13 @@ it('puts answers on tiers of their own, none over another, and leaves all else a
   expect(order).toEqual(['HEADER', 'TIME_ORDER', 'TIER', 'TIER', 'TIER', 'LINGUISTIC_TYPE', 'LINGUISTIC_TYPE', 'LOCALE'])
   const ids = [...made.matchAll(/(?:TIME_SLOT_ID|ANNOTATION_ID)="([^"]+)"/g)].map(([, id]) => id)
   expect(new Set(ids).size).toBe(ids.length)
+  // The next program to write into it goes on where this one stopped; slots stand in the order of time.
+  expect(made).toContain('<PROPERTY NAME="lastUsedAnnotationId">4</PROPERTY>')
+  const times = [...made.matchAll(/TIME_VALUE="(\d+)"/g)].map(([, time]) => Number(time))
+  expect(times).toEqual(times.toSorted((a, b) => a - b))
+  const kept = made.split('\n'), before = kEaf.split('\n')
+  for (const line of [before[0], before[2].slice(0, 300)]) expect(kept).toContain(line)
+  expect(kept.length).toBeGreaterThan(20)
 })
 
 it('says where there is no EAF', () => expect(() => eafWith('<x/>', [])).toThrow('noEaf'))

@@ -7,10 +7,18 @@ export class Queries {
   kept = $state.raw<Kept>(read())
   /** Set where the browser stores nothing: all is kept until the page is left. */
   unstored = $state(false)
-  /** The last one that was removed, and where it was. */
-  removed = $state.raw<{ readonly query: SavedQuery; readonly at: number } | undefined>()
+  /** The last one that was removed or replaced by another of its name, and where it was. */
+  removed = $state.raw<{ readonly query: SavedQuery; readonly at: number; readonly replaced: boolean } | undefined>()
 
+  /** What has a name; none where it is free. */
+  named(name: string): SavedQuery | undefined {
+    return this.kept.saved.find((one) => one.name === name.trim())
+  }
   keep(name: string, text: string): void {
+    // Another window may have kept one of that name meanwhile.
+    const { saved } = this.unstored ? this.kept : read()
+    const at = saved.findIndex((one) => one.name === name.trim())
+    this.removed = at >= 0 && saved[at].text !== text.trim() ? { query: saved[at], at, replaced: true } : undefined
     this.change((kept) => keep(kept, name.trim(), text.trim()))
   }
   rename(from: string, to: string): void {
@@ -18,12 +26,12 @@ export class Queries {
   }
   remove(name: string): void {
     const at = this.kept.saved.findIndex((one) => one.name === name)
-    if (at >= 0) this.removed = { query: this.kept.saved[at], at }
+    if (at >= 0) this.removed = { query: this.kept.saved[at], at, replaced: false }
     this.change((kept) => remove(kept, name))
   }
   undo(): void {
     const { removed } = this
-    if (removed) this.change((kept) => restore(kept, removed.query, Math.min(removed.at, kept.saved.length)))
+    if (removed) this.change((kept) => restore(kept, removed.query, Math.min(removed.at, kept.saved.length), removed.replaced))
     this.removed = undefined
   }
   asked(text: string): void {

@@ -20,6 +20,9 @@ it('puts back what was removed where it was', () => {
   const without = remove(both, 'tokens')
   expect(without.saved).toEqual([two])
   expect(restore(without, one, 0)).toEqual(both)
+  const replaced = keep(both, 'tokens', 'unit')
+  expect(restore(replaced, one, 0, true)).toEqual(both)
+  expect(restore(without, one, 0, true)).toEqual(both)
 })
 
 it('remembers what was asked lately, each once', () => {

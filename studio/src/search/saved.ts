@@ -38,8 +38,9 @@ export function remove(kept: Kept, name: string): Kept {
   return { ...kept, saved: kept.saved.filter((one) => one.name !== name) }
 }
 
-/** Puts one that was removed back where it was. */
-export function restore(kept: Kept, query: SavedQuery, at: number): Kept {
+/** Puts one that was removed back where it was; one that was replaced takes its name again. */
+export function restore(kept: Kept, query: SavedQuery, at: number, replaced = false): Kept {
+  if (replaced && kept.saved.some(({ name }) => name === query.name)) return keep(kept, query.name, query.text)
   return { ...kept, saved: kept.saved.toSpliced(at, 0, { ...query, name: freeName(kept.saved, query.name) }) }
 }
 

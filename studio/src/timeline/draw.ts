@@ -76,7 +76,7 @@ function drawRuler(context: CanvasRenderingContext2D, { window, colors, originMs
 }
 
 /** What is decided is told by a sign, too, not by how it looks alone. */
-const kStates: Readonly<Record<NonNullable<Annotation['state']>, string>> = { open: '?', accepted: '✓', rejected: '✗' }
+const kStates: Readonly<Record<NonNullable<Annotation['state']>, string>> = { open: '?', accepted: '✓', unseen: '✓?', rejected: '✗' }
 
 function drawTier(context: CanvasRenderingContext2D, { window, colors, originMs }: Drawing, tier: Tier, y: number): void {
   let from = firstEndingAfter(tier, window.begin * 1000 + originMs)

@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { annotation, asBefore, button, empty, faultsOf, kSignweave, kWays, store } from './corpus_tools.mjs'
 import { transport } from './page_tools.mjs'
-import { address, folder, page, test, visit } from './suite.mjs'
+import { address, context, folder, page, test, visit } from './suite.mjs'
 
 /** Few pixels are drawn quickly. */
 const kSmall = { width: 960, height: 600 }
@@ -104,12 +104,50 @@ test('reviews phases by mouse and buttons', async () => {
   assert.equal((await read()).kind, one.kind)
 })
 
+test('writes nothing over a review that another window goes on with', async () => {
+  if (!page?.url().endsWith('#/mine/phases/plain')) await visit('#/mine/phases/plain', { size: kSmall })
+  await bench()
+  const mine = await draft()
+  const other = await context.newPage()
+  await other.goto(`${address}/api/formats`)
+  const theirs = (label) => other.evaluate(([key, kind]) => {
+    const one = JSON.parse(localStorage.getItem(key))
+    one.review.phases.right[0].kind = kind
+    localStorage.setItem(key, JSON.stringify({ ...one, revision: kind }))
+  }, ['signweave.review.mine/plain', label])
+  const kind = async () => (await draft()).right[0].kind
+  await theirs('theirs')
+  await page.getByText('This review was changed in another window').waitFor()
+  await press('ArrowDown', 'ArrowDown', 'v')
+  assert.equal(await kind(), 'theirs', 'the last keystroke won')
+  await button('Keep mine').click()
+  assert.equal(await kind(), mine.right[0].kind)
+  assert.notDeepEqual(await draft(), mine, 'what was done meanwhile is lost')
+  await theirs('theirs again')
+  await button('Take over what is there').click()
+  assert.equal(await page.getByText('This review was changed').count(), 0)
+  await press('Control+z', 'Control+z')
+  assert.deepEqual(await draft(), mine)
+  // Stored or given up there: nothing is kept here in its place unless somebody says so.
+  await other.evaluate(() => localStorage.removeItem('signweave.review.mine/plain'))
+  await page.getByText('stored or given up in another window').waitFor()
+  await press('v')
+  assert.equal(await draft(), undefined)
+  await press('Control+z')
+  await button('Keep mine').click()
+  assert.deepEqual(await draft(), mine)
+  await other.close()
+})
+
 test('saves checked phases beside what is annotated, as EAF and in the database, and takes them up again', async () => {
   await visit('#/mine/phases/plain', { size: kSmall })
   await bench()
   const before = await annotation('plain')
-  await press('Shift+Enter')
+  await press('Shift+Enter', 'ArrowDown', 'Enter')
+  await page.getByText('accepted with all, unseen').or(page.getByText('of these unseen:')).first().waitFor()
   const { right, left } = await draft()
+  const unseen = [...right, ...left].filter((one) => one.unseen).length
+  assert.ok(unseen > 0)
   const wanted = { 'Phase RH (checked)': right.filter(({ state }) => state === 'accepted'), 'Phase LH (checked)': left.filter(({ state }) => state === 'accepted') }
   await button('Save…').click()
   await page.getByLabel('Who checked them').fill('Zoé <b>')
@@ -122,18 +160,27 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   for (const [tier, phases] of Object.entries(wanted)) assert.match(info, new RegExp(`${tier.replace(/[()]/g, '\\$&')} +checked phase +${phases.length}\\b`))
   const written = readFileSync(eaf, 'utf8'), lines = new Set(written.split('\n'))
   assert.deepEqual(before.split('\n').filter((line) => !lines.has(line)).map((line) => line.trim().split('"')[1]), ['lastUsedAnnotationId'])
-  assert.match(written, /ANNOTATOR="signweave, checked by Zoé &lt;b&gt;"/)
+  assert.match(written, /ANNOTATOR="signweave, partly checked by Zoé &lt;b&gt;"/)
+  assert.match(written, new RegExp(`phases checked by Zoé &lt;b&gt;, ${unseen} accepted all at once without being looked at<`))
+  await page.getByText(`${unseen} were accepted all at once`).waitFor()
   const database = join(folder, 'checked', 'round.db')
   execFileSync(kSignweave, ['create', database], { stdio: 'ignore' })
   assert.match(execFileSync(kSignweave, ['import', database, eaf, '--phase-tier', 'Phase RH (checked)'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }), /plain: added.*36 signs/)
-  // In the database: what signs' phases are taken from is asked first.
+  // In the database: what signs' phases are taken from is asked first. Somebody else has stored another annotation meanwhile: it is told, and stays.
+  const colleague = (gloss) => store('plain', { motion: false, change: (text) => text.replace('>METEO<', `>${gloss}<`) })
+  await colleague('COLLEAGUE')
   await button('Store in the database…').click()
   await page.getByText('The annotation of plain in mine is replaced').waitFor()
+  await page.getByText('The annotation of plain was changed by somebody else since you began').waitFor()
   assert.ok(await page.getByLabel('as now: Phase').isChecked())
+  await colleague('AGAIN')
+  await button('Store in the database').click()
+  await page.getByText('so nothing was stored yet').waitFor()
+  assert.match(await annotation('plain'), />AGAIN</)
   await page.getByLabel('the checked phases: Phase RH (checked)').check()
   await button('Store in the database').click()
   await page.getByText('Stored: annotation replaced').waitFor({ timeout: 60_000 })
-  assert.equal(await annotation('plain'), written)
+  assert.equal(await annotation('plain'), written.replace('>METEO<', '>AGAIN<'))
   const query = encodeURIComponent('phase = stroke')
   const strokes = await (await fetch(`${address}/api/databases/mine/query?text=${query}`)).json()
   const ours = strokes.filter(({ recording }) => recording === 'plain')
@@ -147,6 +194,7 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 4), ['Right hand', 'Left hand', 'Gloss', 'Phase'])
   const decided = Object.values(wanted).flat().length
   assert.equal(await progress(), `${decided} of ${decided} decided`)
+  assert.match(await page.locator('.progress').textContent(), new RegExp(`of these unseen: ${unseen}\\b`))
   await press('ArrowDown', 'Delete', 'z')
   assert.deepEqual(all(await draft()).map(({ begin, end, kind }) => [begin, end, kind]), all({ right: wanted['Phase RH (checked)'], left: wanted['Phase LH (checked)'] }).map(({ begin, end, kind }) => [begin, end, kind]))
 })

@@ -1,9 +1,9 @@
 // @vitest-environment jsdom
 import { expect, it } from 'vitest'
 import { readEaf } from '../../annotation/eaf'
-import { emptyEaf, isChecked, readChecked, writeChecked } from './checked_tiers'
-import { decided, kEmpty, put, type Review } from './review'
-import { decoded, encoded, parseXml, unescaped } from './xml_text'
+import { emptyEaf, isChecked, readChecked, rewritten, standOf, writeChecked } from './checked_tiers'
+import { acceptedAll, decided, kEmpty, put, type Review } from './review'
+import { decoded, encoded, parseXml, unescaped } from '../../annotation/xml_text'
 
 const kEaf = `<?xml version="1.0" encoding="UTF-8"?>
 <!DOCTYPE x [<!ENTITY a "<TIER>">]>
@@ -40,7 +40,7 @@ function difference(before: string, after: string): { gone: string[]; come: stri
 
 it('adds a tier for each hand, and leaves every other byte as it was', () => {
   const { text, tiers } = writeChecked(kEaf, kReview, 'A <b>')
-  expect(tiers).toEqual([{ hand: 'right', name: 'Phase RH (checked)', count: 2 }, { hand: 'left', name: 'Phase LH (checked)', count: 1 }])
+  expect(tiers).toEqual([{ hand: 'right', name: 'Phase RH (checked)', count: 2, unseen: 0 }, { hand: 'left', name: 'Phase LH (checked)', count: 1, unseen: 0 }])
   const { gone, come } = difference(kEaf, text)
   expect(gone).toEqual(['<PROPERTY NAME="lastUsedAnnotationId">7</PROPERTY>'])
   expect(come).toContain('<PROPERTY NAME="lastUsedAnnotationId">10</PROPERTY>')
@@ -84,6 +84,30 @@ it('writes under another name where somebody hung a tier on its own', () => {
   expect(readEaf(text).tiers.find(({ name }) => name === 'Phase RH (checked)')!.annotations.length).toBe(2)
   expect(readChecked(readEaf(text))!.phases.right.length).toBe(3)
   expect([isChecked('Phase LH (checked)'), isChecked('Phase LH (proposed)'), isChecked('Phase RH (checked 2)')]).toEqual(['left', undefined, 'right'])
+})
+
+it('lets checked phases stay that somebody else stored meanwhile', () => {
+  const before = writeChecked(kEaf, kReview, 'A').text, theirs = writeChecked(before, decided(readChecked(readEaf(before))!, 1, 'rejected'), 'B').text
+  const [none, first, then] = [kEaf, before, theirs].map((text) => standOf(readEaf(text)))
+  expect([rewritten(first, then), rewritten(none, then), rewritten(first, none), rewritten(first, first)]).toEqual([['right'], ['right', 'left'], [], []])
+  const { text, tiers } = writeChecked(theirs, kReview, 'A', { hands: ['right'] })
+  expect(tiers.map(({ name }) => name)).toEqual(['Phase RH (checked 2)', 'Phase LH (checked)'])
+  expect(readEaf(text).tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([['Gloss', 1], ['Phase RH (checked)', 1], ['Phase RH (checked 2)', 2], ['Phase LH (checked)', 1]])
+})
+
+it('says which phases were accepted all at once, and knows them again', () => {
+  const open = put(put(kReview, { ...accepted('right', 'hold', 400, 500), state: 'open' }), { ...accepted('left', 'hold', 300, 500), state: 'open' })
+  const { text, tiers } = writeChecked(kEaf, acceptedAll(open), 'Z')
+  expect(tiers.map(({ unseen }) => unseen)).toEqual([1, 1])
+  expect(text).toContain('>Phase RH (checked), Phase LH (checked): proposed by signweave from motion alone, 3 of 5 phases checked by Z, 2 accepted all at once without being looked at<')
+  expect(text).toContain('ANNOTATOR="signweave, partly checked by Z"')
+  expect(text).not.toContain('each phase checked')
+  const read = readChecked(readEaf(text), text)!
+  expect([...read.phases.right, ...read.phases.left].map(({ unseen }) => unseen ?? false)).toEqual([false, false, true, false, true])
+  // Whoever looks at them, and stores, has the file say so.
+  const seen = [3, 5].reduce((review, id) => decided(review, id, 'accepted'), read)
+  const after = writeChecked(text, seen, 'Z').text
+  expect([after.includes('each phase checked by Z'), after.includes('partly'), readChecked(readEaf(after), after)!.phases.right.some(({ unseen }) => unseen)]).toEqual([true, false, false])
 })
 
 it('takes another name for its type where one of that name asks for more', () => {

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest'
-import { dropDraft, isOf, keepDraft, keptDraft } from './draft'
+import { dropDraft, isKeyOf, isOf, keepDraft, keptDraft, revisionOf } from './draft'
 import { kEmpty, put } from './review'
 
 function storage(): Storage {
@@ -12,10 +12,11 @@ const review = put(kEmpty, { hand: 'right', kind: 'stroke', begin: 0, end: 50, s
 
 it('keeps a review for its recording until it is dropped', () => {
   const here = storage()
-  expect(keepDraft('a/b', 'c', { frames, review }, here)).toBe(true)
+  const done = keepDraft('a/b', 'c', { frames, review }, undefined, here)
+  expect(done).toEqual({ revision: revisionOf('a/b', 'c', here) })
   expect(keptDraft('a/b', 'c', here)).toEqual({ frames, review })
   expect(keptDraft('a', 'b/c', here)).toBeUndefined()
-  dropDraft('a/b', 'c', here)
+  dropDraft('a/b', 'c', revisionOf('a/b', 'c', here), here)
   expect(keptDraft('a/b', 'c', here)).toBeUndefined()
 })
 
@@ -27,6 +28,26 @@ it('takes nothing that is broken, and says where nothing can be kept', () => {
     expect(keptDraft('a', 'b', here)).toBeUndefined()
   }
   const full = { setItem: () => { throw new Error('full') } } as unknown as Storage
-  expect(keepDraft('a', 'b', { frames, review }, full)).toBe(false)
+  expect(keepDraft('a', 'b', { frames, review }, undefined, full)).toBe('full')
   expect(isOf({ frames, review }, { ...frames, rate: 50 })).toBe(false)
+})
+
+it('writes over nothing that another window has kept meanwhile', () => {
+  const here = storage(), other = put(review, { hand: 'left', kind: 'hold', begin: 0, end: 50, state: 'open' })
+  const keep = (one: typeof review, seen: string | undefined) => keepDraft('a', 'b', { frames, review: one }, seen, here)
+  const first = keep(review, undefined) as { revision: string }
+  // Two windows have read it; one of them goes on.
+  const second = keep(other, first.revision) as { revision: string }
+  expect(keep(review, first.revision)).toBe('changed')
+  expect(keptDraft('a', 'b', here)!.review).toEqual(other)
+  dropDraft('a', 'b', first.revision, here)
+  expect(keptDraft('a', 'b', here)).toBeDefined()
+  dropDraft('a', 'b', second.revision, here)
+  expect(keptDraft('a', 'b', here)).toBeUndefined()
+  expect(keep(review, second.revision)).toBe('changed')
+  // One that an older studio kept has a revision, too.
+  here.setItem('signweave.review.a/b', JSON.stringify({ version: 1, frames, review }))
+  expect(keep(other, undefined)).toBe('changed')
+  expect(keep(other, revisionOf('a', 'b', here))).toHaveProperty('revision')
+  expect([isKeyOf('signweave.review.a/b', 'a', 'b'), isKeyOf('signweave.review.a/c', 'a', 'b'), isKeyOf(null, 'a', 'b')]).toEqual([true, false, true])
 })

@@ -3,13 +3,14 @@ import { readEaf } from '../../annotation/eaf'
 import type { StoredRecording } from '../../api/corpus_answers'
 import type { Api } from '../../api/client'
 import { annotationBytes, proposals, storedRecording } from '../../api/corpus_calls'
-import { emptyEaf, isChecked, readChecked } from './checked_tiers'
-import { dropDraft, isOf, keepDraft, keptDraft, type Draft } from './draft'
+import { emptyEaf, isChecked, readChecked, rewritten, standOf, type Stand } from './checked_tiers'
+import { dropDraft, isKeyOf, isOf, keepDraft, keptDraft, revisionOf, type Draft, type Revision } from './draft'
 import { begun, pushed, redone, undone, type History } from './history'
-import { acceptedAll, decided, filled, find, following, inOrder, kEmpty, reviewOf, within, type Frames, type Review, type State } from './review'
-import { decoded } from './xml_text'
+import { acceptedAll, decided, filled, find, following, inOrder, kEmpty, reviewOf, within, type Frames, type Hand, type Review, type State } from './review'
+import { decoded } from '../../annotation/xml_text'
 
 const kNoTiers: AnnotationDocument = { tiers: [] }
+const kNone: Stand = { right: '', left: '' }
 
 /** The phases of a recording under review: proposed, or taken up where somebody left them; and its annotation beside them. */
 export class PhasesSession {
@@ -32,12 +33,23 @@ export class PhasesSession {
   /** Whether something was changed that is not stored. */
   changed = $state(false)
   frames: Frames = { originMs: 0, rate: 100, count: 0 }
+  /** Another window has kept something since this one did: its review, or none where it was stored or given up there. Until somebody chooses, nothing is kept here. */
+  elsewhere = $state.raw<{ readonly draft?: Draft } | undefined>()
   /** The annotation as it is stored; what is written is written into it. */
-  eaf = ''
+  eaf = $state.raw('')
+  /** Hands whose checked phases somebody else has stored since this review was begun: those stay. */
+  beside = $state.raw<readonly Hand[]>([])
+  /** The checked phases that were stored when it was begun, and that are now. */
+  private begunOn: Stand = kNone
+  private stand: Stand = kNone
   private readonly abort = new AbortController()
   private base?: Review
+  private seen: Revision
+  /** The annotation as the server has it; none where it has none. */
+  private found?: string
 
   constructor(private readonly api: Api, readonly database: string, readonly recording: string) {
+    addEventListener('storage', this.onstorage)
     void this.open()
   }
 
@@ -49,11 +61,13 @@ export class PhasesSession {
     this.status = 'opening'
     this.fault = undefined
     try {
-      const info = await this.read()
-      this.frames = { originMs: info.clock_origin_ms ?? 0, rate: info.frames_per_second ?? 0, count: info.frames ?? 0 }
+      await this.read()
+      this.frames = framesOf(this.info!)
+      this.seen = revisionOf(this.database, this.recording)
+      this.elsewhere = undefined
       const draft = keptDraft(this.database, this.recording)
-      const stored = readChecked(readEaf(this.eaf))
-      if (draft && isOf(draft, this.frames)) this.begin(draft.review, 'draft')
+      const stored = this.readStored()
+      if (draft && isOf(draft, this.frames)) this.begin(draft.review, 'draft', draft.stand)
       else {
         this.other = draft
         if (stored) this.begin(stored, 'stored')
@@ -82,6 +96,7 @@ export class PhasesSession {
 
   close(): void {
     this.abort.abort()
+    removeEventListener('storage', this.onstorage)
   }
 
   /** Another state of the review, which can be undone. */
@@ -120,53 +135,118 @@ export class PhasesSession {
 
   /** Gives up what was not stored. */
   async discard(): Promise<void> {
-    dropDraft(this.database, this.recording)
+    this.drop()
     this.other = undefined
     this.history = begun(kEmpty)
     this.current = undefined
-    const stored = readChecked(readEaf(this.eaf))
+    const stored = this.readStored()
     if (stored) this.begin(stored, 'stored')
     else await this.propose()
   }
   /** Takes over a review that was of another motion, as far as it fits. */
   takeOther(): void {
     if (!this.other) return
-    const review = within(this.other.review, this.frames)
+    const review = within(this.other.review, this.frames), { stand } = this.other
     this.other = undefined
-    this.begin(review, 'draft')
+    this.begin(review, 'draft', stand)
     this.keep()
   }
   dropOther(): void {
     this.other = undefined
-    if (!this.changed) dropDraft(this.database, this.recording)
+    if (!this.changed) this.drop()
+  }
+
+  /** Goes on with what another window made of the review; this one's can be got back by undoing. */
+  takeElsewhere(): void {
+    const { draft } = this.elsewhere ?? {}
+    if (!draft || !isOf(draft, this.frames)) return void this.open()
+    this.elsewhere = undefined
+    this.seen = revisionOf(this.database, this.recording)
+    this.history = pushed(this.history, draft.review)
+    this.isOn(draft.stand)
+    this.changed = true
+    if (!find(draft.review, this.current)) this.current = undefined
+  }
+  /** Keeps this window's review in place of the other's. */
+  keepMine(): void {
+    this.elsewhere = undefined
+    this.seen = revisionOf(this.database, this.recording)
+    this.keep()
+  }
+
+  /**
+   * Looks at the recording again: `annotation` where somebody has stored another one since, into which this review is written from now on; `motion` where it is no more the motion that was
+   * reviewed.
+   */
+  async renew(): Promise<'same' | 'annotation' | 'motion'> {
+    const found = this.found
+    await this.read()
+    this.isOn(this.begunOn)
+    if (!isOf({ frames: framesOf(this.info!), review: this.review }, this.frames)) return 'motion'
+    return this.found === found ? 'same' : 'annotation'
   }
 
   /** The annotation as it is now was stored: what is decided is kept there. */
   async stored(): Promise<void> {
     await this.read()
+    this.isOn()
     this.base = this.review
     this.changed = false
     // What is still open is in no file, so it stays here.
-    if (inOrder(this.review).every(({ state }) => state !== 'open')) dropDraft(this.database, this.recording)
+    if (inOrder(this.review).every(({ state }) => state !== 'open')) this.drop()
   }
 
-  private begin(review: Review, from: 'draft' | 'stored' | 'proposed'): void {
+  private readStored(): Review | undefined {
+    return readChecked(readEaf(this.eaf), this.eaf)
+  }
+  private drop(): void {
+    dropDraft(this.database, this.recording, this.seen)
+    this.seen = this.elsewhere ? this.seen : undefined
+  }
+  /** Another window has kept or dropped something. */
+  private readonly onstorage = ({ key }: StorageEvent): void => {
+    if (this.status === 'open' && isKeyOf(key, this.database, this.recording)) this.lookElsewhere()
+  }
+  private lookElsewhere(): void {
+    const same = revisionOf(this.database, this.recording) === this.seen
+    this.elsewhere = same ? undefined : { draft: keptDraft(this.database, this.recording) }
+  }
+
+  private begin(review: Review, from: 'draft' | 'stored' | 'proposed', stand?: Stand): void {
     this.history = begun(review)
+    this.isOn(stand)
     this.from = from
     this.base = from === 'draft' ? undefined : review
     this.changed = from === 'draft'
     this.current = undefined
   }
+  /** The review was begun where these phases were stored: those that are now, where nothing else is known. */
+  private isOn(stand = this.stand): void {
+    this.begunOn = stand
+    const hands = rewritten(stand, this.stand)
+    if (hands.join() !== this.beside.join()) this.beside = hands
+  }
   private keep(): void {
     this.changed = this.review !== this.base
-    this.kept = keepDraft(this.database, this.recording, { frames: this.frames, review: this.review })
+    if (this.elsewhere) return
+    const done = keepDraft(this.database, this.recording, { frames: this.frames, review: this.review, stand: this.begunOn }, this.seen)
+    if (done === 'changed') return this.lookElsewhere()
+    this.kept = done !== 'full'
+    if (done !== 'full') this.seen = done.revision
   }
   /** Asks for the recording and its annotation as they are stored; one that has none gets an empty document. */
-  private async read(): Promise<StoredRecording> {
-    const info = (this.info = await storedRecording(this.api, this.database, this.recording))
+  private async read(): Promise<void> {
+    const info = await storedRecording(this.api, this.database, this.recording)
     const bytes = info.annotation_file ? await annotationBytes(this.api, this.database, this.recording) : undefined
-    this.eaf = bytes ? decoded(bytes) : emptyEaf(info.motion_file, new Date().toISOString())
-    this.document = { tiers: readEaf(this.eaf).tiers.filter(({ name }) => isChecked(name) === undefined) }
-    return info
+    const found = bytes && decoded(bytes)
+    this.info = info
+    if (this.eaf && found === this.found) return
+    this.found = found
+    this.eaf = found ?? emptyEaf(info.motion_file, new Date().toISOString())
+    const document = readEaf(this.eaf)
+    this.stand = standOf(document)
+    this.document = { tiers: document.tiers.filter(({ name }) => isChecked(name) === undefined) }
   }
 }
+
+const framesOf = ({ clock_origin_ms: originMs = 0, frames_per_second: rate = 0, frames: count = 0 }: StoredRecording): Frames => ({ originMs, rate, count })

@@ -42,9 +42,9 @@ it('goes through both hands by time, and finds what is open', () => {
 
 it('accepts, rejects, opens again and changes kinds', () => {
   const some = sound(retyped(decided(decided(kReview, 1, 'accepted'), 2, 'rejected'), 3, 'hold'))
-  expect(progressOf(some)).toEqual({ all: 4, accepted: 1, rejected: 1, open: 2 })
+  expect(progressOf(some)).toEqual({ all: 4, accepted: 1, rejected: 1, open: 2, unseen: 0 })
   expect(find(some, 3)?.kind).toBe('hold')
-  expect(progressOf(acceptedAll(some))).toEqual({ all: 4, accepted: 3, rejected: 1, open: 0 })
+  expect(progressOf(acceptedAll(some))).toEqual({ all: 4, accepted: 3, rejected: 1, open: 0, unseen: 2 })
   expect(find(decided(some, 2, 'open'), 2)?.state).toBe('open')
 })
 
@@ -111,7 +111,7 @@ it('undoes and does again', () => {
   expect(history.past.length).toBe(2)
   history = undone(undone(undone(history)))
   expect(history.now).toBe(kReview)
-  expect(progressOf(redone(redone(redone(history))).now)).toEqual({ all: 4, accepted: 1, rejected: 1, open: 2 })
+  expect(progressOf(redone(redone(redone(history))).now)).toEqual({ all: 4, accepted: 1, rejected: 1, open: 2, unseen: 0 })
   expect(pushed(redone(history), decided(kReview, 3, 'accepted')).undone).toEqual([])
 })
 
@@ -126,4 +126,13 @@ it('keeps its word through a thousand random operations', () => {
         kFrames)][random(5)]
     review = sound(next())
   }
+})
+
+it('knows what was accepted with all others, until somebody decides about it or changes it', () => {
+  const all = acceptedAll(decided(kReview, 1, 'accepted')), ids = inOrder(all).map(({ id }) => id)
+  const unseen = (review: typeof all) => inOrder(review).filter((one) => one.unseen).map(({ id }) => id)
+  expect(unseen(all)).toEqual(ids.filter((id) => id !== 1))
+  const [id] = unseen(all)
+  for (const next of [decided(all, id, 'accepted'), retyped(all, id, 'hold'), stepped(all, id, 'end', -1, kFrames)]) expect(unseen(next)).not.toContain(id)
+  expect(unseen(within(all, kFrames)).length).toBe(unseen(all).length)
 })

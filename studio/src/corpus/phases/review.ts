@@ -12,6 +12,8 @@ export interface Phase {
   readonly id: number; readonly hand: Hand; readonly kind: string; readonly begin: number; readonly end: number; readonly state: State
   /** Of a proposal: the mean probability of its kind. */
   readonly confidence?: number
+  /** Accepted with all others at once, so that nobody may have looked at it. Whoever decides about it, or changes it, has. */
+  readonly unseen?: boolean
 }
 /** The phases of both hands, those of a hand in time order; they never overlap. Every operation gives another one. */
 export interface Review { readonly phases: Readonly<Record<Hand, readonly Phase[]>>; /** The next phase's id. */ readonly next: number }
@@ -43,8 +45,7 @@ export function reviewOf({ hands }: Proposals, frames: Frames): Review {
 export function inOrder({ phases }: Review): readonly Phase[] {
   return [...phases.right, ...phases.left].sort((a, b) => a.begin - b.begin || (a.hand === b.hand ? 0 : a.hand === 'right' ? -1 : 1))
 }
-export const find = ({ phases }: Review, id: number | undefined): Phase | undefined => phases.right.find((one) => one.id === id)
-  ?? phases.left.find((one) => one.id === id)
+export const find = ({ phases }: Review, id: number | undefined): Phase | undefined => phases.right.find((one) => one.id === id) ?? phases.left.find((one) => one.id === id)
 
 /** The phase after one (direction 1) or before it (−1) in time; with `open` the next that is not decided, from the begin again where none follows. */
 export function following(review: Review, id: number | undefined, direction: 1 | -1, open = false): Phase | undefined {
@@ -53,23 +54,23 @@ export function following(review: Review, id: number | undefined, direction: 1 |
   return [...all.slice(at + 1), ...all.slice(0, Math.max(0, at))].find(({ state }) => state === 'open')
 }
 
-export interface Progress { readonly all: number; readonly accepted: number; readonly rejected: number; readonly open: number }
+export interface Progress { readonly all: number; readonly accepted: number; readonly rejected: number; readonly open: number; /** Of the accepted ones. */ readonly unseen: number }
 export function progressOf(review: Review): Progress {
   const all = inOrder(review), count = (wanted: State) => all.filter(({ state }) => state === wanted).length
-  return { all: all.length, accepted: count('accepted'), rejected: count('rejected'), open: count('open') }
+  return { all: all.length, accepted: count('accepted'), rejected: count('rejected'), open: count('open'), unseen: all.filter((one) => one.unseen).length }
 }
 
-export const decided = (review: Review, id: number, state: State) => changed(review, id, { state })
-export const retyped = (review: Review, id: number, kind: string) => changed(review, id, { kind })
-/** Accepts whatever is not decided. */
+export const decided = (review: Review, id: number, state: State) => changed(review, id, { state, unseen: undefined })
+export const retyped = (review: Review, id: number, kind: string) => changed(review, id, { kind, unseen: undefined })
+/** Accepts whatever is not decided, and marks it as accepted unseen. */
 export function acceptedAll({ phases, next }: Review): Review {
-  const accept = (list: readonly Phase[]) => list.map((one): Phase => (one.state === 'open' ? { ...one, state: 'accepted' } : one))
+  const accept = (list: readonly Phase[]) => list.map((one): Phase => (one.state === 'open' ? { ...one, state: 'accepted', unseen: true } : one))
   return { phases: { right: accept(phases.right), left: accept(phases.left) }, next }
 }
 
 /**
- * Moves a begin or an end to the nearest frame. What touched there goes along, what is in the way makes room, and every phase keeps at least a frame: the
- * border stops where its neighbour would have none.
+ * Moves a begin or an end to the nearest frame. What touched there goes along, what is in the way makes room, and every phase keeps at least a frame: the border
+ * stops where its neighbour would have none.
  */
 export function moved(review: Review, id: number, edge: Edge, ms: number, frames: Frames): Review {
   const one = find(review, id)
@@ -82,7 +83,7 @@ export function moved(review: Review, id: number, edge: Edge, ms: number, frames
   if (to === one[edge] || low > high) return review
   const far: Edge = edge === 'begin' ? 'end' : 'begin'
   const touched = other && (other[far] === one[edge] || (edge === 'begin' ? other.end > to : other.begin < to))
-  const next = changed(review, id, { [edge]: to })
+  const next = changed(review, id, { [edge]: to, unseen: undefined })
   return touched ? changed(next, other.id, { [far]: to }) : next
 }
 /** Moves a begin or an end by whole frames. */
@@ -97,20 +98,16 @@ const before = (ms: number, frames: Frames) => msOf(frameOf(ms, frames) - 1, fra
 export function split(review: Review, id: number, ms: number, frames: Frames): Review {
   const one = find(review, id), at = snapped(ms, frames)
   if (!one || at <= one.begin || at >= one.end) return review
-  return put(changed(review, id, { end: at }), { ...one, begin: at })
+  return put(changed(review, id, { end: at, unseen: undefined }), { ...one, begin: at, unseen: undefined })
 }
-/**
- * Makes one of a phase and the one after it on its hand, with what lies between them. It is of the first one's kind; where they were decided otherwise it
- * is open.
- */
+/** Makes one of a phase and the one after it on its hand, with what lies between them. It is of the first one's kind; where they were decided otherwise it is open. */
 export function merged(review: Review, id: number): Review {
   const one = find(review, id)
   if (!one) return review
   const list = review.phases[one.hand], other = list[list.indexOf(one) + 1]
   if (!other) return review
-  const { confidence, ...rest } = one
-  const whole: Phase = { ...rest, end: other.end, state: one.state === other.state ? one.state : 'open',
-    ...(confidence !== undefined && confidence === other.confidence ? { confidence } : {}) }
+  const { confidence, unseen, ...rest } = one
+  const whole: Phase = { ...rest, end: other.end, state: one.state === other.state ? one.state : 'open', ...(confidence !== undefined && confidence === other.confidence ? { confidence } : {}) }
   return { ...review, phases: { ...review.phases, [one.hand]: list.filter((each) => each !== other).map((each) => (each === one ? whole : each)) } }
 }
 /** Adds an accepted phase where a hand has none: as much of the span as is free around its begin; nothing where that is not. */
@@ -145,8 +142,8 @@ export function within(review: Review, frames: Frames): Review {
 }
 
 /** With another phase, which must lie in a gap. */
-export function put({ phases, next }: Review, { hand, kind, begin, end, state, confidence }: Omit<Phase, 'id'>): Review {
-  const one: Phase = { id: next, hand, kind, begin, end, state, ...(confidence === undefined ? {} : { confidence }) }
+export function put({ phases, next }: Review, { hand, kind, begin, end, state, confidence, unseen }: Omit<Phase, 'id'>): Review {
+  const one: Phase = { id: next, hand, kind, begin, end, state, ...(confidence === undefined ? {} : { confidence }), ...(unseen ? { unseen } : {}) }
   return { phases: { ...phases, [hand]: [...phases[hand], one].sort((a, b) => a.begin - b.begin) }, next: next + 1 }
 }
 

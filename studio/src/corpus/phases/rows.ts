@@ -7,7 +7,7 @@ export function rowsOf(review: Review, current: number | undefined, document: An
   kinds: Readonly<Record<string, string>>): AnnotationDocument {
   const rows = kHands.map((hand): Tier => ({
     name: names[hand], depth: 1,
-    annotations: review.phases[hand].map(({ id, begin, end, kind, state }) => ({ begin, end, label: kinds[kind] ?? kind, state, current: id === current })),
+    annotations: review.phases[hand].map(({ id, begin, end, kind, state, unseen }) => ({ begin, end, label: kinds[kind] ?? kind, state: unseen ? 'unseen' as const : state, current: id === current })),
   }))
   return { tiers: [...rows, ...document.tiers] }
 }

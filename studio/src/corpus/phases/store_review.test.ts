@@ -1,11 +1,12 @@
-import { expect, it } from 'vitest'
+import { expect, it, vi } from 'vitest'
+import type { Api } from '../../api/client'
+import * as calls from '../../api/corpus_calls'
 import type { HandName, Inspected, TierReport } from '../../api/corpus_answers'
-import { choicesOf, filesFor, isTold } from './store_review'
+import { choicesOf, filesFor, isTold, sendReview } from './store_review'
 
-const tier = (name: string, role: TierReport['role'], hand: HandName = 'both'): TierReport => ({ tier: name, parent: null, annotations: 1, labels: 1, role,
-  hand })
+const tier = (name: string, role: TierReport['role'], hand: HandName = 'both'): TierReport => ({ tier: name, parent: null, annotations: 1, labels: 1, role, hand })
 const report = (...tiers: TierReport[]): Inspected => ({ name: 'a', files: { motion: null, annotation: 'a.eaf', face: null }, known: true, tiers })
-const kWritten = [{ hand: 'right' as const, name: 'RH', count: 3 }, { hand: 'left' as const, name: 'LH', count: 5 }]
+const kWritten = [{ hand: 'right' as const, name: 'RH', count: 3, unseen: 0 }, { hand: 'left' as const, name: 'LH', count: 5, unseen: 0 }]
 const kinds = (one: Inspected) => choicesOf(one, kWritten).map(({ kind }) => kind)
 
 it('leaves the phases of signs where they come from, where that is another tier', () => {
@@ -22,6 +23,25 @@ it('takes the hand that was taken before, else the one that does more', () => {
 it('takes both hands where each has signs of its own, and asks nothing where there are none', () => {
   expect(kinds(report(tier('Gloss R', 'signs', 'right'), tier('Gloss L', 'signs', 'left')))).toEqual(['both', 'left', 'right'])
   expect(kinds(report(tier('Note', '')))).toEqual([])
+})
+
+it('gives up its upload where it is aborted or fails', async () => {
+  vi.spyOn(calls, 'openUpload').mockResolvedValue('u')
+  const send = vi.spyOn(calls, 'sendFile').mockRejectedValueOnce(new Error('no'))
+  const discarded = vi.spyOn(calls, 'discardUpload').mockResolvedValue()
+  const cancelled = vi.spyOn(calls, 'cancelJob').mockResolvedValue()
+  vi.spyOn(calls, 'beginUpload').mockResolvedValue({ job: 'j' })
+  const steps: string[] = []
+  const api = { result: () => (steps.push('ended'), Promise.reject(new Error('aborted'))) } as unknown as Api
+  discarded.mockImplementation(() => (steps.push('discarded'), Promise.resolve()))
+  await expect(sendReview(api, 'd', 'r', '<x/>', new AbortController().signal)).rejects.toThrow('no')
+  expect([discarded.mock.calls.length, cancelled.mock.calls.length]).toEqual([1, 0])
+  send.mockResolvedValue()
+  await expect(sendReview(api, 'd', 'r', '<x/>', new AbortController().signal)).rejects.toThrow('aborted')
+  expect([discarded.mock.calls.length, cancelled.mock.calls.length, discarded.mock.lastCall?.[2]]).toEqual([2, 1, 'u'])
+  // Not before the job is over, for the server refuses that.
+  expect(steps).toEqual(['discarded', 'ended', 'ended', 'discarded'])
+  vi.restoreAllMocks()
 })
 
 it('sends the document of a recording whose name no file can have under another, with a table that tells it', () => {

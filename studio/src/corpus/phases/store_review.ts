@@ -1,10 +1,11 @@
+import type { JobBegun } from '../../api/answers'
 import type { Imported, ImportResult, Inspected, Inspection } from '../../api/corpus_answers'
 import type { Api } from '../../api/client'
-import { beginUpload, discardUpload, openUpload, sendFile } from '../../api/corpus_calls'
+import { beginUpload, cancelJob, discardUpload, openUpload, sendFile } from '../../api/corpus_calls'
+import { encoded } from '../../annotation/xml_text'
 import { isPlain } from '../import/file_kinds'
 import { tableOf } from '../import/pairs'
 import type { Written } from './checked_tiers'
-import { encoded } from './xml_text'
 
 const kTable = 'pairs.csv'
 
@@ -49,10 +50,22 @@ export function filesFor(recording: string): { readonly file: string; readonly t
 export async function sendReview(api: Api, database: string, recording: string, text: string, signal: AbortSignal): Promise<Sent> {
   const upload = await openUpload(api, database)
   const { file, table } = filesFor(recording), body = table ? { pairs: kTable } : {}
-  await sendFile(api, database, upload, file, new Blob([encoded(text)]), () => {}, signal)
-  if (table) await sendFile(api, database, upload, kTable, new Blob([table]), () => {}, signal)
-  const { recordings } = await api.result<Inspection>(await beginUpload(api, database, upload, 'inspect', body), () => {}, signal)
-  return { upload, body, report: recordings[0] }
+  let job: JobBegun | undefined
+  try {
+    await sendFile(api, database, upload, file, new Blob([encoded(text)]), () => {}, signal)
+    if (table) await sendFile(api, database, upload, kTable, new Blob([table]), () => {}, signal)
+    job = await beginUpload(api, database, upload, 'inspect', body)
+    const { recordings } = await api.result<Inspection>(job, () => {}, signal)
+    return { upload, body, report: recordings[0] }
+  } catch (fault) {
+    // A server has room for a few uploads only; one that is still looked at cannot be given up before that ends.
+    if (job) {
+      await cancelJob(api, job.job).catch(() => {})
+      await api.result(job).catch(() => {})
+    }
+    await discardUpload(api, database, upload).catch(() => {})
+    throw fault
+  }
 }
 /** Stores what was sent: the recording's annotation is replaced. */
 export async function storeSent(api: Api, database: string, { upload, body: about, report }: Sent, choice: PhaseChoice | undefined): Promise<Imported> {

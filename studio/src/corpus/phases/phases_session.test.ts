@@ -1,0 +1,74 @@
+// @vitest-environment jsdom
+import { beforeEach, expect, it, vi } from 'vitest'
+import type { Api } from '../../api/client'
+import { emptyEaf, writeChecked } from './checked_tiers'
+import { keptDraft } from './draft'
+import { PhasesSession } from './phases_session.svelte'
+import { acceptedAll, decided, kEmpty, put } from './review'
+
+/** What the server has. */
+let eaf: string, frames: number
+const api = {
+  json: (where: string) => Promise.resolve(where.endsWith('/segment') ? { hands: { right: [{ phase: 'stroke', begin_ms: 0, end_ms: 500, confidence: 1 }, { phase: 'hold', begin_ms: 500, end_ms: 700, confidence: 1 }], left: [] } }
+    : { motion_file: 'r.bvh', annotation_file: 'r.eaf', frames, frames_per_second: 100, clock_origin_ms: 0 }),
+  call: () => Promise.resolve({ arrayBuffer: () => Promise.resolve(new TextEncoder().encode(eaf).buffer) }),
+} as unknown as Api
+const kTheirs = put(kEmpty, { hand: 'right', kind: 'retraction', begin: 100, end: 200, state: 'accepted' })
+const opened = async () => {
+  const session = new PhasesSession(api, 'd', 'r')
+  await vi.waitFor(() => expect(session.status).toBe('open'))
+  return session
+}
+beforeEach(() => {
+  localStorage.clear()
+  ;[eaf, frames] = [emptyEaf('r.bvh', ''), 100]
+})
+
+it('sees that the annotation or the motion is another one, and whose phases stay', async () => {
+  const session = await opened()
+  expect(await session.renew()).toBe('same')
+  eaf = eaf.replace('AUTHOR=""', 'AUTHOR="B"')
+  expect([await session.renew(), session.beside, session.eaf.includes('"B"')]).toEqual(['annotation', [], true])
+  eaf = writeChecked(eaf, kTheirs, 'B').text
+  expect([await session.renew(), session.beside, await session.renew(), session.beside]).toEqual(['annotation', ['right'], 'same', ['right']])
+  // What was stored after that is this review's own.
+  await session.stored()
+  expect(session.beside).toEqual([])
+  frames = 90
+  expect(await session.renew()).toBe('motion')
+  session.close()
+})
+
+it('knows of a review that was taken up again whether somebody stored phases since', async () => {
+  const first = await opened()
+  first.apply(acceptedAll(first.review))
+  first.close()
+  eaf = writeChecked(eaf, kTheirs, 'B').text
+  const then = await opened()
+  expect([then.from, then.beside]).toEqual(['draft', ['right']])
+  await then.discard()
+  expect([then.from, then.beside]).toEqual(['stored', []])
+  then.close()
+})
+
+it('keeps nothing over what another window kept, until somebody chooses', async () => {
+  const one = await opened(), two = await opened(), stored = () => keptDraft('d', 'r')?.review
+  one.apply(decided(one.review, 1, 'accepted'))
+  const theirs = one.review
+  two.apply(decided(two.review, 2, 'rejected'))
+  const mine = two.review
+  expect([two.elsewhere?.draft?.review, stored()]).toEqual([theirs, theirs])
+  two.takeElsewhere()
+  expect([two.review, two.elsewhere]).toEqual([theirs, undefined])
+  two.undo()
+  expect(stored()).toEqual(mine)
+  one.undo()
+  expect([one.elsewhere !== undefined, stored()]).toEqual([true, mine])
+  one.keepMine()
+  expect(stored()).toEqual(one.review)
+  // The other hears of it, also where it does nothing.
+  dispatchEvent(new StorageEvent('storage', { key: 'signweave.review.d/r' }))
+  expect([one.elsewhere, two.elsewhere?.draft?.review]).toEqual([undefined, one.review])
+  one.close()
+  two.close()
+})

@@ -72,6 +72,7 @@ const en = {
   putAway: 'Put it away',
   noStudy: 'This is no study that this page wrote.',
   noSpans: 'In these recordings no transition between two signs is annotated that has enough capture on both sides.',
+  otherStudy: 'Another tab has put another study here by now: this is that one.',
   noStorage: 'This browser keeps nothing for this page: save the votes before you leave it.',
 }
 type Words = { readonly [key in keyof typeof en]: string }
@@ -150,6 +151,7 @@ const fr: Words = {
   putAway: 'La fermer',
   noStudy: 'Ce n’est pas une étude écrite par cette page.',
   noSpans: 'Dans ces enregistrements aucune transition annotée entre deux signes n’a assez de capture des deux côtés.',
+  otherStudy: 'Un autre onglet a mis une autre étude ici entre-temps : c’est celle-là.',
   noStorage: 'Ce navigateur ne garde rien pour cette page : enregistrez les votes avant de la quitter.',
 }
 export const words = { en, fr }

@@ -131,7 +131,7 @@ test('follows its job through a break of the network, is cancelled there, and ou
 
   await context.route(kJobs, (route) => route.fulfill({ json: { job: '1', state: 'done', fraction: 1, result: { tasks: [], spans: [] } } }))
   await button('Evaluate').click()
-  await page.getByText('This evaluation cannot be shown.').waitFor()
+  await page.getByText('This evaluation cannot be shown').waitFor()
   await button('Put it away').press('Enter')
   await context.unroute(kJobs)
   assert.equal(await page.getByRole('alert').count(), 0)

@@ -40,6 +40,11 @@ const kViews = [
     await page.waitForFunction(() => window.signweaveStage?.panes.length === 2 && window.signweaveStage.panes.every(({ seen }) => seen), null, { timeout: 120_000 })
     await page.evaluate(() => { const { transport } = window.signweaveStage; transport.seek(transport.duration / 2); window.signweaveStage.touch() })
   } },
+  { name: 'compare_viewers', hash: '#/demo/compare', then: async (page) => {
+    await page.locator('form button.primary:enabled').click()
+    await page.locator('input[name=fluency]').first().check()
+    await page.locator('summary').click()
+  } },
   { name: 'compare_setup', hash: '#/demo/compare', then: (page) => page.locator('form button.primary:enabled').waitFor() },
   { name: 'guide', hash: '#/demo/guide', then: (page) => page.locator('form button.primary:enabled').first().waitFor() },
   { name: 'guide_under_way', hash: '#/demo/guide', then: async (page) => {

@@ -83,6 +83,8 @@ describe('a study in several tabs', () => {
     at(two).write({ ...made(), at: '2026-02-02T00:00:00Z' })
     expect(() => at(one).write(vote(voted, answer()))).toThrow('otherStudy')
     expect(at(one).heard(voted).study).toMatchObject({ at: '2026-02-02T00:00:00Z', sessions: [] })
+    at(two).write(begin(two.read().study!, 'P01', 'none'))
+    expect([at(one).read().study?.current, at(two).read().study?.current]).toEqual([undefined, 'P01'])
   })
 })
 

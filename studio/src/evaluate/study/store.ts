@@ -59,7 +59,7 @@ export class Shelf {
     try {
       localStorage.setItem(this.key, text)
       if (current === undefined) sessionStorage.removeItem(this.turnKey)
-      else sessionStorage.setItem(this.turnKey, current)
+      else sessionStorage.setItem(this.turnKey, turnOf(now, current))
     } catch {
       throw new PageFault('noStorage')
     }
@@ -85,9 +85,13 @@ export class Shelf {
   private parsed(turn?: string): Kept {
     if (this.text === null) return {}
     try {
-      return { study: withTurn(readStudy(this.text), turn) }
+      const study = readStudy(this.text), of = turnOf(study, '')
+      return { study: withTurn(study, turn?.startsWith(of) ? turn.slice(of.length) : undefined) }
     } catch {
       return { unreadable: true }
     }
   }
 }
+
+/** As a tab keeps it: somebody of the same code in another study is somebody else. */
+const turnOf = ({ at }: Study, participant: string) => `${at} ${participant}`

@@ -103,6 +103,7 @@ async function scenario(page) {
   await page.locator('.empty button').first().click()
   await page.waitForFunction(() => window.signweaveStage?.panes.length === 2, null, { timeout: 90_000 })
   await composed(page, 28.2)
+}
 /** Until the first answers are drawn; then nothing plays any more. */
 async function shown(page) {
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen || [...(window.signweaveSheet?.cells.values() ?? [])].filter(({ seen }) => seen).length > 5, null, { timeout: 90_000 })

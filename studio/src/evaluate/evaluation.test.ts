@@ -32,6 +32,19 @@ describe('an evaluation', () => {
       expect(() => readEvaluation(wrong), wrong).toThrow('noEvaluation')
     }
   })
+  it('is refused where what would be drawn is not there', () => {
+    const group = evaluation.tasks[0].groups[0]
+    const tasks = (...groups: unknown[]) => ({ tasks: [{ task: 'given', groups }] })
+    const odd: Record<string, unknown> = {
+      noTask: { tasks: [] }, noGroup: tasks(), twice: tasks(group, group), sameTask: { tasks: [evaluation.tasks[0], evaluation.tasks[0]] }, nullScores: tasks({ ...group, hands: { moving: { learned: null } } }),
+      textScores: tasks({ ...group, hands: { moving: 'x' } }), listHands: tasks({ ...group, hands: [] }), nullFigure: tasks({ ...group, hands: { moving: { learned: { wrist: null } } } }),
+      textValue: tasks({ ...group, hands: { moving: { learned: { wrist: { value: '9' } } } } }), oddOver: tasks({ ...group, hands: { moving: { learned: { wrist: { value: 9, over_slerp: 1 } } } } }),
+      noCounts: tasks({ group: '170 ms', hands: {} }), nullSpan: { spans: [null] }, nameless: { spans: [{ frames: 3 }] }, textNotice: { notices: ['x'] }, listDeclared: { declarations: ['x'] }, plot: { plot: 3 },
+    }
+    for (const [what, more] of Object.entries(odd)) expect(() => readEvaluation(JSON.stringify({ ...evaluation, ...(more as object) })), what).toThrow('noEvaluation')
+    // A task that found nothing may stand beside one that did.
+    expect(readEvaluation(JSON.stringify({ ...evaluation, tasks: [...evaluation.tasks, { task: 'replaced', groups: [] }] })).tasks).toHaveLength(2)
+  })
   it('has figures by method and measure, or over another method\'s', () => {
     expect(figureOf(scores, 'learned', 'wrist')?.value).toBe(9)
     expect(figureOf(scores, 'learned', 'wrist/slerp')?.value).toBe(0.45)
@@ -83,5 +96,8 @@ describe('a table', () => {
 describe('CSV', () => {
   it('quotes what RFC 4180 has quoted', () => {
     expect(csvOf([['a,b', 'say "no"', 'two\nlines', null, undefined, 1.5, 'plain é']])).toBe('"a,b","say ""no""","two\nlines",,,1.5,plain é\r\n')
+  })
+  it('lets no text be a formula, and leaves numbers alone', () => {
+    expect(csvOf([['=P"1,x', '+1', '-1', '@a', '\tb', '\rc', "it's", 'a=b', -1.5, +2, '']])).toBe(`"'=P""1,x",'+1,'-1,'@a,'\tb,"'\rc",it's,a=b,-1.5,2,\r\n`)
   })
 })

@@ -34,20 +34,40 @@ export interface Evaluation {
 
 /** Reads what the command line or this page wrote. Throws where it is something else. */
 export function readEvaluation(text: string): Evaluation {
-  let read: Partial<Evaluation> | null
+  let read: unknown
   try {
-    read = JSON.parse(text) as Partial<Evaluation> | null
+    read = JSON.parse(text)
   } catch {
     throw new PageFault('noEvaluation')
   }
-  const right = Array.isArray(read?.tasks) && Array.isArray(read.spans) && typeof read.recordings === 'number' &&
-    read.tasks.every((task) => typeof task?.task === 'string' && Array.isArray(task.groups) && task.groups.every(isGroup))
-  if (!right) throw new PageFault('noEvaluation')
+  if (!isEvaluation(read)) throw new PageFault('noEvaluation')
   return read as Evaluation
 }
-function isGroup(group: Partial<Group> | null): boolean {
-  return typeof group?.group === 'string' && typeof group.hands === 'object' && group.hands !== null &&
-    Object.values(group.hands).every((scores) => typeof scores === 'object' && scores !== null)
+
+type Fields = Readonly<Record<string, unknown>>
+const isObject = (value: unknown): value is Fields => typeof value === 'object' && value !== null && !Array.isArray(value)
+const isNumber = (value: unknown) => typeof value === 'number'
+const isText = (value: unknown): value is string => typeof value === 'string'
+const missing = (value: unknown) => value === undefined || value === null
+const every = (of: unknown, is: (value: unknown) => boolean) => isObject(of) && Object.values(of).every(is)
+const list = (of: unknown, is: (value: unknown) => boolean): of is readonly Fields[] => Array.isArray(of) && of.every(is)
+/** Names that are keys of what is drawn: each there once. */
+const areUnique = (names: readonly unknown[]) => names.every(isText) && new Set(names).size === names.length
+
+/** Everything that the page looks at: what is not there as it should be would break it while it is drawn. */
+function isEvaluation(read: unknown): boolean {
+  return isObject(read) && isNumber(read.recordings) && list(read.tasks, isTask) && areUnique(read.tasks.map(({ task }) => task)) &&
+    read.tasks.some(({ groups }) => (groups as readonly unknown[]).length > 0) &&
+    list(read.spans, (span) => isObject(span) && isText(span.file) && isText(span.group)) &&
+    (missing(read.plot) || isText(read.plot)) && (missing(read.declarations) || every(read.declarations, isText)) &&
+    (missing(read.notices) || list(read.notices, (notice) => isObject(notice) && isText(notice.where) && isText(notice.text)))
+}
+const isTask = (task: unknown) => isObject(task) && isText(task.task) && list(task.groups, isGroup) && areUnique(task.groups.map(({ group }) => group))
+const isGroup = (group: unknown) => isObject(group) && isText(group.group) && isNumber(group.spans) && isNumber(group.recordings) &&
+  every(group.hands, (scores) => every(scores, (figures) => every(figures, isEstimate)))
+function isEstimate(figure: unknown): boolean {
+  return isObject(figure) && [figure.value, figure.low, figure.high].every((value) => missing(value) || isNumber(value)) &&
+    [figure.over_slerp, figure.over_hermite].every((over) => missing(over) || isEstimate(over))
 }
 
 /** The figure of a column: `wrist`, or of what it is over, `wrist/slerp`. None where it was not measured. */

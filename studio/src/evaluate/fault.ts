@@ -1,6 +1,6 @@
 /** What is no fault of the server: told in the words of this folder's pages, by its key. */
 export class PageFault extends Error {
-  constructor(readonly kind: 'noEvaluation' | 'noStudy' | 'noSpans' | 'noStorage') {
+  constructor(readonly kind: 'noEvaluation' | 'noStudy' | 'noSpans' | 'noStorage' | 'otherStudy') {
     super(kind)
   }
 }

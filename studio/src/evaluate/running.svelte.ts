@@ -16,6 +16,10 @@ export class Running {
   cancelled = $state(false)
   shown = $state.raw<Shown | undefined>()
   private job = ''
+  /** It is to be cancelled as soon as the server says which job it is, or can be reached again. */
+  private unwanted = false
+  /** Ends the wait for a server that could not be reached. */
+  private wake?: () => void
 
   constructor(private readonly api: Api, private readonly database: string) {
     const job = remembered(database)
@@ -27,10 +31,13 @@ export class Running {
     this.fault = undefined
     this.cancelled = false
     this.fraction = 0
+    this.unwanted = false
     this.state = 'waiting'
     try {
       const { job } = await this.api.evaluate(this.database, wishes)
       remember(this.database, job)
+      this.job = job
+      if (this.unwanted) await this.cancel()
       await this.follow(job)
     } catch (fault) {
       this.fault = fault
@@ -39,11 +46,26 @@ export class Running {
   }
 
   async cancel(): Promise<void> {
+    this.unwanted = !this.job
+    if (!this.job) return
     try {
-      if (this.job) await this.api.cancel(this.job)
+      await this.api.cancel(this.job)
     } catch (fault) {
+      this.unwanted = true
       this.fault = fault
     }
+  }
+
+  /** Whether the server cannot be asked how far the job is. It is asked again by itself, and at once by `retry`. */
+  get lost(): boolean {
+    return this.state !== 'idle' && this.fault !== undefined
+  }
+  retry(): void {
+    this.wake?.()
+  }
+
+  close(): void {
+    this.shown = undefined
   }
 
   open(shown: Shown): void {
@@ -55,23 +77,50 @@ export class Running {
   private async follow(job: string, again = false): Promise<void> {
     this.job = job
     this.state = 'waiting'
-    try {
-      const evaluation = await this.api.result<Evaluation>({ job }, ({ state, fraction }) => {
-        if (state === 'waiting' || state === 'running') this.state = state
-        this.fraction = fraction
-      })
-      this.open({ evaluation })
-    } catch (fault) {
-      const over = fault instanceof ApiError
-      if (over) remember(this.database, '')
-      if (over && fault.code === 'cancelled') this.cancelled = !again
-      else if (!again || !over || fault.code !== 'not_found') this.fault = fault
-    } finally {
-      this.state = 'idle'
-      this.job = ''
+    for (let wait = kFirstWait; this.job; wait = Math.min(kLongestWait, 2 * wait)) {
+      try {
+        const evaluation = await this.api.result<Evaluation>({ job }, ({ state, fraction }) => {
+          if (state === 'waiting' || state === 'running') this.state = state
+          this.fraction = fraction
+          this.fault = undefined
+          wait = kFirstWait
+          if (this.unwanted) void this.cancel()
+        })
+        this.end()
+        this.open({ evaluation })
+      } catch (fault) {
+        // Of what the server did not say the job knows nothing: it goes on.
+        const over = fault instanceof ApiError && (fault.status < 502 || fault.status > 504)
+        if (!over) {
+          this.fault = fault
+          await this.pause(wait)
+          continue
+        }
+        this.end()
+        remember(this.database, '')
+        if (fault.code === 'cancelled') this.cancelled = !again
+        this.fault = fault.code === 'cancelled' || (again && fault.code === 'not_found') ? undefined : fault
+      }
     }
   }
+  private end(): void {
+    this.state = 'idle'
+    this.job = ''
+  }
+  private pause(ms: number): Promise<void> {
+    return new Promise((resolve) => {
+      const timer = setTimeout(resolve, ms)
+      this.wake = () => {
+        clearTimeout(timer)
+        resolve()
+      }
+    })
+  }
 }
+
+/** Ms to the next question where the server could not be reached, and at most. */
+const kFirstWait = 1000
+const kLongestWait = 8000
 
 const running = new Map<string, Running>()
 /** That of a database, the same as long as the page is open. */

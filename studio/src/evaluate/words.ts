@@ -68,8 +68,11 @@ const en = {
   group_annotated: 'annotated', group_natural: 'natural', 'group_same gloss': 'same gloss', 'group_other sign': 'other sign',
   part_one: 'long, 1 peak', part_more: 'long, 2 or more peaks',
   noEvaluation: 'This is no evaluation: it must be JSON that this page or signweave evaluate --json wrote.',
+  notDrawn: 'This evaluation cannot be shown',
+  putAway: 'Put it away',
   noStudy: 'This is no study that this page wrote.',
   noSpans: 'In these recordings no transition between two signs is annotated that has enough capture on both sides.',
+  otherStudy: 'Another tab has put another study here by now: this is that one.',
   noStorage: 'This browser keeps nothing for this page: save the votes before you leave it.',
 }
 type Words = { readonly [key in keyof typeof en]: string }
@@ -144,8 +147,11 @@ const fr: Words = {
   group_annotated: 'annotés', group_natural: 'naturels', 'group_same gloss': 'même glose', 'group_other sign': 'autre signe',
   part_one: 'longs, 1 pic', part_more: 'longs, 2 pics ou plus',
   noEvaluation: 'Ce n’est pas une évaluation : il faut le JSON écrit par cette page ou par signweave evaluate --json.',
+  notDrawn: 'Cette évaluation ne peut pas être montrée',
+  putAway: 'La fermer',
   noStudy: 'Ce n’est pas une étude écrite par cette page.',
   noSpans: 'Dans ces enregistrements aucune transition annotée entre deux signes n’a assez de capture des deux côtés.',
+  otherStudy: 'Un autre onglet a mis une autre étude ici entre-temps : c’est celle-là.',
   noStorage: 'Ce navigateur ne garde rien pour cette page : enregistrez les votes avant de la quitter.',
 }
 export const words = { en, fr }

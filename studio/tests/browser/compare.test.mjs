@@ -2,11 +2,13 @@
 import assert from 'node:assert/strict'
 import { readFileSync } from 'node:fs'
 import { axeFaults, transport } from './page_tools.mjs'
-import { kDeclared, page, test, visit } from './suite.mjs'
+import { address, context, kDeclared, page, test, visit } from './suite.mjs'
 
 const button = (name) => page.getByRole('button', { name, exact: true })
 const kept = () => page.evaluate(() => JSON.parse(localStorage.getItem('signweave.study.demo')))
-const forget = () => page.evaluate(() => localStorage.removeItem('signweave.study.demo'))
+const forget = () => page.evaluate(() => (localStorage.removeItem('signweave.study.demo'), sessionStorage.removeItem('signweave.study.turn.demo')))
+/** What only who runs a study should look at is closed. */
+const forMaker = () => page.locator('summary', { hasText: 'For whoever runs the study' }).click()
 /** Until both signers of a trial are drawn. */
 const seen = (count = 2) => page.waitForFunction((n) => window.signweaveStage?.panes.length === n && window.signweaveStage.panes.every((pane) => pane.seen), count, { timeout: 60_000 })
 /** The parts of a file that Wilson's table and CSV are made of: fields may be quoted. */
@@ -16,7 +18,7 @@ function parsed(text) {
 }
 async function saved(name) {
   const [download] = await Promise.all([page.waitForEvent('download'), button(name).click()])
-  return readFileSync(await download.path(), 'utf8')
+  return readFileSync(await download.path(), 'utf8').replace(/^\ufeff/, '')
 }
 /** A small picture that stands still is drawn quickly by software. */
 const kSmall = { width: 720, height: 560 }
@@ -68,7 +70,11 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   await page.waitForFunction(() => window.signweaveStage.transport.time > 0)
   await page.keyboard.press('Space')
   const before = await kept()
-  assert.deepEqual([before.current, before.sessions[0].fluency], ['P01', 'deaf'])
+  assert.deepEqual([before.current, before.sessions[0].fluency], [undefined, 'deaf']) // whose turn it is only this tab knows
+  // Nothing leads away but Pause.
+  assert.equal(await page.locator('nav:visible').count(), 0)
+  await page.keyboard.press('?')
+  assert.equal(await page.getByRole('dialog').count(), 0)
   assert.deepEqual(await page.locator('.title').allTextContents().then((all) => all.map((one) => one.trim())), ['A', 'B'])
   await page.keyboard.press('1') // the first question
   await page.keyboard.press('Enter')
@@ -80,9 +86,18 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   assert.equal((await kept()).sessions[0].answers.length, 0)
   await page.keyboard.press('4') // the rating has the keys now
   await page.keyboard.press('Enter')
+  await page.keyboard.type('Elbow 1') // the comment has them
+  await page.keyboard.press('Shift+Enter')
+  await page.keyboard.type('? 2')
+  await page.keyboard.press('Enter')
   await answered(1)
   const [first] = (await kept()).sessions[0].answers
-  assert.deepEqual([first.recorded, first.natural, first.rating], ['left', 'right', 4])
+  assert.deepEqual([first.recorded, first.natural, first.rating, first.comment], ['left', 'right', 4, 'Elbow 1\n? 2'])
+  assert.match(first.version, /^signweave \d/)
+  // The keys are those of the next trial.
+  await seen()
+  await page.keyboard.press('2')
+  await page.waitForFunction(() => JSON.parse(localStorage.getItem('signweave.study.demo')).sessions[0].draft?.recorded === 'right')
   assert.ok(first.plays >= 1 && first.ms > 0 && Math.abs(Date.parse(first.at) - Date.now()) < 60_000)
   // The others by mouse, with a comment.
   for (let n = 2; n <= 5; ++n) {
@@ -97,6 +112,7 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   await page.getByText('That was all. Thank you!').waitFor()
   await button('Finish').click()
 
+  await forMaker()
   const study = await kept(), rows = parsed(await saved('Votes as CSV'))
   assert.equal(rows.length, 10)
   for (const [i, row] of rows.entries()) {
@@ -177,6 +193,7 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   await page.keyboard.press('Enter')
   await page.keyboard.press('3')
   await page.keyboard.press('Enter')
+  await page.keyboard.press('Enter') // no comment
   await answered(1)
   await seen()
   while (calls.length < 6) await page.waitForTimeout(50)
@@ -196,6 +213,10 @@ test('viewers follow each other, what came out is shown on purpose, and deleting
     await page.keyboard.press('Enter') // on the answer that was just chosen
     await button('Finish').click()
   }
+  // The next viewer is told nothing of what is compared, and nothing of others.
+  const said = await page.locator('main').innerText()
+  for (const word of ['hermite', 'capture', 'P01', 'Votes', 'what came out', 'Delete']) assert.ok(!said.includes(word), `${word} is told`)
+  await forMaker()
   assert.deepEqual(await page.locator('tbody th').allTextContents(), ['P01', 'P02'])
   assert.equal(await page.getByLabel('Your code').inputValue(), 'P03')
   await page.getByLabel('Your code').fill('P01')
@@ -225,6 +246,7 @@ test('viewers follow each other, what came out is shown on purpose, and deleting
 
 test('shows one at a time, opens a study that was saved, and says what is none', async () => {
   await setUp({ methods: ['hermite'], trials: 2, more: () => page.getByLabel('One at a time').check() })
+  await forMaker()
   const json = await saved('Study and votes as JSON')
   await begin()
   await seen(1)
@@ -247,6 +269,56 @@ test('shows one at a time, opens a study that was saved, and says what is none',
   await button('Begin').waitFor()
   assert.deepEqual(await kept(), JSON.parse(json))
   await forget()
+})
+
+test('a study in two tabs keeps the votes of both, and shows what the other did', async () => {
+  await setUp({ methods: ['hermite'], trials: 2, more: () => page.getByLabel('A comment').uncheck() })
+  const other = await context.newPage()
+  try {
+    await other.addInitScript(() => localStorage.setItem('signweave.body', 'drawn'))
+    await other.emulateMedia({ reducedMotion: 'reduce' })
+    await other.goto(`${address}/#/demo/compare`)
+    await other.getByRole('button', { name: 'Begin' }).waitFor()
+    await begin()
+    await seen()
+    // The code that is taken here is not offered there.
+    await other.waitForFunction(() => document.querySelector('form input').value === 'P02')
+    await other.getByLabel('Learner').check()
+    await other.getByRole('button', { name: 'Begin' }).click()
+    await other.waitForFunction(() => window.signweaveStage?.panes.length === 2 && window.signweaveStage.panes.every((pane) => pane.seen))
+    const votes = async (at, count) => {
+      for (const key of ['1', 'Enter', '5', 'Enter']) await at.keyboard.press(key)
+      await answered(count)
+    }
+    await votes(page, 1)
+    await votes(other, 2)
+    await seen()
+    await votes(page, 3)
+    assert.deepEqual((await kept()).sessions.map(({ participant, answers }) => [participant, answers.length]), [['P01', 2], ['P02', 1]])
+    // Deleted in one it is gone in the other.
+    await button('Finish').click()
+    await forMaker()
+    await button('Delete the study').click()
+    assert.match(await page.getByRole('dialog').textContent(), /its 3 votes/)
+    await button('Delete').click()
+    await other.getByRole('button', { name: 'Set up the study' }).waitFor()
+  } finally {
+    await other.close()
+  }
+})
+
+test('a kept study that cannot be shown stays until it is deleted, and can be saved', async () => {
+  const odd = '{"format":"signweave study 1","settings":{}}'
+  await visit('#/demo/compare', { size: kSmall })
+  await page.evaluate((text) => localStorage.setItem('signweave.study.demo', text), odd)
+  await page.reload()
+  assert.equal(await saved('Save as it is (JSON)'), odd)
+  assert.equal(await button('Set up the study').count(), 0)
+  assert.deepEqual(await axeFaults(page), [])
+  await button('Delete the study').click()
+  await button('Delete').click()
+  await button('Set up the study').waitFor()
+  assert.equal(await kept(), null)
 })
 
 for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
@@ -272,6 +344,8 @@ for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
       await seen()
       await look('a trial')
       await page.locator('.leave').click()
+      await page.locator('summary').click()
+      await look('for whoever runs it')
       await page.locator('.remove').click()
       await look('deleting')
       await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))

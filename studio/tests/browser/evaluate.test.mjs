@@ -4,7 +4,7 @@ import { execFileSync } from 'node:child_process'
 import { readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { axeFaults } from './page_tools.mjs'
-import { folder, kDeclared, page, test, visit } from './suite.mjs'
+import { context, folder, kDeclared, page, test, visit } from './suite.mjs'
 
 const kBin = process.env.SIGNWEAVE_BIN ?? new URL('../../../build/release/bin', import.meta.url).pathname
 const button = (name) => page.getByRole('button', { name, exact: true })
@@ -12,7 +12,10 @@ const result = () => page.waitForSelector('#result-title', { timeout: 120_000 })
 /** What a button gives to be saved. */
 async function saved(press) {
   const [download] = await Promise.all([page.waitForEvent('download'), press()])
-  return { name: download.suggestedFilename(), text: readFileSync(await download.path(), 'utf8') }
+  const name = download.suggestedFilename(), text = readFileSync(await download.path(), 'utf8')
+  // Tables begin with the mark by which Excel knows UTF-8.
+  assert.equal(text.startsWith('\ufeff'), name.endsWith('.csv'))
+  return { name, text: text.replace('\ufeff', '') }
 }
 const rows = (text) => text.trimEnd().split('\r\n').map((line) => line.split(','))
 /** The methods of a table, from above. */
@@ -111,6 +114,30 @@ test('can be cancelled, and evaluates again', async () => {
   assert.ok(await button('Evaluate').isEnabled())
 })
 
+test('follows its job through a break of the network, is cancelled there, and outlives an answer that cannot be shown', async () => {
+  const kJobs = /\/api\/jobs\//
+  let away = true
+  await context.route(kJobs, (route) => (away ? route.abort() : route.fallback()))
+  await evaluated()
+  const retry = page.getByRole('alert').getByRole('button')
+  await retry.waitFor()
+  await page.getByRole('progressbar', { name: 'Evaluating' }).waitFor()
+  await button('Cancel').click() // it cannot be told yet
+  away = false
+  await retry.click()
+  await page.getByText('The evaluation was cancelled.').waitFor()
+  assert.equal(await page.getByRole('alert').count(), 0)
+  await context.unroute(kJobs)
+
+  await context.route(kJobs, (route) => route.fulfill({ json: { job: '1', state: 'done', fraction: 1, result: { tasks: [], spans: [] } } }))
+  await button('Evaluate').click()
+  await page.getByText('This evaluation cannot be shown').waitFor()
+  await button('Put it away').press('Enter')
+  await context.unroute(kJobs)
+  assert.equal(await page.getByRole('alert').count(), 0)
+  assert.ok(await button('Evaluate').isEnabled())
+})
+
 test('opens what the command line wrote, and says what is none', async () => {
   const made = execFileSync(join(kBin, 'signweave'), ['evaluate', join(folder, 'corpus/meteo.bvh'), '--method', 'gap', '--json'], { stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1e9 })
   const file = join(folder, 'command_line.json')
@@ -122,6 +149,11 @@ test('opens what the command line wrote, and says what is none', async () => {
   }
   await choose(join(folder, 'corpus/meteo.eaf'))
   assert.match(await page.getByRole('alert').textContent(), /This is no evaluation/)
+  for (const odd of [{ tasks: [], spans: [], recordings: 0 }, { ...JSON.parse(made), spans: [null] }]) {
+    writeFileSync(join(folder, 'odd.json'), JSON.stringify(odd))
+    await choose(join(folder, 'odd.json'))
+    assert.match(await page.getByRole('alert').textContent(), /This is no evaluation/)
+  }
   await choose(file)
   await result()
   assert.match(await page.locator('#result-title').textContent(), /command_line\.json/)

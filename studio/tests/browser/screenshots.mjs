@@ -40,6 +40,11 @@ const kViews = [
     await page.waitForFunction(() => window.signweaveStage?.panes.length === 2 && window.signweaveStage.panes.every(({ seen }) => seen), null, { timeout: 120_000 })
     await page.evaluate(() => { const { transport } = window.signweaveStage; transport.seek(transport.duration / 2); window.signweaveStage.touch() })
   } },
+  { name: 'compare_viewers', hash: '#/demo/compare', then: async (page) => {
+    await page.locator('form button.primary:enabled').click()
+    await page.locator('input[name=fluency]').first().check()
+    await page.locator('summary').click()
+  } },
   { name: 'compare_setup', hash: '#/demo/compare', then: (page) => page.locator('form button.primary:enabled').waitFor() },
   { name: 'guide', hash: '#/demo/guide', then: (page) => page.locator('form button.primary:enabled').first().waitFor() },
   { name: 'guide_under_way', hash: '#/demo/guide', then: async (page) => {
@@ -98,6 +103,7 @@ async function scenario(page) {
   await page.locator('.empty button').first().click()
   await page.waitForFunction(() => window.signweaveStage?.panes.length === 2, null, { timeout: 90_000 })
   await composed(page, 28.2)
+}
 /** Until the first answers are drawn; then nothing plays any more. */
 async function shown(page) {
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen || [...(window.signweaveSheet?.cells.values() ?? [])].filter(({ seen }) => seen).length > 5, null, { timeout: 90_000 })

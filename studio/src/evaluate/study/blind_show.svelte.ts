@@ -4,7 +4,9 @@ import type { Showing, Strand } from '../../viewer/showing'
 import { Transport } from '../../viewer/transport'
 import type { Item, Settings, Trial } from './study'
 
-interface Opened { readonly key: string; readonly strands: Promise<readonly Strand[]>; readonly close: () => void }
+/** What is shown, and the version of the program that made it. */
+interface Made { readonly strands: readonly Strand[]; readonly version: string }
+interface Opened { readonly key: string; readonly made: Promise<Made>; readonly close: () => void }
 
 /** What a trial shows: the capture and what was made, as A and B or one alone, told apart by nothing but their motion. */
 export class BlindShow implements Showing {
@@ -12,6 +14,8 @@ export class BlindShow implements Showing {
   readonly oneCamera = true
   strands = $state.raw<readonly Strand[]>([])
   arrivals = $state(0)
+  /** Of the program that made what is shown. */
+  version = ''
   private current?: Opened
   private next?: Opened
 
@@ -29,8 +33,9 @@ export class BlindShow implements Showing {
     this.transport.pause()
     this.strands = []
     try {
-      const strands = await opened.strands
+      const { strands, version } = await opened.made
       if (this.current !== opened) return
+      this.version = version
       const { transport } = this
       this.strands = strands
       transport.rate = strands[0].motion.store.rate
@@ -51,7 +56,7 @@ export class BlindShow implements Showing {
     if (opened === this.next || opened === this.current) return
     this.next?.close()
     this.next = opened
-    opened.strands.catch(() => { if (this.next === opened) this.next = undefined }) // it is asked for again when its turn comes
+    opened.made.catch(() => { if (this.next === opened) this.next = undefined }) // it is asked for again when its turn comes
   }
 
   timeOf(): (seconds: number) => number {
@@ -68,12 +73,13 @@ export class BlindShow implements Showing {
     const key = `${number} ${side}`
     for (const known of [this.next, this.current]) if (known?.key === key) return known
     const wishes = { from: item.begin, to: item.end, character: this.settings.character ?? undefined }
-    const made = item.method ? { ...wishes, remake: `${item.from}..${item.to}`, transition: item.method } : wishes
+    const remade = item.method ? { ...wishes, remake: `${item.from}..${item.to}`, transition: item.method } : wishes
     // In the order of the sides, so that not even the order of the calls tells more than the screen.
-    const both = side === 'left' ? [wishes, made] : [made, wishes]
+    const both = side === 'left' ? [wishes, remade] : [remade, wishes]
     const sources = (this.settings.mode === 'single' ? both.slice(0, 1) : both).map((one, i, all) => new PieceSource(this.api, this.database, item.recording, one, all.length > 1 ? 'AB'[i] : ''))
-    const strands = Promise.all([this.dressed(), ...sources.map(async (source): Promise<Strand> => ({ role: 'blind', source, motion: await source.open() }))])
-      .then(([, ...all]) => all as readonly Strand[])
-    return { key, strands, close: () => sources.forEach((source) => source.close()) }
+    const strands = Promise.all(sources.map(async (source): Promise<Strand> => ({ role: 'blind', source, motion: await source.open() })))
+    // The server may be another program than on the day when the study was set up.
+    const made = Promise.all([strands, this.api.version(), this.dressed()]).then(([strands, version]) => ({ strands, version: `signweave ${version}` }))
+    return { key, made, close: () => sources.forEach((source) => source.close()) }
   }
 }

@@ -2,7 +2,7 @@ import { readEaf } from '../../annotation/eaf'
 import type { RecordingInfo } from '../../api/answers'
 import type { Api } from '../../api/client'
 import { ApiError } from '../../api/fault'
-import { gapsOf, shownOf, usable } from './gaps'
+import { gapsOf, shownOf, usable, type Gap } from './gaps'
 import { Random } from './random'
 import type { Source } from './study'
 
@@ -17,9 +17,12 @@ export function sampled(recordings: readonly string[], seed: number): readonly s
   return recordings.length <= kMostRecordings ? recordings : new Random(seed, 'recordings').shuffled(recordings).slice(0, kMostRecordings).toSorted()
 }
 
+/** What can be shown, and the recordings whose annotation cannot be read. */
+export interface Gathered { readonly sources: readonly Source[]; readonly leftOut: readonly string[] }
+
 /** The gaps of some recordings that can be shown; `told` hears how many recordings have been read. Recordings without annotation have none. */
-export async function gatherSources(api: Api, database: string, recordings: readonly string[], around: number, told: (done: number) => void, signal: AbortSignal): Promise<readonly Source[]> {
-  const sources: Source[] = []
+export async function gatherSources(api: Api, database: string, recordings: readonly string[], around: number, told: (done: number) => void, signal: AbortSignal): Promise<Gathered> {
+  const sources: Source[] = [], leftOut: string[] = []
   for (const [done, recording] of recordings.entries()) {
     if (signal.aborted) throw signal.reason
     told(done)
@@ -27,13 +30,23 @@ export async function gatherSources(api: Api, database: string, recordings: read
     try {
       ;[info, eaf] = await Promise.all([api.recording(database, recording), api.annotation(database, recording)])
     } catch (fault) {
-      if (fault instanceof ApiError && fault.status === 404) continue
-      throw fault
+      if (!(fault instanceof ApiError) || ![400, 404, 422, 500].includes(fault.status)) throw fault // it is not this recording's alone
+      if (fault.status !== 404) leftOut.push(recording)
+      continue
     }
+    const gaps = gapsIn(eaf)
+    if (!gaps) leftOut.push(recording)
     const ms = 1000 / info.frames_per_second, at = (frame: number) => info.clock_origin_ms + frame * ms
     const captured = { begin: at(0), end: at(info.frames - 1) }
     const broken = (info.defects ?? []).flatMap(({ first_frame, end_frame }) => (first_frame === undefined || end_frame === undefined ? [] : [{ begin: at(first_frame), end: at(end_frame) }]))
-    for (const gap of usable(gapsOf(readEaf(eaf)), captured, broken)) sources.push({ recording, ...gap, ...shownOf(gap, captured, around) })
+    for (const gap of usable(gaps ?? [], captured, broken)) sources.push({ recording, ...gap, ...shownOf(gap, captured, around) })
   }
-  return sources
+  return { sources, leftOut }
+}
+function gapsIn(eaf: string): readonly Gap[] | undefined {
+  try {
+    return gapsOf(readEaf(eaf))
+  } catch {
+    return undefined
+  }
 }

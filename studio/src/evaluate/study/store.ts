@@ -1,48 +1,97 @@
 import { PageFault } from '../fault'
-import { kFluencies, kFormat, kLabels, type Study, type Trial } from './study'
+import { isSame, merged, votesIn, withTurn } from './merge'
+import { readStudy } from './read_study'
+import type { Study } from './study'
 
-const keyOf = (database: string) => `signweave.study.${database}`
+/** What this browser keeps; `unreadable` where there is something, but no study that this page can show. */
+export interface Kept { readonly study?: Study; readonly unreadable?: boolean }
 
-/** The study of a database that this browser keeps; none where there is none. */
-export function keptStudy(database: string): Study | undefined {
-  try {
-    const text = localStorage.getItem(keyOf(database))
-    return text ? readStudy(text) : undefined
-  } catch {
-    return undefined
+/** The study of a database as this browser keeps it, for all tabs; whose turn it is each tab knows by itself. */
+export class Shelf {
+  readonly key: string
+  private readonly turnKey: string
+  /** As it was last read or written here: who wrote something else was another tab. */
+  private text: string | null = null
+
+  constructor(database: string) {
+    this.key = `signweave.study.${database}`
+    this.turnKey = `signweave.study.turn.${database}`
+  }
+
+  read(): Kept {
+    let turn: string | null = null
+    try {
+      this.text = localStorage.getItem(this.key)
+      turn = sessionStorage.getItem(this.turnKey)
+    } catch {
+      return {} // a page that may store nothing has nothing
+    }
+    return this.parsed(turn ?? undefined)
+  }
+
+  /** What another tab changed, taken into what this one has. */
+  heard(mine: Study | undefined): Kept {
+    const kept = this.read(), { study } = kept
+    if (!study || !mine || !isSame(mine, study)) return kept.study ? { study: withTurn(kept.study, undefined) } : kept
+    const both = withTurn(merged(mine, study), mine.current)
+    // Two wrote at once, and what the other wrote has not got all of it.
+    return { study: votesIn(both) > votesIn(study) ? this.write(both) : both }
+  }
+
+  /** Keeps a study with what other tabs have put into it since, and gives that. Throws where nothing can be kept, or where there is another study by now. */
+  write(study: Study): Study {
+    let now = study
+    let stored: string | null
+    try {
+      stored = localStorage.getItem(this.key)
+    } catch {
+      throw new PageFault('noStorage')
+    }
+    // Deleted in another tab while this one had a vote: the vote counts.
+    if (stored !== null && stored !== this.text) {
+      this.text = stored
+      const theirs = this.parsed().study
+      if (!theirs || !isSame(study, theirs)) throw new PageFault('otherStudy')
+      now = withTurn(merged(study, theirs), study.current)
+    }
+    const { current, ...rest } = now
+    const text = JSON.stringify(rest)
+    try {
+      localStorage.setItem(this.key, text)
+      if (current === undefined) sessionStorage.removeItem(this.turnKey)
+      else sessionStorage.setItem(this.turnKey, turnOf(now, current))
+    } catch {
+      throw new PageFault('noStorage')
+    }
+    this.text = text
+    return now
+  }
+
+  remove(): void {
+    this.text = null
+    try {
+      localStorage.removeItem(this.key)
+      sessionStorage.removeItem(this.turnKey)
+    } catch {
+      throw new PageFault('noStorage')
+    }
+  }
+
+  /** As it lies there, to be saved also where nobody can read it. */
+  raw(): string {
+    return this.text ?? ''
+  }
+
+  private parsed(turn?: string): Kept {
+    if (this.text === null) return {}
+    try {
+      const study = readStudy(this.text), of = turnOf(study, '')
+      return { study: withTurn(study, turn?.startsWith(of) ? turn.slice(of.length) : undefined) }
+    } catch {
+      return { unreadable: true }
+    }
   }
 }
-/** Throws where the browser keeps nothing. */
-export function keepStudy(database: string, study: Study | undefined): void {
-  try {
-    if (study) localStorage.setItem(keyOf(database), JSON.stringify(study))
-    else localStorage.removeItem(keyOf(database))
-  } catch {
-    throw new PageFault('noStorage')
-  }
-}
 
-/** Reads what was saved as JSON. Throws where it is something else. */
-export function readStudy(text: string): Study {
-  let study: Study
-  try {
-    study = JSON.parse(text) as Study
-  } catch {
-    throw new PageFault('noStudy')
-  }
-  if (!isStudy(study)) throw new PageFault('noStudy')
-  return study
-}
-
-const isNumber = (value: unknown): value is number => typeof value === 'number' && Number.isFinite(value)
-const isText = (value: unknown): value is string => typeof value === 'string'
-
-function isStudy(study: Study | null): boolean {
-  if (study?.format !== kFormat || !isText(study.database) || !isText(study.version) || !Array.isArray(study.items) || !Array.isArray(study.sessions)) return false
-  const { settings, items, sessions } = study
-  const right = typeof settings === 'object' && settings !== null && isNumber(settings.seed) && (settings.mode === 'pair' || settings.mode === 'single') &&
-    (settings.character === null || isText(settings.character)) && kLabels.every((label) => isText(settings.labels?.[label]?.en) && isText(settings.labels[label].fr))
-  return right && items.length > 0 && items.every((item) => isText(item?.recording) && isText(item.method) && [item.from, item.to, item.begin, item.end].every(isNumber)) &&
-    sessions.every((session) => isText(session?.participant) && kFluencies.includes(session.fluency) && Array.isArray(session.trials) && Array.isArray(session.answers) &&
-      session.answers.length <= session.trials.length && session.trials.every((trial: Partial<Trial> | null) => items[trial?.item ?? -1] !== undefined && (trial?.side === 'left' || trial?.side === 'right')))
-}
+/** As a tab keeps it: somebody of the same code in another study is somebody else. */
+const turnOf = ({ at }: Study, participant: string) => `${at} ${participant}`

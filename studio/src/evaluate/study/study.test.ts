@@ -4,7 +4,7 @@ import { csvOf } from '../csv'
 import { gapsOf, kLongest, shownOf, usable } from './gaps'
 import { defaultsOf, labelsOf } from './labels'
 import { Random } from './random'
-import { readStudy } from './store'
+import { readStudy } from './read_study'
 import { begin, isAnswered, itemsOf, keepDraft, kFormat, leave, sessionOf, stepsOf, trialsOf, vote, type Settings, type Source, type Study } from './study'
 import { isOver, kColumns, outcomes, voteRows, votesOf, wilson } from './votes'
 
@@ -160,6 +160,11 @@ describe('a study', () => {
     expect(new Set(caught.map((row) => `${row[at('correct')]} ${row[at('method')]} ${row[at('side_of_capture')]}`))).toEqual(new Set([' captured both']))
     expect(csvOf(rows).split('\r\n')[1]).toContain('"P""1"""')
     expect(csvOf(rows)).toContain('"a, b"')
+  })
+  it('names the program that made what was voted on, or in older votes that of the set-up', () => {
+    const study = vote(vote(begin(studyOf(), 'P01', 'deaf'), answer({ version: 'signweave 0.3.0' })), answer())
+    const rows = voteRows(study), at = kColumns.indexOf('software_version')
+    expect(rows.slice(1).map((row) => row[at])).toEqual(['signweave 0.3.0', 'signweave 0.1.0'])
   })
   it('marks what was answered after somebody had looked', () => {
     const study = vote({ ...begin(studyOf(), 'P01', 'deaf'), unblinded: '2026-01-01T11:00:00Z' }, answer())

@@ -38,6 +38,8 @@ export type Choice = 'left' | 'right'
 export interface Answer {
   readonly recorded?: Choice; readonly natural?: Choice; readonly rating?: number; readonly comment: string
   readonly plays: number; readonly ms: number; /** When, as ISO 8601. */ readonly at: string
+  /** Of the program that made what was voted on; older studies know only that of the day when they were set up. */
+  readonly version?: string
   /** Whether somebody had looked at the results before. */
   readonly unblinded: boolean
 }
@@ -52,6 +54,10 @@ export interface Study {
   /** Whose turn it is. */
   readonly current?: string
   readonly unblinded?: string
+  /** What the recordings were like that it shows, by their names: `strangersOf` knows them again. */
+  readonly recordings?: Readonly<Record<string, string>>
+  /** Recordings whose annotation could not be read. */
+  readonly leftOut?: readonly string[]
 }
 export const kFormat = 'signweave study 1'
 

@@ -39,7 +39,7 @@ export function voteRows(study: Study): readonly (readonly Cell[])[] {
   return [kColumns, ...votesOf(study).map(({ session, trial, question, method, choice, correct, rating, ms }): readonly Cell[] => {
     const { item, side } = session.trials[trial], one = study.items[item], answer = session.answers[trial]
     return [study.settings.seed, trial + 1, session.participant, session.fluency, one.recording, one.from, one.to, method || 'captured', sideName(study, side, method),
-      answerName(study, choice), correct === undefined ? '' : Number(correct), rating, answer.plays, ms, answer.at, study.version, answer.comment, question,
+      answerName(study, choice), correct === undefined ? '' : Number(correct), rating, answer.plays, ms, answer.at, answer.version ?? study.version, answer.comment, question,
       !method ? 'catch' : study.settings.mode, one.signs, one.begin, one.end, study.database, study.settings.character ?? 'drawn', Number(answer.unblinded)]
   })]
 }

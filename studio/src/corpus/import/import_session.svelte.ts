@@ -236,7 +236,7 @@ export class ImportSession {
     this.fault = undefined
     this.turnedAway = false
     const isSame = this.revisions.mark()
-    const groups = this.groups(this.wanted.map(({ files }) => keyOf(files)))
+    const groups = this.groups(this.wanted.map(({ files }) => keyOf(files)).filter((key) => !this.stale.has(key)))
     const count = groups.reduce((sum, { keys }) => sum + keys.length, 0)
     let before = 0
     for (const group of groups) {

@@ -144,13 +144,20 @@ it('imports the others where one is refused, and tries again what failed', async
   await over
   expect(session.outcomes.get('a.bvh')).toMatchObject({ outcome: 'failed', error: 'not so' })
   expect([session.fault, session.wanted.map(({ name }) => name)]).toEqual([away, ['a', 'c']])
+  // What was corrected since is not imported before it was looked at.
+  session.correct('c.bvh', kNone)
   session.retry!()
-  for (const name of ['a', 'c']) {
-    const { what, answer } = await next()
-    expect(what).toBe('import')
-    answer(result([name]))
-  }
-  await vi.waitFor(() => expect(session.wanted).toHaveLength(0))
+  const again = await next()
+  expect(again.body.recordings).toEqual(['a'])
+  again.answer(result(['a']))
+  await vi.waitFor(() => expect([session.doing, session.wanted.map(({ name }) => name)]).toEqual([undefined, ['c']]))
+  await settle()
+  ;(await next()).answer(inspection([report('c')]))
+  await vi.waitFor(() => expect(session.stale.size).toBe(0))
+  const rest = session.import()
+  ;(await next()).answer(result(['c']))
+  await rest
+  expect([server.begun.at(-1), session.wanted.length]).toEqual([{ what: 'import', body: { recordings: ['c'] } }, 0])
 })
 
 it('does not take a recording that is corrected during its import for imported so', async () => {

@@ -8,14 +8,14 @@ import { ImportSession } from './import_session.svelte'
 type Body = Readonly<Record<string, unknown>> & { readonly recordings?: readonly string[] }
 interface Call { readonly what: string; readonly body: Body; readonly answer: (result: unknown) => void; readonly refuse: (fault: unknown) => void }
 
-const server = vi.hoisted(() => ({ begun: [] as { what: string; body: object }[], discarded: [] as string[], opened: 0, put: new Map<string, string>() }))
+const server = vi.hoisted(() => ({ begun: [] as { what: string; body: object }[], discarded: [] as string[], cancelled: [] as string[], opened: 0, put: new Map<string, string>() }))
 vi.mock('../../api/corpus_calls', () => ({
   formats: () => Promise.resolve(['.bvh', '.eaf'].map((ending) => ({ ending, name: ending, reads: true, writes: true, holds: '' }))),
   isWritable: () => Promise.resolve(true),
   openUpload: () => Promise.resolve(`upload ${++server.opened}`),
   sendFile: async (_api: unknown, _database: string, _upload: string, name: string, file: Blob) => void server.put.set(name, await file.text()),
   discardUpload: (_api: unknown, _database: string, upload: string) => (server.discarded.push(upload), Promise.resolve()),
-  cancelJob: () => Promise.resolve(),
+  cancelJob: (_api: unknown, job: string) => (server.cancelled.push(job), Promise.resolve()),
   beginUpload: (_api: unknown, _database: string, _upload: string, what: string, body: object) => Promise.resolve({ job: String(server.begun.push({ what, body }) - 1) }),
 }))
 
@@ -48,7 +48,7 @@ beforeEach(() => void vi.useFakeTimers({ shouldAdvanceTime: true }))
 afterEach(() => {
   vi.useRealTimers()
   calls = []
-  Object.assign(server, { begun: [], discarded: [], opened: 0 })
+  Object.assign(server, { begun: [], discarded: [], cancelled: [], opened: 0 })
 })
 
 it('looks again at what is corrected while another is looked at, and imports nothing unseen', async () => {
@@ -218,4 +218,10 @@ it('says what nobody looks at any more where looking was cancelled', async () =>
   ;(await next()).refuse(new ApiError('cancelled', 500, 'cancelled'))
   await vi.waitFor(() => expect(session.unlooked).toEqual(['a.bvh']))
   expect(session.fault).toBeUndefined()
+  // It is also cancelled where it is only about to begin.
+  const again = session.inspect(session.unlooked)
+  session.cancel()
+  ;(await next()).refuse(new ApiError('cancelled', 500, 'cancelled'))
+  await again
+  expect([server.cancelled, session.unlooked]).toEqual([['2'], ['a.bvh']])
 })

@@ -10,11 +10,13 @@ export interface UploadCall { readonly parameters: Readonly<Record<string, unkno
 /** Does the calls of an upload, one at a time; where the server has the upload no more, everything is sent again first. */
 export class UploadJobs {
   private job?: string
+  private isStopped = false
 
   /** `files` are those that the upload has to have. */
   constructor(private readonly api: Api, private readonly database: string, private readonly sender: Sender, private readonly files: () => readonly Listed[]) {}
 
   async run<Result>(what: 'inspect' | 'import', call: () => UploadCall, told: (part: number, result?: Result) => void): Promise<Result> {
+    this.isStopped = false
     try {
       if (!this.sender.upload) await this.sendAgain()
       return await this.once(what, call(), told)
@@ -24,14 +26,16 @@ export class UploadJobs {
       return this.once(what, call(), told)
     }
   }
+  /** Also where the job is only about to begin. */
   async cancel(): Promise<void> {
+    this.isStopped = true
     if (this.job) await cancelJob(this.api, this.job)
   }
 
   private async sendAgain(): Promise<void> {
     this.sender.forget()
     if (await this.sender.send(this.files())) return
-    throw [...this.sender.told.values()].find(({ state }) => state === 'failed')?.fault ?? new ApiError('cancelled', 503, 'cancelled')
+    throw [...this.sender.told.values()].find(({ state }) => state === 'failed')?.fault ?? cancelled()
   }
 
   private async once<Result>(what: 'inspect' | 'import', { parameters, made }: UploadCall, told: (part: number, result?: Result) => void): Promise<Result> {
@@ -40,9 +44,11 @@ export class UploadJobs {
       await sender.put(name, text)
       body[parameter] = name
     }
+    if (this.isStopped) throw cancelled()
     const begun = await beginUpload(api, database, sender.upload!, what, body)
     this.job = begun.job
     try {
+      if (this.isStopped) await this.cancel()
       const result = await api.result<Result>(begun, (state) => told(state.fraction, state.result))
       told(1, result)
       return result
@@ -51,3 +57,5 @@ export class UploadJobs {
     }
   }
 }
+
+const cancelled = () => new ApiError('cancelled', 503, 'cancelled')

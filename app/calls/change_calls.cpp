@@ -62,7 +62,8 @@ std::string nothing_to_change(const RelayoutCall& call) {
   return nothing ? "what is to be changed? give --access-mode, --compact, --documents or several of them" : "";
 }
 
-Relayouted run(Database& database, const RelayoutCall& call, const Listener& listener) {
+Relayouted run(Database& database, const RelayoutCall& call, const Listener& listener,
+               const std::function<void(const std::string&)>& changed) {
   if (const std::string fault = nothing_to_change(call); !fault.empty()) throw Error(ErrorCode::bad_input, fault);
   Storage storage;
   if (!call.access_mode.empty()) storage.mode = parse_access_mode(call.access_mode);
@@ -88,7 +89,9 @@ Relayouted run(Database& database, const RelayoutCall& call, const Listener& lis
     try {
       bool stored_anew = database.relayout(names[i], stored, advance);
       if (documents && database.relayout_document(names[i], *documents)) stored_anew = true;
-      if (database.measure(names[i]) || stored_anew) done.changed.push_back(names[i]);
+      if (!database.measure(names[i]) && !stored_anew) continue;
+      done.changed.push_back(names[i]);
+      if (changed) changed(names[i]);
     } catch (const Error& error) {  // the others go on
       if (error.code() == ErrorCode::cancelled) throw;
       listener.blame(fmt::format("{}: {}", names[i], error.what()));

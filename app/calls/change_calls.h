@@ -67,7 +67,9 @@ struct Relayouted {
 
 /// What a recording is at fault for is told, and the others go on. Throws Error{not_found} for a name that is not
 /// there, before anything is changed, and Error{bad_input} where nothing is to be changed. Call `learn` after it.
-Relayouted run(Database& database, const RelayoutCall& call, const Listener& listener);
+/// `changed` is told of each that was stored anew as soon as it is: those stay where the rest is cancelled.
+Relayouted run(Database& database, const RelayoutCall& call, const Listener& listener,
+               const std::function<void(const std::string&)>& changed = {});
 
 nlohmann::json json_of(const Relayouted& relayouted);
 

@@ -35,6 +35,11 @@ TierNames::SignTier parse_sign_tier(const std::string& text) {
   return {text, Hand::both, {}};  // the colon belongs to the name
 }
 
+[[noreturn]] void refuse_both(std::string_view none, std::string_view field, const std::string& tier) {
+  throw Error(ErrorCode::bad_input,
+              fmt::format("{}: {} names '{}'; give one of the two", none, field, printable(tier)));
+}
+
 /// "120@4010.5": frame 120 is at 4010.5 ms.
 std::optional<SyncPoint> parse_sync(const std::string& text) {
   const std::size_t at = text.find('@');
@@ -84,6 +89,10 @@ ImportOptions options_of(const ImportCall& call) {
   options.motion = read_options(call.reading);
   for (const std::string& tier : call.sign_tiers) options.sign_tiers.push_back(parse_sign_tier(tier));
   options.phase_tiers = call.phase_tiers;
+  options.no_sign_tier = call.no_sign_tier;
+  options.no_phase_tier = call.no_phase_tier;
+  if (call.no_sign_tier && !call.sign_tiers.empty()) refuse_both("no_sign_tier", "sign_tier", call.sign_tiers[0]);
+  if (call.no_phase_tier && !call.phase_tiers.empty()) refuse_both("no_phase_tier", "phase_tier", call.phase_tiers[0]);
   if (!call.phase_labels.empty()) options.phase_labels = read_phase_labels(call.phase_labels);
   if (call.offset_ms) options.offset = Seconds(*call.offset_ms / 1000.0);
   if (call.face.offset_ms) options.face_offset = Seconds(*call.face.offset_ms / 1000.0);
@@ -94,9 +103,9 @@ ImportOptions options_of(const ImportCall& call) {
   return options;
 }
 
-Pairing pairing_of(const ImportCall& call, const std::vector<std::filesystem::path>& inputs) {
-  Pairing pairing =
-      pair_files(inputs, call.pairs.empty() ? std::nullopt : std::optional<std::filesystem::path>(call.pairs));
+Pairing pairing_of(const ImportCall& call, const std::vector<std::filesystem::path>& inputs, bool plain_files) {
+  Pairing pairing = pair_files(
+      inputs, call.pairs.empty() ? std::nullopt : std::optional<std::filesystem::path>(call.pairs), plain_files);
   if (call.recordings.empty()) return pairing;
   std::vector<std::string> known;
   for (const ImportJob& job : pairing.jobs) known.push_back(job.name);

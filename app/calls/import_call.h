@@ -19,6 +19,8 @@ struct ImportCall {
   std::string pairs;
   std::vector<std::string> sign_tiers;
   std::vector<std::string> phase_tiers;
+  bool no_sign_tier = false;
+  bool no_phase_tier = false;
   std::string phase_labels;
   MotionReading reading;
   std::optional<double> offset_ms;
@@ -35,12 +37,15 @@ std::string check_sync(const std::string& text);
 template <class Visit>
 void fields(Visit& visit, ImportCall& call) {
   visit(Field{.name = "pairs",
-              .help = "CSV: motion, annotation, signer, offset in ms, face, face offset in ms",
+              .help = "CSV: motion, annotation, signer, offset in ms, face ('-': none), face offset in ms, name",
               .is_file = true},
         call.pairs);
   visit(Field{.name = "sign_tier", .help = "tier of glosses, TIER[:right|left|both[:SIGNER]]; guessed where not given"},
         call.sign_tiers);
   visit(Field{.name = "phase_tier", .help = "tier of phases; guessed where not given"}, call.phase_tiers);
+  visit(Field{.name = "no_sign_tier", .help = "no tier holds signs: none is guessed, nor one of phases"},
+        call.no_sign_tier);
+  visit(Field{.name = "no_phase_tier", .help = "no tier holds phases: none is guessed"}, call.no_phase_tier);
   visit(Field{.name = "phase_labels", .help = "lines LABEL = preparation|stroke|retraction|hold", .is_file = true},
         call.phase_labels);
   fields(visit, call.reading);
@@ -62,12 +67,14 @@ void fields(Visit& visit, ImportCall& call) {
         call.recordings);
 }
 
-/// Of checked fields. Reads the call's own files, and throws as their readers do.
+/// Of checked fields. Reads the call's own files, and throws as their readers do, and Error{bad_input} where tiers are
+/// named and are said not to be there.
 ImportOptions options_of(const ImportCall& call);
 
 /// What belongs together of some files and folders, of it the recordings that are wanted. Throws as pair_files does,
-/// and Error{not_found} with near matches for a recording that is not among them.
-Pairing pairing_of(const ImportCall& call, const std::vector<std::filesystem::path>& inputs);
+/// and Error{not_found} with near matches for a recording that is not among them. With `plain_files` a table of pairs
+/// may only name files beside it.
+Pairing pairing_of(const ImportCall& call, const std::vector<std::filesystem::path>& inputs, bool plain_files = false);
 
 /// What became of one recording.
 struct Imported {

@@ -220,7 +220,7 @@ constexpr const char* kMadeAnswers = R"json({
     "result": {"anyOf": [{"$ref": "#/components/schemas/Changed"}, {"$ref": "#/components/schemas/Evaluation"}]},
     "error": {"type": "object", "required": ["code", "message"]}}},
   "Jobs": {"type": "object", "required": ["jobs"], "properties": {
-    "jobs": {"type": "array", "items": {"$ref": "#/components/schemas/Job"}}}}
+    "jobs": {"type": "array", "description": "without their results", "items": {"$ref": "#/components/schemas/Job"}}}}
 })json";
 
 }  // namespace

@@ -134,6 +134,59 @@ TEST(ApiChanges, OfAnUploadSomeRecordingsAreImportedAndTheOthersLater) {
   EXPECT_EQ(api.send("DELETE", at({"uploads", id})).status, 200);
 }
 
+TEST(ApiChanges, AFileIsTakenOutOfAnUpload) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {{"a.bvh", another_bvh()}, {"b.bvh", "HIERARCHY"}});
+  EXPECT_THAT(fault_of(api.send("DELETE", at({"uploads", id, "files", "b.bvj"}))),
+              HasSubstr("no file 'b.bvj'; did you mean b.bvh"));
+  const json left = json_in(api.send("DELETE", at({"uploads", id, "files", "b.bvh"})));
+  ASSERT_EQ(left["files"].size(), 1u);
+  EXPECT_EQ(left["files"][0]["file"], "a.bvh");
+  const json job = inspect(api, id);
+  ASSERT_EQ(job["result"]["recordings"].size(), 1u);
+  EXPECT_EQ(import(api, id)["result"]["recordings"][0]["outcome"], "added");
+  EXPECT_THAT(fault_of(api.send("DELETE", at({"uploads", id, "files", "a.bvh"}))), StartsWith("404"));
+}
+
+TEST(ApiChanges, ATableOfPairsNamesARecordingAsNoFileIsCalled) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {{"a.bvh", another_bvh()}, {"pairs.csv", "a.bvh,,,,,,day 1/a\n"}});
+  EXPECT_EQ(inspect(api, id, {{"pairs", "pairs.csv"}})["result"]["recordings"][0]["name"], "day 1/a");
+  EXPECT_EQ(import(api, id, {{"pairs", "pairs.csv"}})["result"]["recordings"][0]["name"], "day 1/a");
+  EXPECT_TRUE(api.database().info("day 1/a"));
+}
+
+TEST(ApiChanges, TiersThatAreNamedAndSaidNotToBeThereAreRefused) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {{"a.eaf", eaf::write_text(another().document)}});
+  EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "inspect"}),
+                                {{"no_phase_tier", true}, {"phase_tier", json::array({"Phase"})}})),
+              HasSubstr("no_phase_tier: phase_tier names 'Phase'; give one of the two"));
+  const json found = inspect(api, id, {{"no_phase_tier", true}})["result"]["recordings"][0];
+  EXPECT_GT(found["signs"].get<int>(), 0);
+  EXPECT_EQ(found["phases"], found["signs"]) << found;  // a sign without phases is one stroke
+  EXPECT_EQ(inspect(api, id, {{"no_sign_tier", true}})["result"]["recordings"][0]["signs"], 0);
+}
+
+TEST(ApiChanges, OfALongResultOnlyWhatIsNewIsTold) {
+  TestApi api(true);
+  const std::string id = upload_of(api, {{"a.bvh", another_bvh()}, {"b.bvh", "x"}, {"c.bvh", another_bvh()}});
+  const json whole = inspect(api, id);
+  ASSERT_EQ(whole["result"]["recordings"].size(), 3u);
+  const auto from = [&](const char* number) {
+    return json_in(api.get({"jobs", whole["job"]}, {{"from", number}}))["result"];
+  };
+  json rest = whole["result"];
+  rest["recordings"].erase(0);
+  EXPECT_EQ(from("1"), rest);
+  rest["recordings"].clear();
+  EXPECT_EQ(from("7"), rest);
+  const json list = json_in(api.get({"jobs"}))["jobs"];
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0]["state"], "done");
+  EXPECT_FALSE(list[0].contains("result"));
+}
+
 TEST(ApiChanges, WhatIsWrongWithAFileIsToldWithoutTheServersFolders) {
   TestApi api(true);
   const json job = import(api, upload_of(api, {{"soir.bvh", "HIERARCHY\nROOT"}}));
@@ -163,7 +216,7 @@ TEST(ApiChanges, NamesThatAreNoPlainFileNameAreRefused) {
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"skeleton", "none.asf"}})), StartsWith("404"));
   EXPECT_EQ(api.put(at({"uploads", id, "files", "pairs.csv"}), "/etc/passwd,,x,0\n").status, 200);
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"pairs", "pairs.csv"}})),
-              HasSubstr("without folders"));
+              HasSubstr("may only name files beside it"));
   EXPECT_THAT(fault_of(api.put(at({"uploads", "0123", "files", "a"}), "x")), StartsWith("404"));
 }
 
@@ -240,6 +293,8 @@ TEST(ApiChanges, MotionsAreStoredAnew) {
   ASSERT_EQ(begun.status, 202);
   const json job = wait_for(api, json_in(begun)["job"]);
   EXPECT_EQ(job["result"]["changed"], (json{"meteo", "villes"}));
+  EXPECT_EQ(job["result"]["recordings"], 2);
+  EXPECT_EQ(job["result"]["faults"], json::array());
   EXPECT_THAT(fault_of(api.send("POST", at({"relayout"}))), StartsWith("400 bad_input: what is to be changed?"));
   EXPECT_THAT(fault_of(api.send("POST", at({"relayout"}), {{"access_mode", "by_john"}})), StartsWith("400"));
   EXPECT_EQ(json_in(api.get({"jobs"}))["jobs"].size(), 1u);

@@ -20,19 +20,18 @@ ApiResponse relayout_database(Call& call) {
   for (const std::string& name : parameters.recordings) served.database().contents()->at(name);
   const std::string id =
       call.state.jobs.start({.name = "relayout"}, served.name(), [&served, parameters](JobContext& job) {
-        json report;
         served.change([&](Database& database) {
-          json faults = json::array();
+          const std::size_t wanted =
+              parameters.recordings.empty() ? database.contents()->recordings.size() : parameters.recordings.size();
+          job.tell({{"recordings", wanted}, {"changed", json::array()}, {"faults", json::array()}});
           const calls::Listener listener{.notice = {},
-                                         .fault = [&](const std::string& line) { faults.push_back(line); },
+                                         .fault = [&](const std::string& line) { job.add("faults", line); },
                                          .stage = {},
                                          .progress = [&](double fraction) { job.advance(fraction); }};
-          const calls::Relayouted done = calls::run(database, parameters, listener);
+          calls::run(database, parameters, listener, [&](const std::string& name) { job.add("changed", name); });
           calls::learn(database, listener);
-          report = calls::json_of(done);
-          report["faults"] = std::move(faults);
         });
-        return report;
+        return json();  // what was told
       });
   return json_answer(json{{"job", id}}, 202);
 }

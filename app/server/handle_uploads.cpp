@@ -8,7 +8,6 @@
 #include "app/calls/import_call.h"
 #include "app/calls/inspect_call.h"
 #include "app/server/routes.h"
-#include "signweave/core/atomic_file.h"
 
 namespace signweave::server {
 namespace {
@@ -40,14 +39,6 @@ struct ResolveFiles {
   }
 };
 
-/// A table of pairs tells paths; one that comes over the network may only name files beside it.
-void require_plain_table(const std::string& table) {
-  if (table.empty()) return;
-  if (read_file(table, 16'000'000).find_first_of("/\\") != std::string::npos) {
-    throw Error(ErrorCode::bad_input, "pairs: the table may only name files of the upload, without folders");
-  }
-}
-
 /// Takes the server's folder out of every text: nobody needs to know of it.
 json without_folder(json value, const std::string& folder) {
   if (value.is_string()) {
@@ -61,44 +52,59 @@ json without_folder(json value, const std::string& folder) {
   return value;
 }
 
+/// How far a job is.
+struct JobCall {
+  std::string job;
+  std::size_t from = 0;
+};
+
+template <class Visit>
+void fields(Visit& visit, JobCall& call) {
+  visit(calls::Field{.name = "job", .help = "what the call that began the job answered", .required = true}, call.job);
+  visit(
+      calls::Field{.name = "from",
+                   .help = "of the result's list of recordings only what is at this number and after it, counted from "
+                           "0; for those who know what is before it",
+                   .range = calls::Range{std::int64_t{0}, std::int64_t{1'000'000'000}}},
+      call.from);
+}
+
 /// What a job over the files of an upload tells: every recording as soon as it is over.
 class Told {
  public:
   Told(const Pairing& pairing, std::string folder, JobContext& job) : folder_(std::move(folder)), job_(job) {
-    report_["notices"] = without_folder(calls::json_of(pairing.notices), folder_);
-    job_.tell(report_);
+    job_.tell({{"recordings", json::array()},
+               {"notices", without_folder(calls::json_of(pairing.notices), folder_)},
+               {"faults", json::array()}});
   }
-  void add(json recording) {
-    report_["recordings"].push_back(without_folder(std::move(recording), folder_));
-    job_.tell(report_);
-  }
+  void add(json recording) { job_.add("recordings", without_folder(std::move(recording), folder_)); }
   calls::Listener listener() {
     return {.notice = {},
-            .fault = [this](const std::string& line) { report_["faults"].push_back(without_folder(line, folder_)); },
+            .fault = [this](const std::string& line) { job_.add("faults", without_folder(line, folder_)); },
             .stage = {},
             .progress = [this](double fraction) { job_.advance(fraction); }};
   }
-  const json& report() const { return report_; }
 
  private:
   std::string folder_;
   JobContext& job_;
-  json report_ = {{"recordings", json::array()}, {"notices", json::array()}, {"faults", json::array()}};
 };
 
-/// Does the work of an import.
-json import_files(Database& database, const Pairing& pairing, const ImportOptions& options, const std::string& folder,
+/// Does the work of an import; false where a recording was at fault.
+bool import_files(Database& database, const Pairing& pairing, const ImportOptions& options, const std::string& folder,
                   JobContext& job) {
   Told told(pairing, folder, job);
   const calls::Listener listener = told.listener();
+  bool good = true;
   calls::run(database, pairing, options, listener, [&](const calls::Imported& imported) {
+    if (imported.error) good = false;
     json one = calls::json_of(imported);
     const std::optional<RecordingInfo> info = database.info(imported.name);
     one["declarations"] = !info ? json::object() : calls::declarations_json(info->declarations);
     told.add(std::move(one));
   });
   calls::learn(database, listener);
-  return told.report();
+  return good;
 }
 
 /// An upload that a job reads: nobody changes it meanwhile.
@@ -116,10 +122,10 @@ HeldUpload hold_upload(Call& call, calls::ImportCall parameters) {
   try {
     const ResolveFiles resolve_files{held.folder};
     fields(resolve_files, parameters);
-    require_plain_table(parameters.pairs);
     held.options = calls::options_of(parameters);
+    // A table that comes over the network may only name files of the upload.
     held.pairing = calls::pairing_of(
-        parameters, parameters.pairs.empty() ? std::vector{held.folder} : std::vector<std::filesystem::path>{});
+        parameters, parameters.pairs.empty() ? std::vector{held.folder} : std::vector<std::filesystem::path>{}, true);
     if (held.pairing.jobs.empty()) throw Error(ErrorCode::bad_input, "the upload has no motion or annotation file");
     return held;
   } catch (...) {
@@ -128,14 +134,14 @@ HeldUpload hold_upload(Call& call, calls::ImportCall parameters) {
   }
 }
 
-bool all_done(const json& result) {
-  return std::ranges::none_of(result["recordings"], [](const json& one) { return one["outcome"] == "failed"; });
-}
-
 }  // namespace
 
 calls::SchemaWriter import_fields() {
   return calls::schema_of_call<calls::ImportCall>();
+}
+
+calls::SchemaWriter job_fields() {
+  return calls::schema_of_call<JobCall>();
 }
 
 ApiResponse open_upload(Call& call) {
@@ -156,6 +162,12 @@ void require_upload(const Call& call) {
   call.state.uploads.require_open(call.database().name(), call.names.at("upload"), call.names.at("file"));
 }
 
+ApiResponse remove_file(Call& call) {
+  Uploads& uploads = call.state.uploads;
+  uploads.take_away(call.database().name(), call.names.at("upload"), call.names.at("file"));
+  return json_answer(uploads.describe(call.database().name(), call.names.at("upload")));
+}
+
 ApiResponse put_file(Call& call) {
   return json_answer(call.state.uploads.put(call.database().name(), call.names.at("upload"), call.names.at("file"),
                                             call.request.body_file, call.request.body));
@@ -171,17 +183,17 @@ ApiResponse import_upload(Call& call) {
   try {
     const std::string id = call.state.jobs.start(
         {.name = "import"}, served.name(), [&served, &uploads, upload, held, some](JobContext& job) {
-          json result;
+          bool good = false;
           try {
             served.change([&](Database& database) {
-              result = import_files(database, held.pairing, held.options, held.folder.string() + "/", job);
+              good = import_files(database, held.pairing, held.options, held.folder.string() + "/", job);
             });
           } catch (...) {  // it may be tried again, with other parameters
             uploads.release(upload, false);
             throw;
           }
-          uploads.release(upload, !some && all_done(result));
-          return result;
+          uploads.release(upload, !some && good);
+          return json();  // what was told
         });
     return json_answer(json{{"job", id}}, 202);
   } catch (...) {
@@ -204,7 +216,7 @@ ApiResponse inspect_upload(Call& call) {
             calls::inspect(served.database(), held.pairing, held.options, held.folder.string() + ".inspected",
                            told.listener(), [&](nlohmann::ordered_json one) { told.add(std::move(one)); });
             uploads.release(upload, false);
-            return told.report();
+            return json();  // what was told
           } catch (...) {
             uploads.release(upload, false);
             throw;
@@ -222,7 +234,8 @@ ApiResponse list_jobs(Call& call) {
 }
 
 ApiResponse show_job(Call& call) {
-  return json_answer(call.state.jobs.describe(call.names.at("job")));
+  const auto parameters = read_parameters<JobCall>(call);
+  return json_answer(call.state.jobs.describe(parameters.job, parameters.from));
 }
 
 ApiResponse cancel_job(Call& call) {

@@ -48,7 +48,7 @@ std::optional<HttpTarget> parse_target(std::string_view target) {
   const std::string_view path = target.substr(1, mark == std::string_view::npos ? mark : mark - 1);
   const bool good_path = for_parts(path, '/', [&](std::string_view part) {
     const std::optional<std::string> segment = percent_decoded(part, false);
-    if (!segment || segment->find('\0') != std::string::npos || segment->find('/') != std::string::npos) return false;
+    if (!segment || segment->find('\0') != std::string::npos) return false;
     if (!segment->empty()) result.path.push_back(*segment);
     return true;
   });

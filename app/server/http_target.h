@@ -15,7 +15,8 @@ struct HttpTarget {
 };
 
 /// Reads "/api/databases/demo?limit=3". None where it is no path, a % is not followed by two hexadecimal digits, or a
-/// segment holds what no name may: a NUL, or a slash that was percent-encoded to pass for part of a name.
+/// segment holds what no name may, a NUL. A slash that was percent-encoded is part of a name, as recordings may have
+/// one: whoever makes a path of a file of it has to refuse it.
 std::optional<HttpTarget> parse_target(std::string_view target);
 
 /// "%C3%A9t%C3%A9" is "été"; with `plus` "+" is a blank, as forms write it.

@@ -12,6 +12,21 @@ namespace signweave::server {
 
 using nlohmann::json;
 
+/// Its parts are shared with whoever is answering, so that nobody waits while they are copied.
+struct Jobs::Result {
+  std::shared_ptr<const json> told;
+  std::map<std::string, std::vector<std::shared_ptr<const json>>> lists;
+
+  json whole(std::size_t from) const {
+    json all = *told;
+    for (const auto& [name, parts] : lists) {
+      json& list = all[name] = json::array();
+      for (std::size_t i = name == "recordings" ? from : 0; i < parts.size(); ++i) list.push_back(*parts[i]);
+    }
+    return all;
+  }
+};
+
 struct Jobs::Job {
   std::string id;
   JobKind kind;
@@ -20,7 +35,7 @@ struct Jobs::Job {
   State state = State::waiting;
   std::atomic<double> fraction{0};
   std::atomic<bool> cancelled{false};
-  json result;
+  Result result;
   std::optional<json> error;
 
   bool over() const { return state != State::waiting && state != State::running; }
@@ -36,9 +51,15 @@ class Jobs::Context : public JobContext {
       throw Error(ErrorCode::cancelled, "the job was cancelled; what was done until then stays");
     }
   }
-  void tell(const json& result) override {
+  void tell(json result) override {
+    auto told = std::make_shared<const json>(std::move(result));
     const std::lock_guard lock(jobs_.mutex_);
-    job_.result = result;
+    job_.result = {std::move(told), {}};
+  }
+  void add(const std::string& list, json one) override {
+    auto part = std::make_shared<const json>(std::move(one));
+    const std::lock_guard lock(jobs_.mutex_);
+    job_.result.lists[list].push_back(std::move(part));
   }
 
  private:
@@ -96,21 +117,28 @@ std::shared_ptr<Jobs::Job> Jobs::at(const std::string& id) const {
   throw Error(ErrorCode::not_found, fmt::format("no job '{}'; the last {} are kept", printable(id), kMostKept));
 }
 
-json Jobs::json_of(const Job& job) const {
+json Jobs::json_of(const Job& job) {
   constexpr const char* kNames[] = {"waiting", "running", "done", "failed", "cancelled"};
   json one = {{"job", job.id},
               {"kind", job.kind.name},
               {"database", job.database},
               {"state", kNames[static_cast<std::size_t>(job.state)]},
               {"fraction", job.fraction.load(std::memory_order_relaxed)}};
-  if (!job.result.is_null()) one["result"] = job.result;
   if (job.error) one["error"] = *job.error;
   return one;
 }
 
-json Jobs::describe(const std::string& id) const {
-  const std::lock_guard lock(mutex_);
-  return json_of(*at(id));
+json Jobs::describe(const std::string& id, std::size_t from) const {
+  Result result;
+  json one;
+  {
+    const std::lock_guard lock(mutex_);
+    const std::shared_ptr<Job> job = at(id);
+    one = json_of(*job);
+    result = job->result;
+  }
+  if (result.told) one["result"] = result.whole(from);
+  return one;
 }
 
 json Jobs::describe_all() const {
@@ -136,7 +164,7 @@ std::optional<std::string> Jobs::changing(const std::string& database) const {
 void Jobs::finish(Job& job, State state, json result, const std::optional<Error>& error) {
   const std::lock_guard lock(mutex_);
   job.state = state;
-  if (!result.is_null()) job.result = std::move(result);
+  if (!result.is_null()) job.result = {std::make_shared<const json>(std::move(result)), {}};
   if (error) job.error = error_json(*error, redact_);
   if (state == State::done) job.fraction = 1;
   job.work = {};

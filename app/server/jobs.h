@@ -24,7 +24,10 @@ class JobContext {
   /// The part that is done, in [0, 1]. Throws Error{cancelled} where the job was cancelled.
   virtual void advance(double fraction) = 0;
   /// What is known of the result so far: told with the job while it runs, and kept where it fails or is cancelled.
-  virtual void tell(const nlohmann::json& result) = 0;
+  virtual void tell(nlohmann::json result) = 0;
+  /// One more of a list of what was told. Those before it are not touched, so a long list costs no more than its
+  /// length.
+  virtual void add(const std::string& list, nlohmann::json one) = 0;
 };
 
 /// What a job is.
@@ -38,7 +41,7 @@ struct JobKind {
 /// thread of their own. Threads may share it.
 class Jobs {
  public:
-  /// Returns the result.
+  /// Returns the result; null where it is what was told.
   using Work = std::function<nlohmann::json(JobContext&)>;
 
   /// `redact` takes what is nobody's business, such as folders, out of a text. `tidy` is called now and then when there
@@ -53,9 +56,10 @@ class Jobs {
   void begin();
   /// A new job's number. Throws Error{conflict} where kMostWaiting are waiting already, or one that has to be alone.
   std::string start(JobKind kind, std::string database, Work work);
-  /// As JSON: job, kind, database, state (waiting, running, done, failed, cancelled), fraction, result, error. Throws
-  /// Error{not_found}.
-  nlohmann::json describe(const std::string& id) const;
+  /// As JSON: job, kind, database, state (waiting, running, done, failed, cancelled), fraction, result, error. Of the
+  /// result's list `recordings` only what is at `from` and after it. Throws Error{not_found}.
+  nlohmann::json describe(const std::string& id, std::size_t from = 0) const;
+  /// All jobs, without their results, which may be long.
   nlohmann::json describe_all() const;
   /// Stops it as soon as may be; nothing where it is over. Throws Error{not_found}.
   void cancel(const std::string& id);
@@ -67,12 +71,13 @@ class Jobs {
 
  private:
   enum class State { waiting, running, done, failed, cancelled };
+  struct Result;
   struct Job;
   class Context;
 
   void run();
   void finish(Job& job, State state, nlohmann::json result, const std::optional<Error>& error);
-  nlohmann::json json_of(const Job& job) const;
+  static nlohmann::json json_of(const Job& job);
   std::shared_ptr<Job> at(const std::string& id) const;
 
   std::function<std::string(std::string)> redact_;

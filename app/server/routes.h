@@ -119,6 +119,7 @@ ApiResponse open_upload(Call& call);  // handle_uploads.cpp
 ApiResponse show_upload(Call& call);
 ApiResponse discard_upload(Call& call);
 ApiResponse put_file(Call& call);
+ApiResponse remove_file(Call& call);
 void require_upload(const Call& call);
 ApiResponse inspect_upload(Call& call);
 ApiResponse import_upload(Call& call);
@@ -138,5 +139,6 @@ calls::SchemaWriter motion_fields();
 calls::SchemaWriter annotation_fields();
 calls::SchemaWriter relayout_fields();
 calls::SchemaWriter import_fields();
+calls::SchemaWriter job_fields();
 
 }  // namespace signweave::server

@@ -128,6 +128,24 @@ nlohmann::json Uploads::put(const std::string& database, const std::string& id, 
   return {{"file", name}, {"bytes", bytes}, {"upload_bytes", all}};
 }
 
+void Uploads::take_away(const std::string& database, const std::string& id, const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  at_open(database, id);
+  Upload& upload = at(database, id);
+  const auto file = upload.files.find(name);
+  if (file == upload.files.end()) {
+    std::vector<std::string> known;
+    for (const auto& [other, bytes] : upload.files) known.push_back(other);
+    throw Error(ErrorCode::not_found,
+                fmt::format("the upload has no file '{}'{}", printable(name), did_you_mean(name, known)));
+  }
+  std::error_code fault;
+  fs::remove(upload.folder / name, fault);
+  if (fault) throw Error(ErrorCode::io, "the file could not be removed: " + fault.message());
+  upload.files.erase(file);
+  upload.touched = std::chrono::steady_clock::now();
+}
+
 nlohmann::json Uploads::describe(const std::string& database, const std::string& id) const {
   const std::lock_guard lock(mutex_);
   const Upload& upload = at(database, id);

@@ -30,6 +30,8 @@ class Uploads {
   /// while it is imported.
   nlohmann::json put(const std::string& database, const std::string& id, const std::string& name,
                      const std::filesystem::path& from, std::string_view body);
+  /// Removes one file of it. Throws Error{not_found}, Error{conflict} while it is imported.
+  void take_away(const std::string& database, const std::string& id, const std::string& name);
   /// Throws what `put` would, but for sizes: asked before a long file is sent.
   void require_open(const std::string& database, const std::string& id, const std::string& name) const;
   nlohmann::json describe(const std::string& database, const std::string& id) const;

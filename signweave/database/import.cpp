@@ -40,20 +40,23 @@ TierNames tier_names(const AnnotationDocument& document, const ImportOptions& op
                   [&](const std::string& tier) { return document.find_tier(tier) != nullptr; });
   const TierNames other = as_before ? known->tiers : guess_tier_names(document);
   if (names.phase_labels.empty() && as_before) names.phase_labels = known->tiers.phase_labels;
-  if (names.sign_tiers.empty()) {
+  const bool no_signs = options.no_sign_tier && names.sign_tiers.empty();
+  if (names.sign_tiers.empty() && !no_signs) {
     names.sign_tiers = other.sign_tiers;
     std::string told;
     for (const TierNames::SignTier& tier : names.sign_tiers) {
       told += fmt::format("{}'{}'", told.empty() ? "" : ", ", tier.id);
       if (tier.hand != Hand::both) told += fmt::format(" ({} hand)", name_of(tier.hand));
     }
-    if (told.empty()) {
+    if (told.empty() && as_before) {
+      notices.push_back({where, "no tier is taken for signs, as before; name one with --sign-tier"});
+    } else if (told.empty()) {
       notices.push_back({where, "no tier looks like glosses, so no sign was found; name one with --sign-tier"});
     } else if (!as_before) {
       notices.push_back({where, fmt::format("sign tier {} guessed", told)});
     }
   }
-  if (names.phase_tiers.empty()) {
+  if (names.phase_tiers.empty() && !options.no_phase_tier && !no_signs) {
     names.phase_tiers = other.phase_tiers;
     std::string told;
     for (const std::string& tier : names.phase_tiers) told += fmt::format("{}'{}'", told.empty() ? "" : ", ", tier);
@@ -157,8 +160,8 @@ namespace {
 /// files had before another file of the same stem came beside them.
 std::optional<RecordingInfo> find_known(const Database& database, const ImportJob& job, std::uint64_t motion_print,
                                         std::uint64_t annotation_print) {
-  for (std::size_t from = job.name.rfind('/'); from != std::string::npos && from > 0;
-       from = job.name.rfind('/', from - 1)) {
+  for (std::size_t from = job.name_told ? std::string::npos : job.name.rfind('/');
+       from != std::string::npos && from > 0; from = job.name.rfind('/', from - 1)) {
     std::optional<RecordingInfo> shorter = database.info(job.name.substr(from + 1));
     if (!shorter) continue;
     if (job.motion ? shorter->motion_fingerprint == motion_print
@@ -221,8 +224,8 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   TierNames names;
   bool new_annotation = false;
   std::vector<Notice> annotation_notices;
-  const bool options_about_tiers =
-      !options.sign_tiers.empty() || !options.phase_tiers.empty() || !options.phase_labels.empty();
+  const bool options_about_tiers = !options.sign_tiers.empty() || !options.phase_tiers.empty() ||
+                                   !options.phase_labels.empty() || options.no_sign_tier || options.no_phase_tier;
   if (job.annotation && (!document_known || known->annotation_fingerprint != annotation_print || options_about_tiers)) {
     const std::string where = job.annotation->string();
     annotation_file::File file = annotation_file::read(*job.annotation);

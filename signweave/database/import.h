@@ -20,9 +20,11 @@ namespace signweave {
 /// Files that make one recording.
 struct ImportJob {
   std::string name;  ///< of the recording: the stem of its files, with the folder's name in front where stems collide
+  bool name_told = false;  ///< a table of pairs tells the name
   std::optional<std::filesystem::path> motion;
   std::optional<std::filesystem::path> annotation;
   std::optional<std::filesystem::path> face;  ///< face capture
+  bool no_face = false;                       ///< a table of pairs says so: what lies beside the motion is not its face
   std::string signer;
   std::optional<Seconds> offset;       ///< annotation time of frame 0, from a table of pairs
   std::optional<Seconds> face_offset;  ///< the motion's time of the face's first row, from such a table
@@ -38,11 +40,13 @@ struct Pairing {
 /// face capture STEM.face.csv goes with the motion STEM of its folder. Throws Error{not_found} for an input that is not
 /// there, Error{unsupported} for a file of a kind that cannot be read, Error{bad_input} for a bad table.
 ///
-/// The table is CSV with the columns motion, annotation, signer, offset (ms), face, face offset (ms); all but the first
-/// two may be missing, either of the first two may be empty; paths are relative to the table's folder. A first row
-/// "motion,annotation,…" is a heading.
+/// The table is CSV with the columns motion, annotation, signer, offset (ms), face, face offset (ms), name of the
+/// recording; all but the first two may be missing, either of the first two may be empty; a face "-" is none, also
+/// where one lies beside the motion; paths are relative to the table's folder. A first row "motion,annotation,…" is a
+/// heading. With `plain_files` the table may only name files beside it: Error{bad_input}, before anything is looked
+/// for.
 Pairing pair_files(const std::vector<std::filesystem::path>& inputs,
-                   const std::optional<std::filesystem::path>& pairs_table = {});
+                   const std::optional<std::filesystem::path>& pairs_table = {}, bool plain_files = false);
 
 /// "Frame 120 is at 4,010 ms of the annotation."
 struct SyncPoint {
@@ -54,6 +58,8 @@ struct ImportOptions {
   motion_file::ReadOptions motion;
   std::vector<TierNames::SignTier> sign_tiers;    ///< empty: guessed
   std::vector<std::string> phase_tiers;           ///< empty: guessed
+  bool no_sign_tier = false;                      ///< there is none, so none is guessed, nor one of phases
+  bool no_phase_tier = false;                     ///< there is none, so none is guessed
   std::map<std::string, PhaseKind> phase_labels;  ///< see TierNames
   std::optional<Seconds> offset;             ///< annotation time of frame 0; else from the EAF's TIME_ORIGIN; else 0
   std::vector<SyncPoint> sync;               ///< none, or two: sets origin and rate of the clock

@@ -334,6 +334,60 @@ TEST_F(ImportTest, AFaceGoesWithAMotionThatATablePairs) {
   EXPECT_EQ(pairing.jobs[0].face, files() / "a.face.csv");
 }
 
+TEST_F(ImportTest, ATableOfPairsTakesAFaceAwayAndTellsNames) {
+  write_motion("a.bvh", 1);
+  write_annotation("a.eaf", {"A"});
+  write_text("a.face.csv", face_text("0.5"));
+  write_text("pairs.csv", "a.bvh,,,,-,,day 1/a\n,a.eaf\n");
+  for (const std::vector<std::filesystem::path>& inputs : {std::vector<std::filesystem::path>{}, {files()}}) {
+    const Pairing pairing = pair_files(inputs, files() / "pairs.csv");
+    ASSERT_EQ(pairing.jobs.size(), 2u);
+    EXPECT_EQ(pairing.jobs[0].name, "a");
+    EXPECT_EQ(pairing.jobs[1].name, "day 1/a");
+    EXPECT_FALSE(pairing.jobs[1].face);
+  }
+  EXPECT_EQ(pair_files({}, files() / "pairs.csv", true).jobs.size(), 2u);
+  // A name that is told is that, whatever there is of a shorter one.
+  Database database(folder_ / "db", kv::Access::read_write);
+  for (const ImportJob& job : pair_files({}, files() / "pairs.csv").jobs) import_recording(database, job, {});
+  write_text("pairs.csv", ",a.eaf,,,,,day 1/a\n");
+  EXPECT_EQ(import_recording(database, pair_files({}, files() / "pairs.csv").jobs.at(0), {}).outcome,
+            ImportOutcome::annotation_added);
+  write_text("pairs.csv", "a.bvh,,,,,,a\n,a.eaf,,,,,a\n");
+  EXPECT_THROW(pair_files({}, files() / "pairs.csv"), Error);
+  for (const char* row : {"../a.bvh,", "/etc/passwd,", "sub\\a.bvh,", "a.bvh,,,,../a.face.csv"}) {
+    write_text("pairs.csv", row);
+    try {
+      pair_files({}, files() / "pairs.csv", true);
+      FAIL() << row;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("the table may only name files beside it")) << row;
+    }
+  }
+}
+
+TEST_F(ImportTest, TiersThatThereAreNotAreNotGuessed) {
+  write_motion("a.bvh", 1);
+  write_annotation("a.eaf", {"A"});
+  const auto tiers = [&] { return Database(folder_ / "db", kv::Access::read_only).info("a")->tiers; };
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::added));
+  const TierNames guessed = tiers();
+  ASSERT_FALSE(guessed.sign_tiers.empty());
+  ASSERT_FALSE(guessed.phase_tiers.empty());
+  EXPECT_THAT(import_all({.no_phase_tier = true}), ElementsAre(ImportOutcome::annotation_replaced));
+  EXPECT_EQ(tiers().sign_tiers, guessed.sign_tiers);
+  EXPECT_TRUE(tiers().phase_tiers.empty());
+  // It holds for the next import, too, until something else is told.
+  write_annotation("a.eaf", {"B"});
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::annotation_replaced));
+  EXPECT_TRUE(tiers().phase_tiers.empty());
+  EXPECT_THAT(import_all({.no_sign_tier = true}), ElementsAre(ImportOutcome::annotation_replaced));
+  EXPECT_TRUE(tiers().sign_tiers.empty());
+  EXPECT_THAT(notices_, testing::Not(testing::Contains(HasSubstr("tier"))));
+  EXPECT_THAT(import_all({.phase_tiers = guessed.phase_tiers}), ElementsAre(ImportOutcome::annotation_replaced));
+  EXPECT_EQ(tiers().phase_tiers, guessed.phase_tiers);
+}
+
 TEST_F(ImportTest, AFaceIsTakenWhetherItIsNamedOrItsMotion) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});

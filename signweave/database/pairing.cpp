@@ -69,7 +69,7 @@ std::optional<fs::path> motion_called(const fs::path& stem) {
 void pair_faces(const std::vector<fs::path>& faces, std::vector<ImportJob>& jobs, std::vector<Notice>& notices) {
   std::error_code ignored;
   for (ImportJob& job : jobs) {
-    if (!job.motion || job.face) continue;
+    if (!job.motion || job.face || job.no_face) continue;
     const fs::path face = job.motion->parent_path() / (job.motion->stem().string() + ".face.csv");
     if (fs::is_regular_file(face, ignored)) job.face = face;
   }
@@ -84,7 +84,7 @@ void pair_faces(const std::vector<fs::path>& faces, std::vector<ImportJob>& jobs
     });
     const std::optional<fs::path> motion = motion_called(face.parent_path() / face.stem().stem());
     if (job != jobs.end()) {
-      job->face = face;
+      if (!job->no_face) job->face = face;
     } else if (motion) {
       ImportJob with_motion;
       with_motion.motion = *motion;
@@ -200,7 +200,7 @@ std::vector<Row> parse_csv(std::string_view text, const std::string& name) {
   return rows;
 }
 
-std::vector<ImportJob> read_pairs(const fs::path& table) {
+std::vector<ImportJob> read_pairs(const fs::path& table, bool plain_files) {
   std::vector<ImportJob> jobs;
   for (const Row& row : parse_csv(read_file(table, std::size_t{1} << 28), table.string())) {
     const auto field = [&](std::size_t i) {
@@ -210,11 +210,18 @@ std::vector<ImportJob> read_pairs(const fs::path& table) {
     const auto fail = [&](const std::string& what) {
       throw Error(ErrorCode::bad_input, fmt::format("{}:{}: {}", table.string(), row.line, what));
     };
-    if (row.fields.size() > 6) fail("more than the six columns motion, annotation, signer, offset, face, face offset");
+    if (row.fields.size() > 7) {
+      fail("more than the seven columns motion, annotation, signer, offset, face, face offset, name");
+    }
     ImportJob job;
     job.signer = field(2);
+    job.name = field(6);
+    job.name_told = !job.name.empty();
     const auto path_of = [&](const std::string& text, FileKind kind) -> std::optional<fs::path> {
       if (text.empty()) return std::nullopt;
+      if (plain_files && text.find_first_of("/\\") != std::string::npos) {
+        fail(fmt::format("'{}' lies in another folder; the table may only name files beside it", printable(text)));
+      }
       const fs::path path = fs::path(text).is_absolute() ? fs::path(text) : table.parent_path() / text;
       std::error_code ignored;
       if (!fs::exists(path, ignored)) fail(fmt::format("no file '{}'", text));
@@ -229,7 +236,8 @@ std::vector<ImportJob> read_pairs(const fs::path& table) {
     job.motion = path_of(field(0), FileKind::motion);
     job.annotation = path_of(field(1), FileKind::annotation);
     if (!job.motion && !job.annotation) fail("a row needs a motion or an annotation");
-    job.face = path_of(field(4), FileKind::face);
+    job.no_face = field(4) == "-";
+    if (!job.no_face) job.face = path_of(field(4), FileKind::face);
     if (job.face && !job.motion) fail("a face needs its motion in the same row");
     const auto offset_of = [&](const std::string& text) -> std::optional<Seconds> {
       if (text.empty()) return std::nullopt;
@@ -268,12 +276,16 @@ fs::path stem_path(const ImportJob& job) {
   return file.parent_path() / file.stem();
 }
 
-/// Stems as names; where two would be the same, as many folders in front as it takes.
+/// Stems as names where a table tells none; where two would be the same, as many folders in front as it takes.
 void name_jobs(std::vector<ImportJob>& jobs) {
   std::vector<std::size_t> depth(jobs.size(), 0);
   for (;;) {
     std::map<std::string, std::vector<std::size_t>> by_name;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
+      if (jobs[i].name_told) {
+        by_name[jobs[i].name].push_back(i);
+        continue;
+      }
       std::error_code ignored;
       fs::path path = fs::absolute(stem_path(jobs[i]), ignored).lexically_normal();
       fs::path name = path.filename();
@@ -313,7 +325,7 @@ std::string linked_file_name(std::string_view url) {
   return decoded;
 }
 
-Pairing pair_files(const std::vector<fs::path>& inputs, const std::optional<fs::path>& pairs_table) {
+Pairing pair_files(const std::vector<fs::path>& inputs, const std::optional<fs::path>& pairs_table, bool plain_files) {
   Pairing result;
   Files files = walk(inputs, result.notices);
   prefer_one(inputs, files.motions, result.notices);
@@ -324,7 +336,7 @@ Pairing pair_files(const std::vector<fs::path>& inputs, const std::optional<fs::
     return fs::weakly_canonical(path, ignored);
   };
   if (pairs_table) {
-    jobs = read_pairs(*pairs_table);
+    jobs = read_pairs(*pairs_table, plain_files);
     for (const ImportJob& job : jobs) {
       if (job.motion) used.insert(same_file(*job.motion));
       if (job.annotation) used.insert(same_file(*job.annotation));

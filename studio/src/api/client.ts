@@ -120,13 +120,21 @@ export class Api {
   vocabulary(database: string): Promise<Vocabulary> {
     return this.json(path('databases', database, 'vocabulary'))
   }
-  job<Result>(id: string): Promise<JobState<Result>> {
-    return this.json(path('jobs', id))
+  /** How far a job is; of its list of recordings only those at `from` and after it. */
+  job<Result>(id: string, from = 0): Promise<JobState<Result>> {
+    return this.json(path('jobs', id) + (from > 0 ? query({ from }) : ''))
   }
   /** Waits until a job is over, and gives its result; throws what it failed with. `told` hears how far it is. */
   async result<Result>({ job }: JobBegun, told: (state: JobState<Result>) => void = () => {}, signal?: AbortSignal): Promise<Result> {
+    const recordings: unknown[] = []
     for (let wait = 100; ; wait = Math.min(1000, wait * 1.3)) {
-      const state = await this.job<Result>(job)
+      let state = await this.job<Result>(job, recordings.length)
+      // A long list comes in parts, each once.
+      const more = (state.result as { recordings?: unknown } | undefined)?.recordings
+      if (Array.isArray(more)) {
+        for (const one of more) recordings.push(one)
+        state = { ...state, result: { ...state.result!, recordings } }
+      }
       told(state)
       if (state.state === 'done') return state.result!
       if (state.state === 'failed' || state.state === 'cancelled') throw new ApiError(state.error?.message ?? state.state, 500, state.error?.code ?? state.state)

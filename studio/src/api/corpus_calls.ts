@@ -22,6 +22,10 @@ export async function openUpload(api: Api, database: string): Promise<string> {
 export async function discardUpload(api: Api, database: string, upload: string): Promise<void> {
   await api.call(path('databases', database, 'uploads', upload), { method: 'DELETE', keepalive: true }) // also where the window goes
 }
+/** Takes a file out of an upload. */
+export async function removeUploaded(api: Api, database: string, upload: string, file: string): Promise<void> {
+  await api.call(path('databases', database, 'uploads', upload, 'files', file), { method: 'DELETE' })
+}
 /** Begins a job on an upload: `body` has the parameters of an import. */
 export async function beginUpload(api: Api, database: string, upload: string, call: 'inspect' | 'import', body: object): Promise<JobBegun> {
   return (await api.post(path('databases', database, 'uploads', upload, call), body)).json() as Promise<JobBegun>

@@ -7,6 +7,7 @@ import './evaluate.test.mjs'
 import './compare.test.mjs'
 import './search.test.mjs'
 import './corpus.test.mjs'
+import './import_choices.test.mjs'
 import './phases.test.mjs'
 import './guide.test.mjs'
 

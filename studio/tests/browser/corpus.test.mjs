@@ -1,31 +1,30 @@
 // Import and the list of recordings, as a person would use them.
 import assert from 'node:assert/strict'
-import { existsSync, readdirSync, writeFileSync } from 'node:fs'
+import { copyFileSync, existsSync, mkdirSync, readdirSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { annotation, asBefore, button, faultsOf, files, kThanks, kWays, stored, storedOne } from './corpus_tools.mjs'
+import {
+  annotation, asBefore, begin, button, choose, faultsOf, files, kThanks, kWays, look, row, settled, store, stored, storedOne,
+} from './corpus_tools.mjs'
 import { withServer } from './server.mjs'
-import { context, folder, page, test, visit } from './suite.mjs'
+import { address, context, folder, page, test, visit } from './suite.mjs'
 
-const choose = (list) => page.locator('input[type=file]:not([webkitdirectory])').setInputFiles(list)
-/** Drops files on the page, made there, as no test can drag from a desktop. */
+/** Drops files on the page, made there. */
 const drop = (list) => page.evaluate((all) => {
   const transfer = new DataTransfer()
   for (const [name, text] of all) transfer.items.add(new File([text], name))
   document.querySelector('main').dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }))
 }, list)
+/** Drags files and folders of the disk over the page and drops them there, as from a desktop. */
+const dropFromDisk = async (paths) => {
+  const mouse = await context.newCDPSession(page)
+  const data = { items: [], files: paths, dragOperationsMask: 1 }
+  for (const type of ['dragEnter', 'dragOver', 'drop']) {
+    await mouse.send('Input.dispatchDragEvent', { type, x: 640, y: 300, data })
+    if (type === 'dragOver') await page.locator('.drop.over').waitFor()
+  }
+  await mouse.detach()
+}
 const names = () => page.locator('.list .line:not(.head) > :nth-child(1)').allTextContents()
-const look = async () => {
-  await page.getByRole('button', { name: /^(Send and look|Send the rest|Look again)$/ }).click()
-  await page.getByRole('heading', { name: 'What would be stored' }).waitFor({ timeout: 60_000 })
-}
-const row = (name) => page.getByRole('row', { name: new RegExp(`Import ${name} `) })
-/** Until reports are as they were corrected. */
-const settled = () => page.waitForFunction(() => !/looking again/.test(document.querySelector('main').textContent) && !document.querySelector('.acts progress'))
-const begin = async () => {
-  await visit('#/mine/import')
-  await page.locator('.drop').waitFor()
-  page.on('dialog', (dialog) => dialog.accept())
-}
 
 test('takes files that are dropped and folders, and says at once what cannot be sent', async () => {
   await begin()
@@ -47,6 +46,30 @@ test('takes files that are dropped and folders, and says at once what cannot be 
   await page.getByText('Files of the same name lie in several folders').waitFor()
   await button('Put their folders’ names in front').click()
   assert.deepEqual((await names()).map((name) => name.replace(/.*\//, '')), ['days_one_same.bvh', 'days_one_same.eaf', 'days_two_same.bvh', 'days_two_same.eaf'])
+})
+
+test('takes a folder that is dropped, with all that is in it', async () => {
+  await begin()
+  const week = join(folder, 'week')
+  const [, eaf] = files('monday', { into: join(week, 'early'), seconds: 1 })
+  files('tuesday', { into: join(week, 'late', 'evening'), seconds: 1 })
+  writeFileSync(join(week, 'late', '.DS_Store'), 'x')
+  // Browsers tell a folder's files by the hundred.
+  mkdirSync(join(week, 'many'))
+  for (let k = 0; k < 130; ++k) copyFileSync(eaf, join(week, 'many', `note ${1000 + k}.eaf`))
+  await dropFromDisk([week, files('alone', { seconds: 1 })[0]])
+  await page.getByText(/^Files: 135,/).waitFor()
+  await page.getByText('Hidden files of folders that were left out: 1.').waitFor()
+  assert.equal(await page.locator('.drop.over').count(), 0)
+  assert.deepEqual((await names()).slice(0, 4), ['alone.bvh', 'week/early/monday.bvh', 'week/early/monday.eaf', 'week/late/evening/tuesday.bvh'])
+  // They are the files themselves: what is in them is what is sent.
+  rmSync(join(week, 'many'), { recursive: true })
+  await button('Begin anew').click()
+  await dropFromDisk([week])
+  await page.getByText(/^Files: 4,/).waitFor()
+  await look()
+  assert.deepEqual(await page.locator('.report .name').allTextContents(), ['monday', 'tuesday'])
+  assert.match(await row('monday').textContent(), /monday\s*new\s*1\.0 s\s*36/)
 })
 
 test('sends with a progress in bytes, and again only what failed', async () => {
@@ -371,6 +394,36 @@ test('changes how recordings are stored, and removes only what is confirmed', as
     assert.equal((await stored()).length, after)
   }
   await page.waitForFunction(() => !/other/.test(document.querySelector('tbody').textContent))
+})
+
+test('cancels a change of storage while it goes, and says what was done', async () => {
+  // Pieces of a single frame take seconds.
+  const kPieces = 'by_joint_and_frame:1'
+  for (const [name, seconds] of [['brief', 1], ['long', 50]]) await store(name, { seconds })
+  const modes = async () => Object.fromEntries((await stored()).map(({ name, access_mode: mode }) => [name, mode]))
+  const before = await modes()
+  await visit('#/mine')
+  for (const name of ['brief', 'long']) await page.getByLabel(`Choose ${name}`, { exact: true }).check()
+  await button('Change storage').click()
+  await page.getByLabel('How motion is cut').selectOption('by_joint_and_frame')
+  await page.getByLabel('Frames in a piece').fill('1')
+  await page.getByLabel('Frames in a piece').press('Enter')
+  // Until it is under way: the brief one is done soon.
+  await page.waitForFunction(() => document.querySelector('dialog progress')?.value >= 50)
+  await button('Cancel').click()
+  await page.getByText('Cancelled: what was stored anew until then stays so, the others are as they were.').waitFor({ timeout: 60_000 })
+  await page.getByText('Stored anew: 1 of 2').waitFor()
+  assert.deepEqual(await modes(), { ...before, brief: kPieces })
+  // At once, by keyboard: nothing is done.
+  await button('Change').click()
+  await button('Cancel').focus()
+  await page.keyboard.press('Enter')
+  await page.getByText('Cancelled: everything is as it was.').waitFor({ timeout: 60_000 })
+  assert.deepEqual(await modes(), { ...before, brief: kPieces })
+  await button('Close').click()
+  await page.locator('tr', { hasText: 'brief' }).getByText(kPieces).waitFor()
+  const { faults } = await (await fetch(`${address}/api/databases/mine/check`)).json()
+  assert.deepEqual(faults, [])
 })
 
 test('shows thousands of recordings without drawing them', async () => {

@@ -3,7 +3,7 @@ import { mkdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { dirname, join, resolve } from 'node:path'
 import { fileURLToPath } from 'node:url'
 import { axeFaults } from './page_tools.mjs'
-import { address, folder, page } from './suite.mjs'
+import { address, folder, page, visit } from './suite.mjs'
 
 export const kRoot = resolve(dirname(fileURLToPath(import.meta.url)), '../../..')
 export const kSignweave = join(process.env.SIGNWEAVE_BIN ?? join(kRoot, 'build/release/bin'), 'signweave')
@@ -12,6 +12,23 @@ export const button = (name) => page.getByRole('button', { name, exact: true })
 export const stored = async (database = 'mine') => (await (await fetch(`${address}/api/databases/${database}`)).json()).recordings
 export const storedOne = async (name) => (await fetch(`${address}/api/databases/mine/recordings/${encodeURIComponent(name)}`)).json()
 export const annotation = async (name) => (await fetch(`${address}/api/databases/mine/recordings/${encodeURIComponent(name)}/annotation`)).text()
+
+/** On the page of an import into `mine`. */
+export async function begin() {
+  await visit('#/mine/import')
+  await page.locator('.drop').waitFor()
+  page.on('dialog', (dialog) => dialog.accept())
+}
+export const choose = (list) => page.locator('input[type=file]:not([webkitdirectory])').setInputFiles(list)
+export async function look() {
+  await page.getByRole('button', { name: /^(Send and look|Send the rest|Look again)$/ }).click()
+  await page.getByRole('heading', { name: 'What would be stored' }).waitFor({ timeout: 60_000 })
+}
+/** A recording in the report. */
+export const row = (name) => page.getByRole('row', { name: new RegExp(`Import ${name} `) })
+/** Until reports are as they were corrected. */
+export const settled = () =>
+  page.waitForFunction(() => !/looking again/.test(document.querySelector('main').textContent) && !document.querySelector('.acts progress'), null, { timeout: 60_000 })
 
 /** Files of a recording of the demo's first seconds, under another name; `change` may change the texts. */
 export function files(name, { seconds = 8, into = join(folder, 'files'), motion = true, change = (text) => text } = {}) {
@@ -26,12 +43,14 @@ export function files(name, { seconds = 8, into = join(folder, 'files'), motion 
   return [...(motion ? [join(into, `${name}.bvh`)] : []), join(into, `${name}.eaf`)]
 }
 
-/** Stores a recording as a program does. */
-export async function store(name, more) {
+/** Stores a recording as a program does; `called` is its name where it is not that of its files. */
+export async function store(name, { called, ...more } = {}) {
   const uploads = `${address}/api/databases/mine/uploads`
   const { upload } = await (await fetch(uploads, { method: 'POST' })).json()
   for (const path of files(name, more)) await fetch(`${uploads}/${upload}/files/${path.split('/').at(-1)}`, { method: 'PUT', body: readFileSync(path) })
-  const { job } = await (await fetch(`${uploads}/${upload}/import`, { method: 'POST' })).json()
+  if (called) await fetch(`${uploads}/${upload}/files/pairs.csv`, { method: 'PUT', body: `${name}.bvh,${name}.eaf,,,,,"${called}"\n` })
+  const body = JSON.stringify(called ? { pairs: 'pairs.csv' } : {})
+  const { job } = await (await fetch(`${uploads}/${upload}/import`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body })).json()
   for (;;) {
     const { state } = await (await fetch(`${address}/api/jobs/${job}`)).json()
     if (state === 'done') return

@@ -24,9 +24,22 @@ it('names tiers with their hands, and those with a colon in all three parts', ()
   expect(parametersOf(kNone, { settings: {}, tiers }, 'a.bvh')).toEqual({ sign_tier: ['Gloss', 'Gloss L:left', 'a:b:both:'], phase_tier: ['Phase'] })
 })
 
+it('says that there is no tier where somebody took all for something else, and where none is wanted for any recording', () => {
+  const tiers = [{ tier: 'Gloss', role: 'signs', hand: 'both' }, { tier: 'Phase', role: '', hand: 'both' }] as const
+  const none = tiers.map((tier) => ({ ...tier, role: '' as const }))
+  const all: Corrections = { settings: { no_phase_tier: 'yes', no_sign_tier: 'yes' } }
+  expect(parametersOf(kNone, undefined, 'a.bvh')).toEqual({})
+  expect(parametersOf(kNone, { settings: {}, tiers }, 'a.bvh')).toEqual({ sign_tier: ['Gloss'], no_phase_tier: true })
+  expect(parametersOf(kNone, { settings: {}, tiers: none }, 'a.bvh')).toEqual({ no_sign_tier: true, no_phase_tier: true })
+  expect(parametersOf(all, undefined, 'a.bvh')).toEqual({ no_sign_tier: true, no_phase_tier: true })
+  // What is told of one recording goes before.
+  expect(parametersOf(all, { settings: {}, tiers }, 'a.bvh')).toEqual({ sign_tier: ['Gloss'], no_phase_tier: true })
+})
+
 it('makes one call for recordings that are told the same', () => {
   const rig = { left_hand: 'wrist_a' }
-  const groups = grouped([{ key: 'a', motion: 'a.bvh' }, { key: 'b', motion: 'b.bvh', one: { settings: {}, rig } }, { key: 'c', motion: 'c.bvh', one: { settings: {} } },
+  const groups = grouped([{ key: 'a', motion: 'a.bvh' }, { key: 'b', motion: 'b.bvh', one: { settings: {}, rig } },
+    { key: 'c', motion: 'c.bvh', one: { settings: {} } },
     { key: 'd', motion: null, one: { settings: {}, rig } }], { settings: {}, signer: 'Zoé' })
   expect(groups.map(({ keys, rig: text }) => [keys, text])).toEqual([[['a', 'c', 'd'], ''], [['b'], 'left_hand = wrist_a\n']])
 })

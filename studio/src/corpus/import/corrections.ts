@@ -8,10 +8,14 @@ export interface Setting {
   readonly flag?: boolean
   /** Endings of the motion files that it says something about; else it is about all recordings. */
   readonly of?: readonly string[]
+  /** It is said for all recordings; of one its tiers tell it. */
+  readonly ofAll?: boolean
   /** What may be typed. */
   readonly pattern?: RegExp
 }
-export type SettingName = 'up' | 'unit' | 'mirror' | 'root_unit' | 'root_order' | 'source_rate' | 'take' | 'offset_ms' | 'face_offset_ms' | 'face_timecode' | 'sync' | 'replace_motion'
+export type SettingName = 'up' | 'unit' | 'mirror' | 'root_unit' | 'root_order' | 'source_rate' | 'take' | 'offset_ms' | 'face_offset_ms' | 'face_timecode'
+  | 'sync' | 'replace_motion'
+  | 'no_sign_tier' | 'no_phase_tier'
 
 const kKeyed = ['.fbx', '.glb', '.gltf'], kNumber = /^[-+]?\d+([.,]\d+)?$/
 const kUnit = /^(cm|m|mm|in|\d*[.,]?\d+(e-?\d+)?)$/
@@ -28,6 +32,8 @@ export const kSettings: readonly Setting[] = [
   { name: 'face_offset_ms', pattern: kNumber },
   { name: 'face_timecode', pattern: /^\d\d:\d\d:\d\d[:;]\d\d$/ },
   { name: 'replace_motion', flag: true },
+  { name: 'no_sign_tier', flag: true, ofAll: true },
+  { name: 'no_phase_tier', flag: true, ofAll: true },
 ]
 
 /** What a tier is told to be. */
@@ -58,16 +64,19 @@ export function parametersOf(all: Corrections, one: Corrections | undefined, mot
   const body: Record<string, unknown> = {}
   for (const setting of kSettings) {
     const value = settingOf(all, one, setting.name).trim()
-    if (!value || !fits(setting, motion) || !isRight(setting, value)) continue
+    if (!value || setting.ofAll || !fits(setting, motion) || !isRight(setting, value)) continue
     const plain = setting.pattern ? value.replaceAll(',', '.') : value
     if (setting.flag) body[setting.name] = true
     else if (setting.name === 'sync') body.sync = plain.split(/\s+/)
     else body[setting.name] = /_ms$/.test(setting.name) ? Number(plain) : plain
   }
-  const tiers = one?.tiers ?? []
-  const signs = tiers.filter(({ role }) => role === 'signs'), phases = tiers.filter(({ role }) => role === 'phases')
-  if (signs.length) body.sign_tier = signs.map(signTier)
-  if (phases.length) body.phase_tier = phases.map(({ tier }) => tier)
+  // Where nobody said what its tiers are they are guessed, unless there are none for any recording.
+  const tiers = one?.tiers
+  const signs = tiers?.filter(({ role }) => role === 'signs') ?? [], phases = tiers?.filter(({ role }) => role === 'phases') ?? []
+  if (signs.length > 0) body.sign_tier = signs.map(signTier)
+  else if (tiers || all.settings.no_sign_tier) body.no_sign_tier = true
+  if (phases.length > 0) body.phase_tier = phases.map(({ tier }) => tier)
+  else if (tiers || all.settings.no_phase_tier) body.no_phase_tier = true
   return body
 }
 
@@ -101,10 +110,12 @@ export function mendOf(notice: string): Readonly<Partial<Record<SettingName, str
 }
 
 /** What goes into one call: recordings that are told the same. */
-export interface Group { readonly keys: readonly string[]; readonly body: Readonly<Record<string, unknown>>; /** The mapping file's text; empty where there is none. */ readonly rig: string }
+export interface Group { readonly keys: readonly string[]; readonly body: Readonly<Record<string, unknown>>;
+  /** The mapping file's text; empty where there is none. */ readonly rig: string }
 
 /** Puts recordings that are told the same into one call. */
-export function grouped(recordings: readonly { readonly key: string; readonly motion: string | null; readonly one?: Corrections }[], all: Corrections): readonly Group[] {
+export function grouped(recordings: readonly { readonly key: string; readonly motion: string | null; readonly one?: Corrections }[],
+  all: Corrections): readonly Group[] {
   const groups = new Map<string, { keys: string[]; body: Readonly<Record<string, unknown>>; rig: string }>()
   for (const { key, motion, one } of recordings) {
     const body = parametersOf(all, one, motion), rig = motion ? rigText({ ...all.rig, ...one?.rig }) : ''

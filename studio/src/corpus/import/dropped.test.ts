@@ -13,7 +13,8 @@ const item = (entry: unknown) => ({ kind: 'file', webkitGetAsEntry: () => entry,
 
 it('takes files and folders with all that is in them, however many', async () => {
   const many = Array.from({ length: 250 }, (_, k) => fileEntry(`${k}.bvh`))
-  const transfer = { items: [item(fileEntry('a.bvh')), item(folderEntry('day', [...many, folderEntry('two', [fileEntry('b.eaf')])])), item(null), { kind: 'string' }] } as unknown as DataTransfer
+  const transfer = { items: [item(fileEntry('a.bvh')), item(folderEntry('day', [...many, folderEntry('two', [fileEntry('b.eaf')])])), item(null),
+    { kind: 'string' }] } as unknown as DataTransfer
   const all = await dropped(transfer)
   expect(all.length).toBe(253)
   expect([all[0], all[251], all[252]].map(({ file, folder }) => [folder, file.name])).toEqual([['', 'a.bvh'], ['day/two', 'b.eaf'], ['', 'plain.bvh']])

@@ -11,7 +11,8 @@ export interface Listed extends Picked {
   /** Another file has the same name: only one can be sent. */
   readonly clash: boolean
 }
-export interface FileList { readonly files: readonly Listed[]; readonly next: number; /** Hidden files of folders that were left out. */ readonly hidden: number }
+export interface FileList { readonly files: readonly Listed[]; readonly next: number;
+  /** Hidden files of folders that were left out. */ readonly hidden: number }
 
 export const kNoFiles: FileList = { files: [], next: 1, hidden: 0 }
 

@@ -1,23 +1,19 @@
 import type { Api } from '../../api/client'
 import type { FilePart, FormatRow, Imported, ImportResult, Inspected, Inspection, Notice } from '../../api/corpus_answers'
 import { formats, isWritable } from '../../api/corpus_calls'
-import { ApiError } from '../../api/fault'
 import { grouped, kNone, readRig, type Corrections, type Group } from './corrections'
-import { endingOf, stemOf } from './file_kinds'
+import { endingOf, isRefusal, stemOf } from './file_kinds'
 import { added, kNoFiles, sendable, withFolderNames, without, type FileList, type Picked } from './file_list'
 import { extended, keyOf, paired, readTable, tableOf, type Pair, type TableFault } from './pairs'
-import { isOfTheCall, withGood } from './reports'
+import { failedBy, isCancelled, isOfTheCall, withGood } from './reports'
 import { Revisions } from './revisions'
 import { isGone, Sender } from './sender.svelte'
-import { UploadJobs } from './upload_jobs'
+import { UploadJobs, type Doing } from './upload_jobs'
 
 const kParts: readonly FilePart[] = ['motion', 'annotation', 'face']
 const kTable = 'pairs.csv'
 /** After a correction, ms until the report is made anew: several go together. */
 const kSettle = 700
-
-/** What is being done, `part` of it being over, 0 to 1. */
-export interface Doing { readonly what: 'inspect' | 'import'; readonly part: number; /** Of an import, the recordings of the call in their order, and how far it is. */ readonly call?: { readonly keys: readonly string[]; readonly part: number } }
 
 /** One import from choosing files to what became of them. It outlives the page, so that nothing is lost where somebody looks at something else. */
 export class ImportSession {
@@ -110,9 +106,18 @@ export class ImportSession {
     this.change(added(this.list, more, this.formats))
     await this.readTables()
   }
+  /** Takes files out. Reports of recordings that had one are made anew, the others stay. */
   remove(ids: readonly number[]): void {
     if (this.isTurnedAway()) return
-    this.change(without(this.list, ids, this.formats))
+    const gone = this.list.files.filter(({ id }) => ids.includes(id))
+    const list = without(this.list, ids, this.formats)
+    const isPart = (kind: string) => kParts.some((part) => part === kind)
+    // Of what is read with others, or was kept back, nobody knows which reports it is about.
+    if (this.reports.length === 0 || gone.some(({ kind, clash }) => clash || !(isRefusal(kind) || isPart(kind)))) return this.change(list)
+    const before = this.table()
+    this.list = list
+    if (gone.every(({ kind }) => isRefusal(kind))) return
+    this.repair(before, this.extended(before))
   }
   renameClashes(): void {
     if (this.isTurnedAway()) return
@@ -143,7 +148,6 @@ export class ImportSession {
     this.turnedAway = false
     const files = sendable(this.list)
     try {
-      if (this.sender.isBeyond(files)) this.sender.forget()
       if (await this.sender.send(files)) await this.inspect()
     } catch (fault) {
       if (isGone(fault) && !again) {
@@ -171,10 +175,25 @@ export class ImportSession {
   pair(key: string, part: FilePart, file: string | null): void {
     const before = this.table()
     const after = paired(before, key, part, file, this.stemOf)
-    if (after === before) return
+    if (after !== before) this.repair(before, after)
+  }
+  private repair(before: readonly Pair[], after: readonly Pair[]): void {
+    const told = new Set(before.map((one) => JSON.stringify(one))), here = new Set(after.map(keyOf))
     this.pairs = after
-    const same = (one: Pair) => before.some((other) => JSON.stringify(other) === JSON.stringify(one))
-    this.touched(after.filter((one) => !same(one)).map(keyOf))
+    const over = this.reports.map(({ files }) => keyOf(files)).filter((key) => !here.has(key))
+    this.touched([...over, ...after.filter((one) => !told.has(JSON.stringify(one))).map(keyOf)])
+  }
+  /** The keys of recordings that there still are, as somebody said which files belong together. */
+  private present(keys: Iterable<string>): readonly string[] {
+    if (!this.pairs) return [...keys]
+    const here = new Set(this.pairs.map(keyOf))
+    return [...keys].filter((key) => here.has(key))
+  }
+  private forgetGone(): void {
+    const here = new Set(this.present([...this.stale, ...this.refused.keys(), ...this.reports.map(({ files }) => keyOf(files))]))
+    this.stale = new Set([...this.stale].filter((key) => here.has(key)))
+    this.refused = new Map([...this.refused].filter(([key]) => here.has(key)))
+    this.reports = this.reports.filter(({ files }) => here.has(keyOf(files)))
   }
   want(keys: readonly string[], wanted: boolean): void {
     const left = new Set(this.left)
@@ -199,14 +218,15 @@ export class ImportSession {
     this.unsettle()
     this.fault = undefined
     const isSame = this.revisions.mark()
-    const groups = keys ? this.groups(keys) : [{ keys: [], body: {}, rig: '' }]
+    const groups = keys ? this.groups(this.present(keys)) : [{ keys: [], body: {}, rig: '' }]
     for (const [at, group] of groups.entries()) {
       // What was corrected meanwhile is looked at afterwards.
       const now = group.keys.filter(isSame)
       if (keys && now.length === 0) continue
       this.doing = { what: 'inspect', part: at / groups.length }
       try {
-        const inspection = await this.run<Inspection>('inspect', { ...group, keys: now }, (part) => (this.doing = { ...this.doing!, part: (at + part) / groups.length }))
+        const inspection = await this.run<Inspection>('inspect', { ...group, keys: now },
+          (part) => (this.doing = { ...this.doing!, part: (at + part) / groups.length }))
         const errors = this.take(inspection, keys ? now : undefined)
         if (keys) this.looked(now.filter(isSame), errors)
       } catch (fault) {
@@ -217,6 +237,7 @@ export class ImportSession {
         this.doing = undefined
       }
     }
+    this.forgetGone()
     if (keys) return
     // What was corrected before files were added holds for them, too.
     const again = this.all !== kNone || this.own.size > 0 ? this.reports.map(({ files }) => keyOf(files)) : []
@@ -257,7 +278,7 @@ export class ImportSession {
           break
         }
         const failed = keys.filter((key) => isSame(key) && !this.isStored(key))
-        this.outcomes = new Map([...this.outcomes, ...failed.map((key) => [key, { name: this.nameOf(key), outcome: 'failed', error: (fault as ApiError).message }] as const)])
+        this.outcomes = new Map([...this.outcomes, ...failed.map((key) => [key, failedBy(fault, this.nameOf(key))] as const)])
       } finally {
         this.doing = undefined
       }
@@ -265,13 +286,14 @@ export class ImportSession {
     this.onimported?.()
   }
 
+  private readonly names = $derived(new Map(this.reports.map(({ files, name }) => [keyOf(files), name])))
   nameOf(key: string): string {
-    return this.reports.find(({ files }) => keyOf(files) === key)?.name ?? this.stemOf(key)
+    return this.names.get(key) ?? this.stemOf(key)
   }
 
   private groups(keys: readonly string[]): readonly Group[] {
-    const table = this.table()
-    return grouped(keys.map((key) => ({ key, motion: table.find((pair) => keyOf(pair) === key)?.motion ?? null, one: this.own.get(key) })), this.all)
+    const motions = new Map(this.table().map((pair) => [keyOf(pair), pair.motion]))
+    return grouped(keys.map((key) => ({ key, motion: motions.get(key) ?? null, one: this.own.get(key) })), this.all)
   }
 
   /** Which files belong together, with their signers, as the next call is to have it. */
@@ -303,9 +325,9 @@ export class ImportSession {
   }
 
   private outcome({ recordings }: ImportResult, group: Group): void {
-    const outcomes = new Map(this.outcomes)
+    const outcomes = new Map(this.outcomes), keys = new Map(group.keys.map((key) => [this.nameOf(key), key]))
     for (const one of recordings) {
-      const key = group.keys.find((each) => this.nameOf(each) === one.name)
+      const key = keys.get(one.name)
       if (key !== undefined) outcomes.set(key, one)
     }
     this.outcomes = outcomes
@@ -334,10 +356,13 @@ export class ImportSession {
 
   private change(list: FileList): void {
     this.list = list
-    const names = new Set(list.files.map(({ name }) => name))
-    if (this.pairs) this.pairs = extended(this.pairs, names, { motion: this.filesOf('motion'), annotation: this.filesOf('annotation'), face: this.filesOf('face') }, this.stemOf)
-    if (this.sender.isBeyond(sendable(list))) this.sender.forget()
+    if (this.pairs) this.pairs = this.extended(this.pairs)
     this.forgetReports()
+  }
+  /** Pairs for the files that are there now. */
+  private extended(pairs: readonly Pair[]): readonly Pair[] {
+    const names = new Set(this.list.files.map(({ name }) => name))
+    return extended(pairs, names, { motion: this.filesOf('motion'), annotation: this.filesOf('annotation'), face: this.filesOf('face') }, this.stemOf)
   }
   private forgetReports(): void {
     this.reports = this.notices = this.faults = []
@@ -363,5 +388,3 @@ export class ImportSession {
     return endingOf(name, this.formats)?.name ?? ''
   }
 }
-
-const isCancelled = (fault: unknown) => fault instanceof ApiError && fault.code === 'cancelled'

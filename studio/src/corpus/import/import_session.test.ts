@@ -8,7 +8,10 @@ import { ImportSession } from './import_session.svelte'
 type Body = Readonly<Record<string, unknown>> & { readonly recordings?: readonly string[] }
 interface Call { readonly what: string; readonly body: Body; readonly answer: (result: unknown) => void; readonly refuse: (fault: unknown) => void }
 
-const server = vi.hoisted(() => ({ begun: [] as { what: string; body: object }[], discarded: [] as string[], cancelled: [] as string[], opened: 0, put: new Map<string, string>() }))
+const server = vi.hoisted(() => ({
+  begun: [] as { what: string; body: object }[], discarded: [] as string[], cancelled: [] as string[], opened: 0, put: new Map<string, string>(),
+  onbegin: undefined as (() => void) | undefined,
+}))
 vi.mock('../../api/corpus_calls', () => ({
   formats: () => Promise.resolve(['.bvh', '.eaf'].map((ending) => ({ ending, name: ending, reads: true, writes: true, holds: '' }))),
   isWritable: () => Promise.resolve(true),
@@ -16,15 +19,20 @@ vi.mock('../../api/corpus_calls', () => ({
   sendFile: async (_api: unknown, _database: string, _upload: string, name: string, file: Blob) => void server.put.set(name, await file.text()),
   discardUpload: (_api: unknown, _database: string, upload: string) => (server.discarded.push(upload), Promise.resolve()),
   cancelJob: (_api: unknown, job: string) => (server.cancelled.push(job), Promise.resolve()),
-  beginUpload: (_api: unknown, _database: string, _upload: string, what: string, body: object) => Promise.resolve({ job: String(server.begun.push({ what, body }) - 1) }),
+  removeUploaded: () => Promise.resolve(),
+  beginUpload: (_api: unknown, _database: string, _upload: string, what: string, body: object) => {
+    server.onbegin?.()
+    return Promise.resolve({ job: String(server.begun.push({ what, body }) - 1) })
+  },
 }))
 
 /** Calls that wait for their answer. */
 let calls: Call[] = []
-const api = { result: ({ job }: { job: string }) => new Promise((answer, refuse) => calls.push({ ...server.begun[Number(job)], answer, refuse } as Call)) } as unknown as Api
+const result = ({ job }: { job: string }) => new Promise((answer, refuse) => calls.push({ ...server.begun[Number(job)], answer, refuse } as Call))
+const api = { result } as unknown as Api
 const report = (name: string, more: object = {}): Inspected => ({ name, files: { motion: `${name}.bvh`, annotation: null, face: null }, known: false, ...more })
 const inspection = (recordings: readonly Inspected[]) => ({ recordings, notices: [], faults: [] })
-const result = (names: readonly string[]) => ({ recordings: names.map((name): Imported => ({ name, outcome: 'added' })), notices: [], faults: [] })
+const stored = (names: readonly string[]) => ({ recordings: names.map((name): Imported => ({ name, outcome: 'added' })), notices: [], faults: [] })
 const told = (settings: object) => ({ ...kNone, settings })
 /** The next call; what it told is as it was asked for. */
 async function next(): Promise<Call> {
@@ -48,7 +56,7 @@ beforeEach(() => void vi.useFakeTimers({ shouldAdvanceTime: true }))
 afterEach(() => {
   vi.useRealTimers()
   calls = []
-  Object.assign(server, { begun: [], discarded: [], cancelled: [], opened: 0 })
+  Object.assign(server, { begun: [], discarded: [], cancelled: [], opened: 0, onbegin: undefined })
 })
 
 it('looks again at what is corrected while another is looked at, and imports nothing unseen', async () => {
@@ -139,7 +147,7 @@ it('imports the others where one is refused, and tries again what failed', async
   expect(first.body.recordings).toEqual(['a'])
   first.refuse(new ApiError('not so', 400, 'bad_input'))
   const away = new StudioFault('unreachable')
-  ;(await next()).answer(result(['b']))
+  ;(await next()).answer(stored(['b']))
   ;(await next()).refuse(away)
   await over
   expect(session.outcomes.get('a.bvh')).toMatchObject({ outcome: 'failed', error: 'not so' })
@@ -149,13 +157,13 @@ it('imports the others where one is refused, and tries again what failed', async
   session.retry!()
   const again = await next()
   expect(again.body.recordings).toEqual(['a'])
-  again.answer(result(['a']))
+  again.answer(stored(['a']))
   await vi.waitFor(() => expect([session.doing, session.wanted.map(({ name }) => name)]).toEqual([undefined, ['c']]))
   await settle()
   ;(await next()).answer(inspection([report('c')]))
   await vi.waitFor(() => expect(session.stale.size).toBe(0))
   const rest = session.import()
-  ;(await next()).answer(result(['c']))
+  ;(await next()).answer(stored(['c']))
   await rest
   expect([server.begun.at(-1), session.wanted.length]).toEqual([{ what: 'import', body: { recordings: ['c'] } }, 0])
 })
@@ -169,7 +177,7 @@ it('does not take a recording that is corrected during its import for imported s
   const over = session.import(), first = await next()
   session.correct('a.bvh', told({ mirror: 'yes' }))
   session.correct('c.bvh', told({ unit: 'cm' }))
-  first.answer(result(['a', 'b']))
+  first.answer(stored(['a', 'b']))
   await over
   expect([...session.outcomes.keys()]).toEqual(['b.bvh'])
   expect(session.wanted.map(({ name }) => name)).toEqual(['a', 'c'])
@@ -181,7 +189,7 @@ it('takes and gives no files while something is under way, and says so', async (
   await session.add([{ file: new File(['x'], 'd.bvh'), folder: '' }])
   session.remove([1])
   expect([session.turnedAway, session.list.files.length, session.reports.length, session.doing?.what]).toEqual([true, 3, 3, 'import'])
-  answer(result(['a', 'b', 'c']))
+  answer(stored(['a', 'b', 'c']))
   await over
   expect(session.outcomes.size).toBe(3)
   await session.add([{ file: new File(['x'], 'd.bvh'), folder: '' }])
@@ -196,14 +204,14 @@ it('gives up an upload that nobody imports from, and sends it anew where it is w
   const over = session.import(), { answer } = await next()
   session.close()
   expect(server.discarded).toEqual([])
-  answer(result(['a', 'b']))
+  answer(stored(['a', 'b']))
   await over
   session.leave()
   expect(server.discarded).toEqual(['upload 1'])
   session.want(['c.bvh'], true)
   const rest = session.import(), second = await next()
   expect([server.opened, second.body.recordings]).toEqual([2, ['c']])
-  second.answer(result(['c']))
+  second.answer(stored(['c']))
   await rest
   expect(session.wanted).toHaveLength(0)
   session.close()
@@ -218,10 +226,14 @@ it('says what nobody looks at any more where looking was cancelled', async () =>
   ;(await next()).refuse(new ApiError('cancelled', 500, 'cancelled'))
   await vi.waitFor(() => expect(session.unlooked).toEqual(['a.bvh']))
   expect(session.fault).toBeUndefined()
-  // It is also cancelled where it is only about to begin.
+  // It is also cancelled where it is only about to begin, or is not known to have begun.
   const again = session.inspect(session.unlooked)
   session.cancel()
-  ;(await next()).refuse(new ApiError('cancelled', 500, 'cancelled'))
   await again
+  expect([server.begun.length, session.unlooked]).toEqual([2, ['a.bvh']])
+  server.onbegin = () => session.cancel()
+  const third = session.inspect(session.unlooked)
+  ;(await next()).refuse(new ApiError('cancelled', 500, 'cancelled'))
+  await third
   expect([server.cancelled, session.unlooked]).toEqual([['2'], ['a.bvh']])
 })

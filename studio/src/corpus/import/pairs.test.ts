@@ -30,9 +30,13 @@ it('moves a face, which only one motion has', () => {
 })
 
 it('writes tables that it reads again, quotes and all', () => {
-  const pairs = [{ ...pair('one, two.bvh', 'a "b".eaf', 'f.face.csv'), signer: 'Zoé', offset: '-120', faceOffset: '20' }, pair(null, 'c.eaf')]
-  const names = new Set(['one, two.bvh', 'a "b".eaf', 'f.face.csv', 'c.eaf'])
+  const pairs = [{ ...pair('one, two.bvh', 'a "b".eaf', 'f.face.csv'), signer: 'Zoé', offset: '-120', faceOffset: '20' }, pair(null, 'c.eaf'),
+    { ...pair('d.bvh', null), name: 'day 1/d' }]
+  const names = new Set(['one, two.bvh', 'a "b".eaf', 'f.face.csv', 'c.eaf', 'd.bvh', 'd.face.csv'])
   expect(readTable(tableOf(pairs), names)).toEqual({ pairs, faults: [] })
+  // A face that lies beside its motion is taken, unless the table says that there is none.
+  expect(short(readTable('d.bvh,\n', names).pairs)).toEqual(['d.bvh - d.face.csv'])
+  expect(tableOf([pair('d.bvh', null)])).toMatch(/\nd.bvh,,,,-,,\n$/)
 })
 
 it('reads tables with paths, and names files that were not chosen', () => {
@@ -54,4 +58,12 @@ it('leaves out an annotation that would be called as a recording with motion is'
   expect(short(split)).toEqual(['a.bvh - -', '- c.eaf -'])
   expect(short(paired(split, 'a.bvh', 'annotation', 'a.eaf'))).toEqual(['a.bvh a.eaf -', '- c.eaf -'])
   expect(short(paired(pairs, 'c.eaf', 'motion', 'a.bvh'))).toEqual(['a.bvh c.eaf -'])
+})
+
+it('takes a motion away from the annotation of its name, and a face from its motion', () => {
+  const pairs = [pair('a.bvh', 'a.eaf', 'a.face.csv'), pair('b.bvh', null)]
+  const alone = paired(pairs, 'a.bvh', 'motion', null)
+  expect(short(alone)).toEqual(['- a.eaf -', 'b.bvh - -'])
+  expect(short(paired(alone, 'a.eaf', 'motion', 'a.bvh'))).toEqual(['a.bvh a.eaf -', 'b.bvh - -'])
+  expect(short(paired(pairs, 'a.bvh', 'face', null))).toEqual(['a.bvh a.eaf -', 'b.bvh - -'])
 })

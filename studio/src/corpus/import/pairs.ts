@@ -3,7 +3,9 @@ import type { FilePart } from '../../api/corpus_answers'
 /** Files that make one recording, by the names that they are sent under. */
 export interface Pair { readonly motion: string | null; readonly annotation: string | null; readonly face: string | null; readonly signer: string
   /** Annotation time of frame 0, and the motion's time of the face's first row, in ms, as a table tells them. */
-  readonly offset?: string; readonly faceOffset?: string }
+  readonly offset?: string; readonly faceOffset?: string
+  /** What the recording is called, where a table tells it. */
+  readonly name?: string }
 export type Files = Pick<Pair, FilePart>
 
 /** What a recording is known by while it is corrected. */
@@ -29,8 +31,13 @@ export function paired(pairs: readonly Pair[], key: string, part: FilePart, file
   } else if (part === 'motion') changed = { ...changed, face: null }
   else if (part === 'face' && file !== null) rest = rest.map((pair) => (pair.face === file ? { ...pair, face: null } : pair))
   else if (file !== null) rest = rest.filter(({ motion, annotation }) => motion !== null || annotation !== file)
+  // A motion that is taken away from the annotation of its name leaves the name to it.
+  if (part === 'motion' && file === null && one.motion && changed.annotation && stem(one.motion) === stem(changed.annotation)) {
+    return named([...rest, changed].sort(byKey), stem)
+  }
   return named(completed([...rest, ...(changed.motion || changed.annotation ? [changed] : [])], pairs), stem)
 }
+const byKey = (a: Pair, b: Pair) => (keyOf(a) < keyOf(b) ? -1 : 1)
 
 /** What `before` had and no pair has now comes as recordings of its own; faces need a motion, and stay where they lay where they have one. */
 function completed(pairs: readonly Pair[], before: readonly Pair[]): readonly Pair[] {
@@ -40,7 +47,7 @@ function completed(pairs: readonly Pair[], before: readonly Pair[]): readonly Pa
     if (!has('motion', motion)) alone.push({ motion, annotation: null, face: has('face', face) ? null : face, signer })
     if (!has('annotation', annotation) && !alone.some((pair) => pair.annotation === annotation)) alone.push({ motion: null, annotation, face: null, signer })
   }
-  return [...pairs, ...alone].sort((a, b) => (keyOf(a) < keyOf(b) ? -1 : 1))
+  return [...pairs, ...alone].sort(byKey)
 }
 
 /** Without annotations alone that would be called as a recording with motion is: no two can have one name. */
@@ -57,15 +64,18 @@ export function extended(pairs: readonly Pair[], names: ReadonlySet<string>, all
   const isNew = (part: FilePart) => (name: string) => !kept.some((pair) => pair[part] === name)
   const annotations = all.annotation.filter(isNew('annotation')), faces = all.face.filter(isNew('face'))
   const like = (list: readonly string[], name: string) => list.find((other) => stem(other) === stem(name)) ?? null
-  const motions = all.motion.filter(isNew('motion')).map((motion): Pair => ({ motion, annotation: like(annotations, motion), face: like(faces, motion), signer: '' }))
-  const alone = annotations.filter((name) => !motions.some(({ annotation }) => annotation === name)).map((annotation): Pair => ({ motion: null, annotation, face: null, signer: '' }))
+  const motions = all.motion.filter(isNew('motion'))
+    .map((motion): Pair => ({ motion, annotation: like(annotations, motion), face: like(faces, motion), signer: '' }))
+  const alone = annotations.filter((name) => !motions.some(({ annotation }) => annotation === name))
+    .map((annotation): Pair => ({ motion: null, annotation, face: null, signer: '' }))
   return named([...kept, ...motions, ...alone], stem)
 }
 
 /** As the server reads it (docs/formats.md). */
 export function tableOf(pairs: readonly Pair[]): string {
-  const rows = pairs.map(({ motion, annotation, signer, offset, face, faceOffset }) => [motion, annotation, signer, offset, face, face ? faceOffset : ''])
-  return ['motion,annotation,signer,offset,face,face offset', ...rows.map((row) => row.map((field) => quoted(field ?? '')).join(','))].join('\n') + '\n'
+  const rows = pairs.map(({ motion, annotation, signer, offset, face, faceOffset, name }) =>
+    [motion, annotation, signer, offset, face ?? (motion ? '-' : ''), face ? faceOffset : '', name])
+  return ['motion,annotation,signer,offset,face,face offset,name', ...rows.map((row) => row.map((field) => quoted(field ?? '')).join(','))].join('\n') + '\n'
 }
 const quoted = (field: string) => (/[",\r\n]|^\s|\s$/.test(field) ? `"${field.replaceAll('"', '""')}"` : field)
 
@@ -75,15 +85,18 @@ export interface TableFault { readonly line: number; readonly file?: string }
 /** Reads a table of pairs. Its paths stand for the files of those names: `names` are those that were chosen. */
 export function readTable(text: string, names: ReadonlySet<string>): { readonly pairs: readonly Pair[]; readonly faults: readonly TableFault[] } {
   const pairs: Pair[] = [], faults: TableFault[] = []
+  const beside = (motion: string) => `${motion.replace(/\.[^.]*$/, '')}.face.csv`
   for (const { line, fields } of rowsOf(text)) {
-    const [motion = '', annotation = '', signer = '', offset = '', face = '', faceOffset = ''] = fields.map((field) => field.trim())
+    const [motion = '', annotation = '', signer = '', offset = '', face = '', faceOffset = '', name = ''] = fields.map((field) => field.trim())
     if (pairs.length === 0 && motion.toLowerCase() === 'motion') continue
     const file = (path: string) => path.replaceAll('\\', '/').split('/').at(-1)! || null
-    const files = { motion: file(motion), annotation: file(annotation), face: file(face) }
+    const files = { motion: file(motion), annotation: file(annotation), face: face === '-' ? null : file(face) }
+    // Nothing said, what lies beside the motion is its face, as the server has it.
+    if (files.motion && !face && names.has(beside(files.motion))) files.face = beside(files.motion)
     const missing = Object.values(files).find((name) => name !== null && !names.has(name))
     if (missing) faults.push({ line, file: missing })
     else if (!files.motion && !files.annotation) faults.push({ line })
-    else pairs.push({ ...files, signer, offset: offset || undefined, faceOffset: faceOffset || undefined })
+    else pairs.push({ ...files, signer, offset: offset || undefined, faceOffset: faceOffset || undefined, name: name || undefined })
   }
   return { pairs, faults }
 }

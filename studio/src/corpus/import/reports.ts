@@ -1,4 +1,4 @@
-import type { Inspected } from '../../api/corpus_answers'
+import type { Imported, Inspected } from '../../api/corpus_answers'
 import { ApiError } from '../../api/fault'
 import { keyOf } from './pairs'
 import { isGone } from './sender.svelte'
@@ -12,11 +12,14 @@ export function isOfTheCall(fault: unknown): boolean {
   return fault instanceof ApiError && fault.status <= 500 && !kPassing.has(fault.status) && !kPassingCodes.has(fault.code) && !isGone(fault)
 }
 
-/**
- * Reports that take the place of those before. One that could be read, and cannot as it is corrected, stays as it was, so that the correction can be mended: `errors`
- * has what the server says of it.
- */
-export function withGood(told: readonly Inspected[], before: readonly Inspected[], isCorrected: (key: string) => boolean): { readonly reports: readonly Inspected[]; readonly errors: ReadonlyMap<string, string> } {
+export const isCancelled = (fault: unknown) => fault instanceof ApiError && fault.code === 'cancelled'
+/** What became of a recording whose call was refused. */
+export const failedBy = (fault: unknown, name: string): Imported => ({ name, outcome: 'failed', error: fault instanceof Error ? fault.message : String(fault) })
+
+/** Reports, and by recording what the server says of its corrections where it cannot read it with them. */
+export interface Taken { readonly reports: readonly Inspected[]; readonly errors: ReadonlyMap<string, string> }
+/** Reports that take the place of those before. One that could be read, and cannot as it is corrected, stays as it was, so that the correction can be mended. */
+export function withGood(told: readonly Inspected[], before: readonly Inspected[], isCorrected: (key: string) => boolean): Taken {
   const earlier = new Map(before.map((one) => [keyOf(one.files), one])), errors = new Map<string, string>()
   const reports = told.map((one) => {
     const key = keyOf(one.files), good = earlier.get(key)

@@ -1,5 +1,5 @@
 import type { Api } from '../../api/client'
-import { discardUpload, openUpload, sendFile } from '../../api/corpus_calls'
+import { discardUpload, openUpload, removeUploaded, sendFile } from '../../api/corpus_calls'
 import { ApiError } from '../../api/fault'
 import type { Listed } from './file_list'
 
@@ -25,9 +25,18 @@ export class Sender {
     const told = this.told.get(id)
     return told?.state === 'sent' && told.name === name
   }
-  /** Whether something was sent that is not among `files` any more, or has another name now: the server would read it. */
-  isBeyond(files: readonly Listed[]): boolean {
-    return [...this.told].some(([id, { state, name }]) => state === 'sent' && !files.some((file) => file.id === id && file.name === name))
+  /** Takes back what was sent and is not among `files` any more, or has another name now: the server would read it. The rest stays there. */
+  async retract(files: readonly Listed[]): Promise<void> {
+    const names = new Map(files.map(({ id, name }) => [id, name]))
+    for (const [id, { state, name }] of this.told) {
+      if (state !== 'sent' || names.get(id) === name) continue
+      try {
+        await removeUploaded(this.api, this.database, this.upload!, name)
+      } catch (fault) {
+        if (!(fault instanceof ApiError && fault.status === 404) || isGone(fault)) throw fault
+      }
+      this.untold(id)
+    }
   }
 
   /** Sends what is not there yet; true where all of it is there then. */
@@ -37,6 +46,7 @@ export class Sender {
     this.busy = true
     try {
       this.upload ??= await openUpload(this.api, this.database)
+      await this.retract(files)
       for (const file of files) {
         if (this.has(file)) continue
         if (signal.aborted) return false
@@ -66,6 +76,12 @@ export class Sender {
     if (upload) discardUpload(this.api, this.database, upload).catch(() => {}) // it goes by itself when nobody uses it
   }
 
+  private untold(id: number): void {
+    const rest = new Map(this.told)
+    rest.delete(id)
+    this.told = rest
+  }
+
   private async one({ id, name, file }: Listed, signal: AbortSignal): Promise<void> {
     let last = 0
     const tell = (sending: Sending) => (this.told = new Map(this.told).set(id, sending))
@@ -80,9 +96,7 @@ export class Sender {
       tell({ state: 'sent', bytes: file.size, name })
     } catch (fault) {
       if (signal.aborted) {
-        const rest = new Map(this.told)
-        rest.delete(id)
-        this.told = rest
+        this.untold(id)
         return
       }
       if (isGone(fault)) throw fault

@@ -5,7 +5,18 @@ import type { Listed } from './file_list'
 import { isGone, type Sender } from './sender.svelte'
 
 /** A call of an upload: its parameters, and the small files that are made for it, by the parameter that names each. */
-export interface UploadCall { readonly parameters: Readonly<Record<string, unknown>>; readonly made: Readonly<Record<string, { readonly name: string; readonly text: string }>> }
+export interface UploadCall {
+  readonly parameters: Readonly<Record<string, unknown>>
+  readonly made: Readonly<Record<string, { readonly name: string; readonly text: string }>>
+}
+
+/** What is being done, `part` of it being over, 0 to 1. */
+export interface Doing {
+  readonly what: 'inspect' | 'import'
+  readonly part: number
+  /** Of an import, the recordings of the call in their order, and how far it is. */
+  readonly call?: { readonly keys: readonly string[]; readonly part: number }
+}
 
 /** Does the calls of an upload, one at a time; where the server has the upload no more, everything is sent again first. */
 export class UploadJobs {
@@ -40,6 +51,7 @@ export class UploadJobs {
 
   private async once<Result>(what: 'inspect' | 'import', { parameters, made }: UploadCall, told: (part: number, result?: Result) => void): Promise<Result> {
     const { api, database, sender } = this, body = { ...parameters }
+    await sender.retract(this.files())
     for (const [parameter, { name, text }] of Object.entries(made)) {
       await sender.put(name, text)
       body[parameter] = name

@@ -18,20 +18,24 @@ const kEaf = `<?xml version="1.0" encoding="UTF-8"?>
         <TIME_SLOT TIME_SLOT_ID="x"   TIME_VALUE="300" ></TIME_SLOT>
     </TIME_ORDER>
     <TIER LINGUISTIC_TYPE_REF="gloss" TIER_ID="Gloss" PARTICIPANT="Zoé">
-        <ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="a1" TIME_SLOT_REF1="ts1" TIME_SLOT_REF2="x"><ANNOTATION_VALUE><![CDATA[A </TIER> B]]></ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION>
+        <ANNOTATION>
+          <ALIGNABLE_ANNOTATION ANNOTATION_ID="a1" TIME_SLOT_REF1="ts1" TIME_SLOT_REF2="x">
+            <ANNOTATION_VALUE><![CDATA[A </TIER> B]]></ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION>
     </TIER>
     <LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="gloss" TIME_ALIGNABLE="true"/>
     <LOCALE LANGUAGE_CODE="en"/>
 </ANNOTATION_DOCUMENT>
 `
 const accepted = (hand: 'right' | 'left', kind: string, begin: number, end: number) => ({ hand, kind, begin, end, state: 'accepted' as const })
-const kReview: Review = [accepted('right', 'preparation', 50, 150), accepted('right', 'stroke', 150, 400), accepted('left', 'hold', 100, 300)].reduce(put, kEmpty)
+const kReview: Review = [accepted('right', 'preparation', 50, 150), accepted('right', 'stroke', 150, 400), accepted('left', 'hold', 100, 300)]
+  .reduce(put, kEmpty)
 /** The lines of `after` that `before` has not, and the other way round. */
 function difference(before: string, after: string): { gone: string[]; come: string[] } {
   const lines = (text: string) => text.split('\n').map((line) => line.trim())
   const count = (list: string[]) => { const map = new Map<string, number>(); for (const one of list) map.set(one, (map.get(one) ?? 0) + 1); return map }
   const a = count(lines(before)), b = count(lines(after))
-  return { gone: [...a].filter(([line, n]) => (b.get(line) ?? 0) < n).map(([line]) => line), come: [...b].filter(([line, n]) => (a.get(line) ?? 0) < n).map(([line]) => line) }
+  return { gone: [...a].filter(([line, n]) => (b.get(line) ?? 0) < n).map(([line]) => line),
+    come: [...b].filter(([line, n]) => (a.get(line) ?? 0) < n).map(([line]) => line) }
 }
 
 it('adds a tier for each hand, and leaves every other byte as it was', () => {
@@ -40,13 +44,16 @@ it('adds a tier for each hand, and leaves every other byte as it was', () => {
   const { gone, come } = difference(kEaf, text)
   expect(gone).toEqual(['<PROPERTY NAME="lastUsedAnnotationId">7</PROPERTY>'])
   expect(come).toContain('<PROPERTY NAME="lastUsedAnnotationId">10</PROPERTY>')
-  expect(come).toContain('<TIER ANNOTATOR="signweave, checked by A &lt;b&gt;" LINGUISTIC_TYPE_REF="checked phase" PARTICIPANT="Zoé" TIER_ID="Phase RH (checked)">')
+  expect(come).toContain(
+    '<TIER ANNOTATOR="signweave, checked by A &lt;b&gt;" LINGUISTIC_TYPE_REF="checked phase" PARTICIPANT="Zoé" TIER_ID="Phase RH (checked)">',
+  )
   const { tiers: read } = readEaf(text)
   expect(read.map(({ name }) => name)).toEqual(['Gloss', 'Phase RH (checked)', 'Phase LH (checked)'])
   expect(read[1].annotations).toEqual([{ begin: 50, end: 150, label: 'preparation' }, { begin: 150, end: 400, label: 'stroke' }])
   expect(read[0].annotations).toEqual(readEaf(kEaf).tiers[0].annotations)
   // Slots stand in the order of their times.
-  const slots = parseXml(text)!.children.find(({ name }) => name === 'TIME_ORDER')!.children.flatMap(({ attributes }) => (attributes.TIME_VALUE ? [Number(attributes.TIME_VALUE)] : []))
+  const slots = parseXml(text)!.children.find(({ name }) => name === 'TIME_ORDER')!.children
+    .flatMap(({ attributes }) => (attributes.TIME_VALUE ? [Number(attributes.TIME_VALUE)] : []))
   expect(slots).toEqual(slots.toSorted((a, b) => a - b))
   expect(slots.length).toBe(8)
 })
@@ -54,7 +61,8 @@ it('adds a tier for each hand, and leaves every other byte as it was', () => {
 it('begins a second review with what was written, and writes it anew', () => {
   const once = writeChecked(kEaf, kReview, '').text
   const read = readChecked(readEaf(once))!
-  expect([read.phases.right.map(({ kind, begin, end, state }) => [kind, begin, end, state]), read.phases.left.length]).toEqual([[['preparation', 50, 150, 'accepted'], ['stroke', 150, 400, 'accepted']], 1])
+  expect([read.phases.right.map(({ kind, begin, end, state }) => [kind, begin, end, state]), read.phases.left.length])
+    .toEqual([[['preparation', 50, 150, 'accepted'], ['stroke', 150, 400, 'accepted']], 1])
   const twice = writeChecked(once, read, '').text
   expect(writeChecked(once, decided(read, 1, 'rejected'), '').text).not.toMatch(/preparation/)
   // Only ids are others.
@@ -69,7 +77,8 @@ it('begins a second review with what was written, and writes it anew', () => {
 
 it('writes under another name where somebody hung a tier on its own', () => {
   const once = writeChecked(kEaf, kReview, '').text
-  const hung = once.replace('    <LINGUISTIC_TYPE ', '    <TIER LINGUISTIC_TYPE_REF="note" PARENT_REF="Phase RH (checked)" TIER_ID="Note"/>\n    <LINGUISTIC_TYPE ')
+  const hung = once.replace('    <LINGUISTIC_TYPE ',
+    '    <TIER LINGUISTIC_TYPE_REF="note" PARENT_REF="Phase RH (checked)" TIER_ID="Note"/>\n    <LINGUISTIC_TYPE ')
   const { text, tiers } = writeChecked(hung, put(readChecked(readEaf(hung))!, accepted('right', 'hold', 500, 600)), '')
   expect(tiers.map(({ name }) => name)).toEqual(['Phase RH (checked 2)', 'Phase LH (checked)'])
   expect(readEaf(text).tiers.find(({ name }) => name === 'Phase RH (checked)')!.annotations.length).toBe(2)
@@ -85,17 +94,20 @@ it('takes another name for its type where one of that name asks for more', () =>
 it('writes into documents that have nothing, and keeps line ends', () => {
   const { text } = writeChecked(emptyEaf('a & b.bvh', '2026-01-01T00:00:00Z'), kReview, '')
   expect(readEaf(text).tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([['Phase RH (checked)', 2], ['Phase LH (checked)', 1]])
-  for (const eaf of ['<ANNOTATION_DOCUMENT><HEADER/></ANNOTATION_DOCUMENT>', '<ANNOTATION_DOCUMENT><HEADER TIME_UNITS="milliseconds" /><TIME_ORDER ></TIME_ORDER></ANNOTATION_DOCUMENT>']) {
+  for (const eaf of ['<ANNOTATION_DOCUMENT><HEADER/></ANNOTATION_DOCUMENT>',
+    '<ANNOTATION_DOCUMENT><HEADER TIME_UNITS="milliseconds" /><TIME_ORDER ></TIME_ORDER></ANNOTATION_DOCUMENT>']) {
     const made = writeChecked(eaf, kReview, '').text
     expect(readEaf(made).tiers[0].annotations[1]).toEqual({ begin: 150, end: 400, label: 'stroke' })
-    expect([...made.matchAll(/<(HEADER|TIME_ORDER|TIER|LINGUISTIC_TYPE)\b/g)].map(([, name]) => name)).toEqual(['HEADER', 'TIME_ORDER', 'TIER', 'TIER', 'LINGUISTIC_TYPE'])
+    expect([...made.matchAll(/<(HEADER|TIME_ORDER|TIER|LINGUISTIC_TYPE)\b/g)].map(([, name]) => name))
+      .toEqual(['HEADER', 'TIME_ORDER', 'TIER', 'TIER', 'LINGUISTIC_TYPE'])
   }
   const windows = writeChecked(kEaf.replaceAll('\n', '\r\n'), kReview, '').text
   expect(windows.replaceAll('\r\n', '').includes('\n')).toBe(false)
 })
 
 it('refuses what is no EAF, and what is cut off', () => {
-  for (const text of ['', '<html/>', kEaf.slice(0, -30), '<ANNOTATION_DOCUMENT><TIER></ANNOTATION_DOCUMENT>']) expect(() => writeChecked(text, kReview, '')).toThrow('noEaf')
+  for (const text of ['', '<html/>', kEaf.slice(0, -30), '<ANNOTATION_DOCUMENT><TIER></ANNOTATION_DOCUMENT>']) expect(
+    () => writeChecked(text, kReview, '')).toThrow('noEaf')
 })
 
 it('reads any encoding, and writes UTF-8 that says so', () => {

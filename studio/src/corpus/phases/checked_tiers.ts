@@ -35,8 +35,8 @@ const numberOf = (name: string) => Number(/(\d+)\)$/.exec(name)?.[1] ?? 1)
 export interface Written { readonly text: string; readonly tiers: readonly { readonly hand: Hand; readonly name: string; readonly count: number }[] }
 
 /**
- * The document with the accepted phases. Its bytes stay as they are, but for: the tiers that this wrote before, which are written anew (under another name where
- * somebody hung tiers on them), new time slots in their places, a tier type, and two properties. Throws where it is no EAF. `person` may be empty.
+ * The document with the accepted phases. Its bytes stay as they are, but for: the tiers that this wrote before, which are written anew (under another name
+ * where somebody hung tiers on them), new time slots in their places, a tier type, and two properties. Throws where it is no EAF. `person` may be empty.
  */
 export function writeChecked(text: string, review: Review, person: string): Written {
   const root = parseXml(text)
@@ -49,11 +49,12 @@ export function writeChecked(text: string, review: Review, person: string): Writ
   return { text: writer.written(tiers.map(({ name }) => name)), tiers }
 }
 
+const kSchema = 'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.mpi.nl/tools/elan/EAFv3.0.xsd"'
 /** A document without anything, for a recording that has none. */
 export function emptyEaf(motionFile: string, date: string): string {
   const file = escaped(motionFile)
   return `<?xml version="1.0" encoding="UTF-8"?>
-<ANNOTATION_DOCUMENT AUTHOR="" DATE="${date}" FORMAT="3.0" VERSION="3.0" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.mpi.nl/tools/elan/EAFv3.0.xsd">
+<ANNOTATION_DOCUMENT AUTHOR="" DATE="${date}" FORMAT="3.0" VERSION="3.0" ${kSchema}>
     <HEADER MEDIA_FILE="" TIME_UNITS="milliseconds">
         <LINKED_FILE_DESCRIPTOR LINK_URL="./${file}" MIME_TYPE="application/octet-stream" RELATIVE_LINK_URL="./${file}"/>
         <PROPERTY NAME="lastUsedAnnotationId">0</PROPERTY>
@@ -86,13 +87,15 @@ class Writer {
     this.order = root.children.find(({ name }) => name === 'TIME_ORDER')
     this.slot = highest(this.slots().map(({ attributes }) => attributes.TIME_SLOT_ID), /^ts(\d+)$/)
     const used = this.property('lastUsedAnnotationId')
-    this.annotation = Math.max(highest(this.annotations().map(({ attributes }) => attributes.ANNOTATION_ID), /^a(\d+)$/), used ? Number(text.slice(used.inner, used.innerEnd)) || 0 : 0)
+    this.annotation = Math.max(highest(this.annotations().map(({ attributes }) => attributes.ANNOTATION_ID), /^a(\d+)$/),
+      used ? Number(text.slice(used.inner, used.innerEnd)) || 0 : 0)
   }
 
   /** Writes a hand's tier in place of what was written before; none where there is nothing to be written. */
   tier(hand: Hand, phases: readonly Span[] | undefined): Written['tiers'] {
     const names = new Set(this.tiers.map(({ attributes }) => attributes.TIER_ID))
-    const ours = this.tiers.filter(({ attributes }) => pattern(hand).test(attributes.TIER_ID)).sort((a, b) => numberOf(b.attributes.TIER_ID) - numberOf(a.attributes.TIER_ID))[0]
+    const ours = this.tiers.filter(({ attributes }) => pattern(hand).test(attributes.TIER_ID))
+      .sort((a, b) => numberOf(b.attributes.TIER_ID) - numberOf(a.attributes.TIER_ID))[0]
     let name = ours?.attributes.TIER_ID ?? kTier[hand]
     if (ours && this.tiers.some(({ attributes }) => attributes.PARENT_REF === name)) {
       let number = numberOf(name)
@@ -102,11 +105,13 @@ class Writer {
     const participant = ours?.attributes.PARTICIPANT ?? this.participant()
     const made = phases.map(({ begin, end, kind }) => {
       const one = this.slotAt(begin), two = this.slotAt(end)
-      return `${this.at(2)}<ANNOTATION>${this.at(3)}<ALIGNABLE_ANNOTATION ANNOTATION_ID="a${++this.annotation}" TIME_SLOT_REF1="${one}" TIME_SLOT_REF2="${two}">` +
+      return `${this.at(2)}<ANNOTATION>${this.at(3)}<ALIGNABLE_ANNOTATION` +
+        ` ANNOTATION_ID="a${++this.annotation}" TIME_SLOT_REF1="${one}" TIME_SLOT_REF2="${two}">` +
         `${this.at(4)}<ANNOTATION_VALUE>${escaped(kind)}</ANNOTATION_VALUE>${this.at(3)}</ALIGNABLE_ANNOTATION>${this.at(2)}</ANNOTATION>`
     })
     const annotator = `signweave, checked by ${this.person || 'a person'}`
-    this.newTiers.push(`${this.at(1)}<TIER ANNOTATOR="${escaped(annotator)}" LINGUISTIC_TYPE_REF="${escaped(this.typeName())}"${participant ? ` PARTICIPANT="${escaped(participant)}"` : ''} TIER_ID="${escaped(name)}">` +
+    this.newTiers.push(`${this.at(1)}<TIER ANNOTATOR="${escaped(annotator)}" LINGUISTIC_TYPE_REF="${escaped(this.typeName())}"` +
+      `${participant ? ` PARTICIPANT="${escaped(participant)}"` : ''} TIER_ID="${escaped(name)}">` +
       `${made.join('')}${this.at(1)}</TIER>`)
     return [{ hand, name, count: phases.length }]
   }
@@ -143,7 +148,8 @@ class Writer {
   }
   /** Who signs, where all tiers of their own say the same. */
   private participant(): string | undefined {
-    const said = new Set(this.tiers.filter(({ attributes }) => !attributes.PARENT_REF && isChecked(attributes.TIER_ID) === undefined).map(({ attributes }) => attributes.PARTICIPANT ?? ''))
+    const said = new Set(this.tiers.filter(({ attributes }) => !attributes.PARENT_REF
+      && isChecked(attributes.TIER_ID) === undefined).map(({ attributes }) => attributes.PARTICIPANT ?? ''))
     return said.size === 1 ? [...said][0] || undefined : undefined
   }
 
@@ -213,7 +219,8 @@ class Writer {
   private writeType(place: number): void {
     const name = this.typeName(), types = this.types()
     if (this.newTiers.length === 0 || types.some(({ attributes }) => attributes.LINGUISTIC_TYPE_ID === name)) return
-    this.insert(types.at(-1)?.end ?? place, `${this.at(1)}<LINGUISTIC_TYPE GRAPHIC_REFERENCES="false" LINGUISTIC_TYPE_ID="${escaped(name)}" TIME_ALIGNABLE="true"/>`)
+    this.insert(types.at(-1)?.end ?? place,
+      `${this.at(1)}<LINGUISTIC_TYPE GRAPHIC_REFERENCES="false" LINGUISTIC_TYPE_ID="${escaped(name)}" TIME_ALIGNABLE="true"/>`)
   }
 
   private writeProperty(name: string, value: string, wanted: boolean): void {

@@ -4,7 +4,8 @@ import { kEmpty, put } from './review'
 
 function storage(): Storage {
   const kept = new Map<string, string>()
-  return { getItem: (key: string) => kept.get(key) ?? null, setItem: (key: string, value: string) => void kept.set(key, value), removeItem: (key: string) => void kept.delete(key) } as unknown as Storage
+  return { getItem: (key: string) => kept.get(key) ?? null, setItem: (key: string, value: string) => void kept.set(key, value),
+    removeItem: (key: string) => void kept.delete(key) } as unknown as Storage
 }
 const frames = { originMs: 0, rate: 100, count: 10 }
 const review = put(kEmpty, { hand: 'right', kind: 'stroke', begin: 0, end: 50, state: 'accepted' })
@@ -20,7 +21,8 @@ it('keeps a review for its recording until it is dropped', () => {
 
 it('takes nothing that is broken, and says where nothing can be kept', () => {
   const here = storage()
-  for (const text of ['', '{', '{"version":1}', JSON.stringify({ version: 1, frames, review: { ...review, next: 1 } }), JSON.stringify({ version: 0, frames, review })]) {
+  for (const text of ['', '{', '{"version":1}', JSON.stringify({ version: 1, frames, review: { ...review, next: 1 } }),
+    JSON.stringify({ version: 0, frames, review })]) {
     here.setItem('signweave.review.a/b', text)
     expect(keptDraft('a', 'b', here)).toBeUndefined()
   }

@@ -32,4 +32,5 @@ export function dropDraft(database: string, recording: string, storage: Storage 
   }
 }
 /** Whether a draft is of this motion as it is now. */
-export const isOf = (draft: Draft, frames: Frames) => draft.frames.count === frames.count && draft.frames.rate === frames.rate && draft.frames.originMs === frames.originMs
+export const isOf = (draft: Draft, frames: Frames) => draft.frames.count === frames.count && draft.frames.rate === frames.rate
+  && draft.frames.originMs === frames.originMs

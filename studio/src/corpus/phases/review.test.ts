@@ -1,12 +1,14 @@
 import { expect, it } from 'vitest'
 import { begun, pushed, redone, undone } from './history'
-import { acceptedAll, addedTo, decided, faultsOf, filled, find, following, frameOf, inOrder, kEmpty, merged, moved, msOf, progressOf, put, retyped, reviewOf, split, stepped, within, type Frames, type Review } from './review'
+import { acceptedAll, addedTo, decided, faultsOf, filled, find, following, frameOf, inOrder, kEmpty, merged, moved, msOf, progressOf, put, retyped, reviewOf,
+  split, stepped, within, type Frames, type Review } from './review'
 
 /** 30 frames a second: no frame but every third begins at a whole ms. */
 const kFrames: Frames = { originMs: 0, rate: 30, count: 300 }
 const phase = (hand: 'right' | 'left', kind: string, begin: number, end: number) => ({ hand, kind, begin, end, state: 'open' as const })
 /** Right: 0–1000 and 1000–2000 touch, 3000–4000 stands alone; left: 500–1500. */
-const kReview: Review = [phase('right', 'preparation', 0, 1000), phase('right', 'stroke', 1000, 2000), phase('right', 'retraction', 3000, 4000), phase('left', 'stroke', 500, 1500)]
+const kReview: Review = [phase('right', 'preparation', 0, 1000), phase('right', 'stroke', 1000, 2000), phase('right', 'retraction', 3000, 4000),
+  phase('left', 'stroke', 500, 1500)]
   .reduce(put, kEmpty)
 const spans = (review: Review, hand: 'right' | 'left' = 'right') => review.phases[hand].map(({ begin, end }) => [begin, end])
 const sound = (review: Review) => {
@@ -15,7 +17,8 @@ const sound = (review: Review) => {
 }
 
 it('takes proposals at whole frames, in annotation time, without rests', () => {
-  const hands = { right: [{ phase: 'rest', begin_ms: 0, end_ms: 500, confidence: 1 }, { phase: 'stroke', begin_ms: 510, end_ms: 1005, confidence: 0.7 }, { phase: 'hold', begin_ms: 1005, end_ms: 1010, confidence: 0.5 },
+  const hands = { right: [{ phase: 'rest', begin_ms: 0, end_ms: 500, confidence: 1 }, { phase: 'stroke', begin_ms: 510, end_ms: 1005, confidence: 0.7 },
+    { phase: 'hold', begin_ms: 1005, end_ms: 1010, confidence: 0.5 },
     { phase: 'retraction', begin_ms: 1010, end_ms: 99_999, confidence: 0.5 }], left: [] }
   const review = sound(reviewOf({ proposed: '', hands }, { ...kFrames, originMs: -100 }))
   // A hold of a third of a frame is none; nothing lies beyond the motion.
@@ -117,8 +120,10 @@ it('keeps its word through a thousand random operations', () => {
   const random = (below: number) => (seed = (seed * 16807) % 2147483647) % below
   for (let i = 0; i < 1000; ++i) {
     const all = inOrder(review), { id } = all[random(all.length)], at = random(10_000)
-    const next = [() => moved(review, id, random(2) ? 'begin' : 'end', at, kFrames), () => stepped(review, id, 'end', random(21) - 10, kFrames), () => split(review, id, at, kFrames),
-      () => (all.length > 3 ? merged(review, id) : review), () => addedTo(review, random(2) ? 'right' : 'left', 'hold', { begin: at, end: at + 500 }, kFrames)][random(5)]
+    const next = [() => moved(review, id, random(2) ? 'begin' : 'end', at, kFrames), () => stepped(review, id, 'end', random(21) - 10, kFrames),
+      () => split(review, id, at, kFrames),
+      () => (all.length > 3 ? merged(review, id) : review), () => addedTo(review, random(2) ? 'right' : 'left', 'hold', { begin: at, end: at + 500 },
+        kFrames)][random(5)]
     review = sound(next())
   }
 })

@@ -43,7 +43,8 @@ export function reviewOf({ hands }: Proposals, frames: Frames): Review {
 export function inOrder({ phases }: Review): readonly Phase[] {
   return [...phases.right, ...phases.left].sort((a, b) => a.begin - b.begin || (a.hand === b.hand ? 0 : a.hand === 'right' ? -1 : 1))
 }
-export const find = ({ phases }: Review, id: number | undefined): Phase | undefined => phases.right.find((one) => one.id === id) ?? phases.left.find((one) => one.id === id)
+export const find = ({ phases }: Review, id: number | undefined): Phase | undefined => phases.right.find((one) => one.id === id)
+  ?? phases.left.find((one) => one.id === id)
 
 /** The phase after one (direction 1) or before it (−1) in time; with `open` the next that is not decided, from the begin again where none follows. */
 export function following(review: Review, id: number | undefined, direction: 1 | -1, open = false): Phase | undefined {
@@ -67,8 +68,8 @@ export function acceptedAll({ phases, next }: Review): Review {
 }
 
 /**
- * Moves a begin or an end to the nearest frame. What touched there goes along, what is in the way makes room, and every phase keeps at least a frame: the border
- * stops where its neighbour would have none.
+ * Moves a begin or an end to the nearest frame. What touched there goes along, what is in the way makes room, and every phase keeps at least a frame: the
+ * border stops where its neighbour would have none.
  */
 export function moved(review: Review, id: number, edge: Edge, ms: number, frames: Frames): Review {
   const one = find(review, id)
@@ -98,14 +99,18 @@ export function split(review: Review, id: number, ms: number, frames: Frames): R
   if (!one || at <= one.begin || at >= one.end) return review
   return put(changed(review, id, { end: at }), { ...one, begin: at })
 }
-/** Makes one of a phase and the one after it on its hand, with what lies between them. It is of the first one's kind; where they were decided otherwise it is open. */
+/**
+ * Makes one of a phase and the one after it on its hand, with what lies between them. It is of the first one's kind; where they were decided otherwise it
+ * is open.
+ */
 export function merged(review: Review, id: number): Review {
   const one = find(review, id)
   if (!one) return review
   const list = review.phases[one.hand], other = list[list.indexOf(one) + 1]
   if (!other) return review
   const { confidence, ...rest } = one
-  const whole: Phase = { ...rest, end: other.end, state: one.state === other.state ? one.state : 'open', ...(confidence !== undefined && confidence === other.confidence ? { confidence } : {}) }
+  const whole: Phase = { ...rest, end: other.end, state: one.state === other.state ? one.state : 'open',
+    ...(confidence !== undefined && confidence === other.confidence ? { confidence } : {}) }
   return { ...review, phases: { ...review.phases, [one.hand]: list.filter((each) => each !== other).map((each) => (each === one ? whole : each)) } }
 }
 /** Adds an accepted phase where a hand has none: as much of the span as is free around its begin; nothing where that is not. */

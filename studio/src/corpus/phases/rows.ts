@@ -3,7 +3,8 @@ import type { Borders } from '../../timeline/borders'
 import { kHands, type Edge, type Hand, type Phase, type Review } from './review'
 
 /** What the timeline shows: a row for each hand, and under them what is annotated. */
-export function rowsOf(review: Review, current: number | undefined, document: AnnotationDocument, names: Readonly<Record<Hand, string>>, kinds: Readonly<Record<string, string>>): AnnotationDocument {
+export function rowsOf(review: Review, current: number | undefined, document: AnnotationDocument, names: Readonly<Record<Hand, string>>,
+  kinds: Readonly<Record<string, string>>): AnnotationDocument {
   const rows = kHands.map((hand): Tier => ({
     name: names[hand], depth: 1,
     annotations: review.phases[hand].map(({ id, begin, end, kind, state }) => ({ begin, end, label: kinds[kind] ?? kind, state, current: id === current })),
@@ -27,7 +28,8 @@ export function edgeNear(review: Review, tier: number, ms: number, reach: number
 }
 
 /** Borders for the timeline: `move` is told what is dragged where, `done` when it is let go. */
-export function bordersOf(review: () => Review, current: () => number | undefined, move: (id: number, edge: Edge, ms: number) => void, done: () => void): Borders {
+export function bordersOf(review: () => Review, current: () => number | undefined, move: (id: number, edge: Edge, ms: number) => void,
+  done: () => void): Borders {
   let held: { id: number; edge: Edge } | undefined
   return {
     isNear: (tier, ms, reach) => edgeNear(review(), tier, ms, reach) !== undefined,

@@ -9,7 +9,10 @@ export interface Element {
 
 const kName = /[^\s/>=]+/y, kSpace = /\s*/y
 
-/** The root element of a text, with all in it; none where tags do not match. Comments, CDATA and instructions are passed over; entities that a DOCTYPE makes stay unread. */
+/**
+ * The root element of a text, with all in it; none where tags do not match. Comments, CDATA and instructions are passed over; entities that a DOCTYPE makes
+ * stay unread.
+ */
 export function parseXml(text: string): Element | undefined {
   interface Open { name: string; attributes: Record<string, string>; begin: number; inner: number; children: Element[] }
   const open: Open[] = []
@@ -113,7 +116,8 @@ export function decoded(bytes: ArrayBuffer): string {
   const [a, b, c, d] = head
   if ((a === 0xff && b === 0xfe) || (a === 0x3c && b === 0)) return new TextDecoder('utf-16le', { ignoreBOM: true }).decode(bytes)
   if ((a === 0xfe && b === 0xff) || (a === 0 && b === 0x3c && c === 0 && d !== 0)) return new TextDecoder('utf-16be', { ignoreBOM: true }).decode(bytes)
-  const declared = /^\ufeff?<\?xml[^>]*\sencoding\s*=\s*["']([\w.-]+)["']/.exec(new TextDecoder('latin1').decode(bytes.slice(0, 200)).replace('ï»¿', ''))?.[1] ?? 'utf-8'
+  const declared = /^\ufeff?<\?xml[^>]*\sencoding\s*=\s*["']([\w.-]+)["']/.exec(new TextDecoder('latin1').decode(bytes.slice(0, 200)).replace('ï»¿', ''))?.[1]
+    ?? 'utf-8'
   try {
     return new TextDecoder(declared, { ignoreBOM: true }).decode(bytes)
   } catch {

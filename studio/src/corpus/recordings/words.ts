@@ -19,9 +19,12 @@ const en = {
   mode: 'How motion is cut', asIs: 'as it is',
   mode_full: 'full: the whole motion at once', mode_by_frame: 'by frame: pieces of time', mode_by_joint: 'by joint: one joint over all time',
   mode_by_joint_and_frame: 'by joint and frame: one joint, pieces of time',
-  perPacket: 'Frames in a piece', perPacketHint: 'as many as fit well', compactField: 'Rounded within, mm', compactHint: 'Empty: as it is. 0: exactly. 0.1 takes an eighth to a quarter of the space. What was rounded stays so.',
+  perPacket: 'Frames in a piece', perPacketHint: 'as many as fit well', compactField: 'Rounded within, mm',
+  compactHint: 'Empty: as it is. 0: exactly. 0.1 takes an eighth to a quarter of the space. What was rounded stays so.',
   documents: 'How annotation is stored', documents_document: 'each document in one record', documents_node: 'each annotation a record',
-  now: 'Now, for those to come: {mode}', start: 'Change', running: 'Storing anew…', changed: 'Stored anew: {n} of {all}', wrong: 'This is no number that can be used here',
+  now: 'Now, for those to come: {mode}', start: 'Change', running: 'Storing anew…',
+  stopped: 'Cancelled: everything is as it was.', stoppedSome: 'Cancelled: what was stored anew until then stays so, the others are as they were.',
+  changed: 'Stored anew: {n} of {all}', wrong: 'This is no number that can be used here',
   sortedBy: 'Sort by {name}',
 }
 export type RecordingsWords = { readonly [key in keyof typeof en]: string }
@@ -44,11 +47,15 @@ const fr: RecordingsWords = {
   relayoutHint: 'Rien de ce qui a été capté n’est perdu, sauf par l’arrondi. Cela prend du temps ; tout le monde lit pendant ce temps.',
   which: 'Quels enregistrements', all: 'Tous, et ceux qui seront importés plus tard', only: 'Ceux qui sont choisis : {n}',
   mode: 'Découpe du mouvement', asIs: 'tel quel',
-  mode_full: 'full : tout le mouvement à la fois', mode_by_frame: 'by frame : morceaux de temps', mode_by_joint: 'by joint : une articulation sur toute la durée',
+  mode_full: 'full : tout le mouvement à la fois', mode_by_frame: 'by frame : morceaux de temps',
+  mode_by_joint: 'by joint : une articulation sur toute la durée',
   mode_by_joint_and_frame: 'by joint and frame : une articulation, morceaux de temps',
-  perPacket: 'Images par morceau', perPacketHint: 'autant qu’il convient', compactField: 'Arrondi à, mm', compactHint: 'Vide : tel quel. 0 : exactement. 0,1 prend un huitième à un quart de la place. Ce qui a été arrondi le reste.',
+  perPacket: 'Images par morceau', perPacketHint: 'autant qu’il convient', compactField: 'Arrondi à, mm',
+  compactHint: 'Vide : tel quel. 0 : exactement. 0,1 prend un huitième à un quart de la place. Ce qui a été arrondi le reste.',
   documents: 'Stockage de l’annotation', documents_document: 'chaque document en un enregistrement', documents_node: 'chaque annotation séparément',
-  now: 'Maintenant, pour ceux à venir : {mode}', start: 'Changer', running: 'Nouveau stockage…', changed: 'Stockés à nouveau : {n} sur {all}', wrong: 'Ce n’est pas un nombre utilisable ici',
+  now: 'Maintenant, pour ceux à venir : {mode}', start: 'Changer', running: 'Nouveau stockage…',
+  stopped: 'Annulé : tout est comme avant.', stoppedSome: 'Annulé : ce qui était déjà stocké à nouveau le reste, les autres sont comme avant.',
+  changed: 'Stockés à nouveau : {n} sur {all}', wrong: 'Ce n’est pas un nombre utilisable ici',
   sortedBy: 'Trier par {name}',
 }
 export const words: Readonly<Record<'en' | 'fr', RecordingsWords>> = { en, fr }

@@ -18,7 +18,7 @@ export const failedBy = (fault: unknown, name: string): Imported => ({ name, out
 
 /** Reports, and by recording what the server says of its corrections where it cannot read it with them. */
 export interface Taken { readonly reports: readonly Inspected[]; readonly errors: ReadonlyMap<string, string> }
-/** Reports that take the place of those before. One that could be read, and cannot as it is corrected, stays as it was, so that the correction can be mended. */
+/** Reports that take the place of those before. One that could be read, and cannot as it is corrected, stays as it was: the correction can be mended. */
 export function withGood(told: readonly Inspected[], before: readonly Inspected[], isCorrected: (key: string) => boolean): Taken {
   const earlier = new Map(before.map((one) => [keyOf(one.files), one])), errors = new Map<string, string>()
   const reports = told.map((one) => {

@@ -20,7 +20,7 @@ export async function openUpload(api: Api, database: string): Promise<string> {
   return (await api.json<{ upload: string }>(path('databases', database, 'uploads'), { method: 'POST' })).upload
 }
 export async function discardUpload(api: Api, database: string, upload: string): Promise<void> {
-  await api.call(path('databases', database, 'uploads', upload), { method: 'DELETE' })
+  await api.call(path('databases', database, 'uploads', upload), { method: 'DELETE', keepalive: true }) // also where the window goes
 }
 /** Takes a file out of an upload. */
 export async function removeUploaded(api: Api, database: string, upload: string, file: string): Promise<void> {
@@ -34,7 +34,7 @@ export async function relayout(api: Api, database: string, body: object): Promis
   return (await api.post(path('databases', database, 'relayout'), body)).json() as Promise<JobBegun>
 }
 export async function cancelJob(api: Api, job: string): Promise<void> {
-  await api.call(path('jobs', job), { method: 'DELETE' })
+  await api.call(path('jobs', job), { method: 'DELETE', keepalive: true })
 }
 export async function removeRecording(api: Api, database: string, recording: string): Promise<void> {
   await api.call(path('databases', database, 'recordings', recording), { method: 'DELETE' })

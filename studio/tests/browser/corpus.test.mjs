@@ -155,11 +155,18 @@ test('reports what was guessed, and stores what was corrected', async () => {
 test('takes a table of pairs and a mapping file, as a person wrote them', async () => {
   await begin()
   await choose([...files('day1', { seconds: 2 }), ...files('notes', { motion: false })])
-  await drop([['pairs.csv', 'motion,annotation,signer\nfar/day1.bvh,eaf\\notes.eaf,Ada\ngone.bvh,\n'], ['map.rig', '# none\njaw =\n']])
+  await drop([['pairs.csv', 'motion,annotation,signer\nfar/day1.bvh,eaf\\notes.eaf,Ada\ngone.bvh,\n'], ['map.rig', '# none\njaw =\npelvis = nope\n']])
   await page.getByText('Table of pairs, line 3: “gone.bvh” was not chosen.').waitFor()
   await look()
   await row('day1').click()
   await settled()
+  // What the mapping file says of a joint that is none can be mended here.
+  await page.locator('article').getByRole('alert').getByText('nope').waitFor()
+  assert.equal(await page.getByLabel('Joint: pelvis').inputValue(), 'nope')
+  await page.getByLabel('Joint: pelvis').fill('Hips')
+  await page.keyboard.press('Tab')
+  await settled()
+  assert.match(await row('day1').textContent(), /new/)
   assert.deepEqual(await page.locator('.report .name').allTextContents(), ['day1'])
   assert.equal(await page.getByLabel('Annotation', { exact: true }).inputValue(), 'notes.eaf')
   await page.getByText('In no recording, and not stored: day1.eaf').waitFor()
@@ -207,6 +214,110 @@ test('says what becomes of a recording that is known, and pairs files as it is t
   assert.match(await row('plain').textContent(), /motion replaced/)
   assert.match(await annotation('plain'), />SALUT</)
   assert.equal((await stored()).length, 3)
+})
+
+/** Holds calls whose address fits until told to let them go on. */
+async function held(what) {
+  let go
+  const gone = new Promise((resolve) => (go = resolve)), came = page.waitForRequest(what)
+  await page.route(what, async (route) => (await gone, route.continue()), { times: 1 })
+  return { came, go }
+}
+const uploads = () => {
+  const seen = new Set()
+  page.on('request', (request) => /\/uploads\/[^/]+\/inspect$/.test(request.url()) && seen.add(request.url().replace(/\/inspect$/, '')))
+  return seen
+}
+/** Until the server has none of these uploads any more. */
+async function given(seen) {
+  for (const end = Date.now() + 30_000; (await Promise.all([...seen].map(async (url) => (await fetch(url)).status))).some((status) => status !== 404);) {
+    assert.ok(Date.now() < end, 'an upload that nobody wants is still there')
+    await new Promise((resolve) => setTimeout(resolve, 50))
+  }
+}
+
+test('loses no correction, whether it is made meanwhile, wrong, or the server is away', async () => {
+  await begin()
+  const seen = uploads()
+  await choose(['one', 'two'].flatMap((name) => files(name, { seconds: 2 })))
+  // Looking that was cancelled can only be begun again: that is said.
+  await page.route(/\/inspect$/, (route) => route.fulfill({ status: 202, json: { job: 'none' } }), { times: 1 })
+  await page.route(/\/jobs\/none$/, (route) => route.fulfill({ json: { job: 'none', kind: 'inspect', state: 'cancelled', fraction: 0 } }))
+  await button('Send and look').click()
+  await page.getByText('Not looked at yet: “Look again” goes on.').waitFor()
+  await look()
+  const article = page.locator('article'), importing = page.locator('.foot .primary')
+  // While the one is looked at again, the other is mirrored.
+  const first = await held(/\/inspect$/)
+  await row('one').click()
+  await page.locator('#one-signer').fill('Ada')
+  await page.keyboard.press('Tab')
+  await first.came
+  await row('two').click()
+  await article.getByLabel('Mirror: the file’s space is left-handed').check()
+  first.go()
+  await settled()
+  assert.match(await article.textContent(), /Mirrored\s*yes/)
+  // A joint that is none stays as it was typed beside what is wrong with it, and can be mended.
+  await page.getByLabel('Joint: pelvis').fill('nope')
+  await page.keyboard.press('Tab')
+  await settled()
+  await article.getByRole('alert').getByText('nope').waitFor()
+  assert.match(await row('two').textContent(), /not taken/)
+  assert.match(await article.textContent(), /Mirrored\s*yes/)
+  assert.equal(await page.getByLabel('Joint: pelvis').inputValue(), 'nope')
+  await button('As the server tells it').click()
+  await settled()
+  assert.match(await row('two').textContent(), /new/)
+  // The server is away: nothing is imported that it did not look at.
+  await page.route(/\/inspect$/, (route) => route.abort(), { times: 1 })
+  await page.locator('#one-unit').fill('0.02')
+  await page.keyboard.press('Tab')
+  await page.getByText('Corrected, and not looked at since: 1.').waitFor()
+  assert.match(await row('two').textContent(), /not looked at/)
+  assert.ok(await importing.isDisabled())
+  assert.deepEqual(await faultsOf('the server is away'), [])
+  await button('Try again').click()
+  await settled()
+  assert.match(await article.textContent(), /Unit, m\s*0\.02/)
+  assert.ok(await importing.isEnabled())
+  // An upload of which nothing is imported goes with the window.
+  await page.goto('about:blank')
+  await given(seen)
+})
+
+test('imports the others where one is not taken, takes no files meanwhile, and gives up what is left out', async () => {
+  await begin()
+  const seen = uploads()
+  await choose(['one', 'two', 'three'].flatMap((name) => files(name, { seconds: 2 })))
+  await look()
+  await row('one').click()
+  await page.locator('#one-face_timecode').fill('99:99:99:99')
+  await page.keyboard.press('Tab')
+  await settled()
+  await page.getByText('Left out, for their corrections are not taken: 1.').waitFor()
+  await row('three').getByRole('checkbox').uncheck()
+  const stores = await held(/\/import$/)
+  await page.getByRole('button', { name: /^Import 1$/ }).click()
+  await stores.came
+  await drop([['more.bvh', 'x']])
+  await page.locator('.foot').getByRole('alert').getByText('Not done, for files were being sent').waitFor()
+  await page.locator('summary', { hasText: 'Files: 6' }).click()
+  await page.getByRole('grid', { name: 'Files' }).focus()
+  await page.keyboard.press('Delete')
+  assert.equal(await page.getByRole('grid', { name: 'Files' }).locator('.line:not(.head)').count(), 6)
+  assert.ok(await page.locator('input[webkitdirectory]').isDisabled())
+  assert.deepEqual(await faultsOf('something is under way'), [])
+  stores.go()
+  await page.getByText('Stored: 1').waitFor({ timeout: 60_000 })
+  assert.ok((await stored()).some(({ name }) => name === 'two'))
+  await page.getByRole('link', { name: 'Recordings of mine' }).click()
+  await given(seen)
+  // What was left out is still known, and is sent anew where it is wanted.
+  await page.goBack()
+  await row('three').getByRole('checkbox').check()
+  await page.getByRole('button', { name: /^Import 1$/ }).click()
+  await page.getByText('Stored: 2').waitFor({ timeout: 60_000 })
 })
 
 test('takes recordings of signs, with a mend that the server names', async () => {

@@ -1,25 +1,19 @@
 import type { Api } from '../../api/client'
 import type { FilePart, FormatRow, Imported, ImportResult, Inspected, Inspection, Notice } from '../../api/corpus_answers'
-import { beginUpload, cancelJob, formats, isWritable } from '../../api/corpus_calls'
-import { ApiError } from '../../api/fault'
+import { formats, isWritable } from '../../api/corpus_calls'
 import { grouped, kNone, readRig, type Corrections, type Group } from './corrections'
 import { endingOf, isRefusal, stemOf } from './file_kinds'
 import { added, kNoFiles, sendable, withFolderNames, without, type FileList, type Picked } from './file_list'
 import { extended, keyOf, paired, readTable, tableOf, type Pair, type TableFault } from './pairs'
+import { failedBy, isCancelled, isOfTheCall, withGood } from './reports'
+import { Revisions } from './revisions'
 import { isGone, Sender } from './sender.svelte'
+import { UploadJobs, type Doing } from './upload_jobs'
 
 const kParts: readonly FilePart[] = ['motion', 'annotation', 'face']
 const kTable = 'pairs.csv'
 /** After a correction, ms until the report is made anew: several go together. */
 const kSettle = 700
-
-/** What is being done, `part` of it being over, 0 to 1. */
-export interface Doing {
-  readonly what: 'inspect' | 'import'
-  readonly part: number
-  /** Of an import, the recordings of the call in their order, and how far it is. */
-  readonly call?: { readonly keys: readonly string[]; readonly part: number }
-}
 
 /** One import from choosing files to what became of them. It outlives the page, so that nothing is lost where somebody looks at something else. */
 export class ImportSession {
@@ -28,8 +22,11 @@ export class ImportSession {
   list = $state.raw<FileList>(kNoFiles)
   readonly sender: Sender
   doing = $state.raw<Doing | undefined>()
-  /** What went wrong last with all of it. */
+  /** What went wrong last with all of it, and how that is tried again. */
   fault = $state.raw<unknown>()
+  retry?: () => void
+  /** Files came or were to go while something was under way: that was not done. */
+  turnedAway = $state(false)
   reports = $state.raw<readonly Inspected[]>([])
   notices = $state.raw<readonly Notice[]>([])
   faults = $state.raw<readonly string[]>([])
@@ -46,11 +43,13 @@ export class ImportSession {
   left = $state.raw<ReadonlySet<string>>(new Set())
   outcomes = $state.raw<ReadonlyMap<string, Imported>>(new Map())
   onimported?: () => void
-  private job?: string
-  private settling?: ReturnType<typeof setTimeout>
+  private readonly jobs: UploadJobs
+  private settling = $state.raw<ReturnType<typeof setTimeout>>()
+  private readonly revisions = new Revisions()
 
   constructor(private readonly api: Api, private readonly database: string) {
     this.sender = new Sender(api, database)
+    this.jobs = new UploadJobs(api, database, this.sender, () => sendable(this.list))
     void this.begin()
   }
 
@@ -60,20 +59,36 @@ export class ImportSession {
     try {
       ;[this.formats, this.writable] = await Promise.all([formats(this.api), isWritable(this.api, this.database)])
     } catch (fault) {
-      this.fault = fault
+      this.fail(fault, () => void this.begin())
     }
   }
+  fail(fault: unknown, retry?: () => void): void {
+    this.fault = fault
+    this.retry = retry
+  }
 
+  /** Whether files are being sent, looked at or stored. */
+  get busy(): boolean {
+    return this.sender.busy || this.doing !== undefined
+  }
+  /** Recordings that were corrected while nobody looks at them, nor is about to. */
+  get unlooked(): readonly string[] {
+    return this.busy || this.settling !== undefined ? [] : [...this.stale]
+  }
   /** The names of the files that can be a part of a recording. */
   filesOf(part: FilePart): readonly string[] {
     return this.list.files.filter(({ kind, clash }) => kind === part && !clash).map(({ name }) => name)
   }
-  /** The recordings that are to be imported and are not there yet. */
+  /** The recordings that are to be imported and are not there yet, but for those whose corrections are not taken. */
   get wanted(): readonly Inspected[] {
     return this.reports.filter((one) => {
-      const outcome = this.outcomeOf(one)?.outcome
-      return !one.error && !this.left.has(keyOf(one.files)) && (outcome === undefined || outcome === 'failed')
+      const key = keyOf(one.files)
+      return !one.error && !this.left.has(key) && !this.isStored(key) && (!this.refused.has(key) || this.stale.has(key))
     })
+  }
+  private isStored(key: string): boolean {
+    const outcome = this.outcomes.get(key)?.outcome
+    return outcome !== undefined && outcome !== 'failed'
   }
   /** Files of recordings that are in none, where somebody said which belong together. */
   get unused(): readonly string[] {
@@ -85,6 +100,7 @@ export class ImportSession {
   }
 
   async add(more: readonly Picked[]): Promise<void> {
+    if (this.isTurnedAway()) return
     // What was stored is over: more files are another import.
     if (this.outcomes.size > 0 && this.wanted.length === 0) this.clear()
     this.change(added(this.list, more, this.formats))
@@ -92,6 +108,7 @@ export class ImportSession {
   }
   /** Takes files out. Reports of recordings that had one are made anew, the others stay. */
   remove(ids: readonly number[]): void {
+    if (this.isTurnedAway()) return
     const gone = this.list.files.filter(({ id }) => ids.includes(id))
     const list = without(this.list, ids, this.formats)
     const isPart = (kind: string) => kParts.some((part) => part === kind)
@@ -103,11 +120,16 @@ export class ImportSession {
     this.repair(before, this.extended(before))
   }
   renameClashes(): void {
+    if (this.isTurnedAway()) return
     this.change(withFolderNames(this.list, this.formats))
+  }
+  /** What is under way is of the files that there are: others wait until it is over. */
+  private isTurnedAway(): boolean {
+    return (this.turnedAway = this.busy)
   }
   /** Begins anew, without anything. */
   clear(): void {
-    clearTimeout(this.settling)
+    this.unsettle()
     this.sender.forget()
     this.list = kNoFiles
     this.forgetReports()
@@ -117,11 +139,13 @@ export class ImportSession {
     this.tableFaults = []
     this.pairs = undefined
     this.fault = undefined
+    this.turnedAway = false
   }
 
   /** Sends what was not sent, and looks at all of it. */
   async send(again = false): Promise<void> {
     this.fault = undefined
+    this.turnedAway = false
     const files = sendable(this.list)
     try {
       if (await this.sender.send(files)) await this.inspect()
@@ -130,13 +154,13 @@ export class ImportSession {
         this.sender.forget()
         return this.send(true)
       }
-      this.fault = fault
+      this.fail(fault, () => void this.send())
     }
   }
 
   cancel(): void {
     this.sender.cancel()
-    if (this.job) cancelJob(this.api, this.job).catch((fault: unknown) => (this.fault = fault))
+    this.jobs.cancel().catch((fault: unknown) => this.fail(fault))
   }
 
   correctAll(corrections: Corrections): void {
@@ -165,67 +189,99 @@ export class ImportSession {
     const here = new Set(this.pairs.map(keyOf))
     return [...keys].filter((key) => here.has(key))
   }
+  private forgetGone(): void {
+    const here = new Set(this.present([...this.stale, ...this.refused.keys(), ...this.reports.map(({ files }) => keyOf(files))]))
+    this.stale = new Set([...this.stale].filter((key) => here.has(key)))
+    this.refused = new Map([...this.refused].filter(([key]) => here.has(key)))
+    this.reports = this.reports.filter(({ files }) => here.has(keyOf(files)))
+  }
   want(keys: readonly string[], wanted: boolean): void {
     const left = new Set(this.left)
     for (const key of keys) wanted ? left.delete(key) : left.add(key)
     this.left = left
   }
 
+  /** For whoever leaves the page: the upload of an import that is over has only what was left out. */
+  leave(): void {
+    if (!this.busy && this.outcomes.size > 0 && this.wanted.length === 0 && this.reports.some(({ files }) => !this.isStored(keyOf(files)))) this.sender.forget()
+  }
+  /** Where the window goes, what is not being imported is given up. */
+  close(): void {
+    if (this.doing?.what === 'import') return
+    this.jobs.cancel().catch(() => {})
+    this.sender.forget()
+  }
+
   /** Makes the reports anew: of some recordings, or of all. */
   async inspect(keys?: readonly string[]): Promise<void> {
-    clearTimeout(this.settling)
     if (this.doing) return
+    this.unsettle()
     this.fault = undefined
-    const refused = new Map(this.refused), stale = new Set(this.stale)
-    const corrected = this.all !== kNone || this.own.size > 0
+    const isSame = this.revisions.mark()
     const groups = keys ? this.groups(this.present(keys)) : [{ keys: [], body: {}, rig: '' }]
     for (const [at, group] of groups.entries()) {
+      // What was corrected meanwhile is looked at afterwards.
+      const now = group.keys.filter(isSame)
+      if (keys && now.length === 0) continue
       this.doing = { what: 'inspect', part: at / groups.length }
       try {
-        const inspection = await this.run<Inspection>('inspect', group, (part) => (this.doing = { ...this.doing!, part: (at + part) / groups.length }))
-        this.take(inspection, keys ? group.keys : undefined)
-        for (const key of group.keys) refused.delete(key), stale.delete(key)
-        if (!keys) refused.clear(), stale.clear()
+        const inspection = await this.run<Inspection>('inspect', { ...group, keys: now },
+          (part) => (this.doing = { ...this.doing!, part: (at + part) / groups.length }))
+        const errors = this.take(inspection, keys ? now : undefined)
+        if (keys) this.looked(now.filter(isSame), errors)
       } catch (fault) {
-        if (isCancelled(fault)) break
-        if (!keys) {
-          this.fault = fault
-          break
-        }
-        for (const key of group.keys) refused.set(key, fault), stale.delete(key)
+        if (isCancelled(fault)) return
+        if (!keys || !isOfTheCall(fault)) return this.fail(fault, () => void (keys ? this.inspect([...this.stale]) : this.send()))
+        this.looked(now.filter(isSame), new Map(now.map((key) => [key, fault])))
       } finally {
         this.doing = undefined
       }
     }
-    this.refused = refused
-    this.stale = new Set(this.present(stale))
-    const there = new Set(this.present(this.reports.map(({ files }) => keyOf(files))))
-    this.reports = this.reports.filter(({ files }) => there.has(keyOf(files)))
+    this.forgetGone()
+    if (keys) return
     // What was corrected before files were added holds for them, too.
-    if (!keys && corrected && !this.fault && this.reports.length > 0) await this.inspect(this.reports.map(({ files }) => keyOf(files)))
+    const again = this.all !== kNone || this.own.size > 0 ? this.reports.map(({ files }) => keyOf(files)) : []
+    this.refused = new Map()
+    this.stale = new Set([...[...this.stale].filter((key) => !isSame(key)), ...again])
+    if (again.length > 0) await this.inspect(again)
+  }
+  /** What is told of these recordings is of what they are now: `refused` has what is not taken of it. */
+  private looked(keys: readonly string[], refused: ReadonlyMap<string, unknown>): void {
+    const over = new Set(keys)
+    this.stale = new Set([...this.stale].filter((key) => !over.has(key)))
+    this.refused = new Map([...[...this.refused].filter(([key]) => !over.has(key)), ...[...refused].filter(([key]) => over.has(key))])
   }
 
-  /** Stores what is wanted, one call for recordings that are told the same. */
+  /** Stores what is wanted, one call for recordings that are told the same. One that is refused leaves the others. */
   async import(): Promise<void> {
     this.fault = undefined
-    const groups = this.groups(this.wanted.map(({ files }) => keyOf(files)))
+    this.turnedAway = false
+    const isSame = this.revisions.mark()
+    const groups = this.groups(this.wanted.map(({ files }) => keyOf(files)).filter((key) => !this.stale.has(key)))
     const count = groups.reduce((sum, { keys }) => sum + keys.length, 0)
     let before = 0
     for (const group of groups) {
-      const keys = [...group.keys].sort((a, b) => (this.nameOf(a) < this.nameOf(b) ? -1 : 1)), done = before
+      // What is corrected meanwhile is not stored as it was.
+      const keys = group.keys.filter(isSame).sort((a, b) => (this.nameOf(a) < this.nameOf(b) ? -1 : 1)), done = before
+      before += group.keys.length
+      if (keys.length === 0) continue
       this.doing = { what: 'import', part: done / count, call: { keys, part: 0 } }
       try {
-        await this.run<ImportResult>('import', group, (part, result) => {
+        await this.run<ImportResult>('import', { ...group, keys }, (part, result) => {
           this.doing = { what: 'import', part: (done + part * keys.length) / count, call: { keys, part } }
-          if (result) this.outcome(result, group)
+          if (result) this.outcome(result, { ...group, keys: keys.filter(isSame) })
         })
       } catch (fault) {
-        if (!isCancelled(fault)) this.fault = fault
-        break
+        if (isCancelled(fault)) break
+        if (!isOfTheCall(fault)) {
+          this.fail(fault, () => void this.import())
+          break
+        }
+        const failed = keys.filter((key) => isSame(key) && !this.isStored(key))
+        this.outcomes = new Map([...this.outcomes, ...failed.map((key) => [key, failedBy(fault, this.nameOf(key))] as const)])
       } finally {
         this.doing = undefined
       }
-      before += group.keys.length
     }
     this.onimported?.()
   }
@@ -246,51 +302,26 @@ export class ImportSession {
     return pairs.map((pair) => ({ ...pair, signer: this.own.get(keyOf(pair))?.signer || this.all.signer || pair.signer }))
   }
 
-  /** Does a call of an upload; where the server has the upload no more, everything is sent again first. */
-  private async run<Result>(what: 'inspect' | 'import', group: Group, told: (part: number, result?: Result) => void): Promise<Result> {
-    try {
-      return await this.once(what, group, told)
-    } catch (fault) {
-      if (!isGone(fault)) throw fault
-      this.sender.forget()
-      if (!(await this.sender.send(sendable(this.list)))) throw fault
-      return this.once(what, group, told)
-    }
+  private run<Result>(what: 'inspect' | 'import', { keys, body, rig }: Group, told: (part: number, result?: Result) => void): Promise<Result> {
+    return this.jobs.run(what, () => {
+      const table = this.table(), isTold = this.pairs || table.some(({ signer }) => signer !== '')
+      return {
+        parameters: keys.length > 0 ? { ...body, recordings: keys.map((key) => this.nameOf(key)) } : body,
+        made: { ...(isTold && { pairs: { name: kTable, text: tableOf(table) } }), ...(rig && { rig: { name: 'parts.rig', text: rig } }) },
+      }
+    }, told)
   }
 
-  private async once<Result>(what: 'inspect' | 'import', { keys, body, rig }: Group, told: (part: number, result?: Result) => void): Promise<Result> {
-    const { api, database, sender } = this
-    await sender.retract(sendable(this.list))
-    const table = this.table()
-    const parameters: Record<string, unknown> = { ...body }
-    if (this.pairs || table.some(({ signer }) => signer !== '')) {
-      parameters.pairs = kTable
-      await sender.put(kTable, tableOf(table))
-    }
-    if (rig) {
-      parameters.rig = 'parts.rig'
-      await sender.put('parts.rig', rig)
-    }
-    if (keys.length > 0) parameters.recordings = keys.map((key) => this.nameOf(key))
-    const begun = await beginUpload(api, database, sender.upload!, what, parameters)
-    this.job = begun.job
-    try {
-      const result = await api.result<Result>(begun, (state) => told(state.fraction, state.result))
-      told(1, result)
-      return result
-    } finally {
-      this.job = undefined
-    }
-  }
-
-  /** A new report takes the place of what was told of the same recordings. */
-  private take(inspection: Inspection, keys?: readonly string[]): void {
-    const told = inspection.recordings, toldKeys = new Set(told.map(({ files }) => keyOf(files)))
+  /** A new report takes the place of what was told of the same recordings; gives what is wrong with corrections. */
+  private take(inspection: Inspection, keys?: readonly string[]): ReadonlyMap<string, unknown> {
+    const { reports: told, errors } = withGood(inspection.recordings, this.reports, (key) => keys !== undefined && (this.own.has(key) || this.all !== kNone))
+    const toldKeys = new Set(told.map(({ files }) => keyOf(files)))
     const here = this.pairs && new Set(this.pairs.map(keyOf))
     const rest = keys ? this.reports.filter(({ files }) => !toldKeys.has(keyOf(files)) && (!here || here.has(keyOf(files)))) : []
     this.reports = [...rest, ...told].sort((a, b) => (a.name < b.name ? -1 : 1))
     if (!keys) this.notices = inspection.notices
     this.faults = inspection.faults
+    return errors
   }
 
   private outcome({ recordings }: ImportResult, group: Group): void {
@@ -305,15 +336,22 @@ export class ImportSession {
   private touched(keys: readonly string[]): void {
     // What was stored and is corrected now may be stored again.
     this.outcomes = new Map([...this.outcomes].filter(([key]) => !keys.includes(key)))
-    this.stale = new Set([...this.stale, ...keys])
+    this.revisions.bump(keys)
+    // What was not taken may be, beside what the others are now.
+    this.stale = new Set([...this.stale, ...this.refused.keys(), ...keys])
     this.settle()
   }
   private settle(): void {
-    clearTimeout(this.settling)
+    this.unsettle()
     this.settling = setTimeout(() => {
-      if (this.doing || this.sender.busy) this.settle()
-      else if (this.stale.size > 0 && this.sender.upload) void this.inspect([...this.stale])
+      this.settling = undefined
+      if (this.busy) this.settle()
+      else if (this.stale.size > 0) void this.inspect([...this.stale])
     }, kSettle)
+  }
+  private unsettle(): void {
+    clearTimeout(this.settling)
+    this.settling = undefined
   }
 
   private change(list: FileList): void {
@@ -349,14 +387,4 @@ export class ImportSession {
   formatOf(name: string): string {
     return endingOf(name, this.formats)?.name ?? ''
   }
-}
-
-const isCancelled = (fault: unknown) => fault instanceof ApiError && fault.code === 'cancelled'
-
-const sessions = new Map<string, ImportSession>()
-/** The import that goes on for a database, also where its page was left. */
-export function sessionOf(api: Api, database: string): ImportSession {
-  let session = sessions.get(database)
-  if (!session) sessions.set(database, (session = new ImportSession(api, database)))
-  return session
 }

@@ -2,6 +2,8 @@ const en = {
   title: 'Import into {name}',
   readOnly: '{name} is served for reading only: nothing can be stored in it. Start the server with --writable.',
   drop: 'Drop files and folders here',
+  dropBusy: 'Files are taken again when this is over',
+  turnedAway: 'Not done, for files were being sent, looked at or stored: give or remove files when that is over, or cancel it first.',
   dropHint:
     'Motion, annotation and face captures: {endings}. A table of pairs (.csv) and a mapping file (.rig) say how they belong together and which joint is '
     + 'what.',
@@ -44,7 +46,7 @@ const en = {
   wanted: 'Import',
   wantedOne: 'Import {name}',
   name: 'Name', signs: 'Signs', phases: 'Phases', defects: 'Defects', notices: 'Notices', length: 'Length',
-  new: 'new', known: 'known', fault: 'cannot be read', refusedState: 'not taken', stale: 'looking again…',
+  new: 'new', known: 'known', fault: 'cannot be read', refusedState: 'not taken', stale: 'looking again…', unlookedState: 'not looked at',
   hasMotion: 'motion', hasAnnotation: 'annotation', hasFace: 'face',
   knownHint:
     'The database has a recording of this name. Its annotation is replaced where it differs. Its motion and face stay, unless “Replace motion” is ticked: '
@@ -87,6 +89,10 @@ const en = {
   mend: 'Mend it: {what}', mendAll: 'Mend all {n} that have it', clock: 'Annotation time of frame 0',
   import: 'Import {n}',
   nothingWanted: 'Nothing is left to import',
+  notLooked: 'Not looked at yet: “Look again” goes on. Nothing can be imported before.',
+  unlooked: 'Corrected, and not looked at since: {n}. Import waits until that is done, or until they are unticked.',
+  lookCorrected: 'Look at what was corrected',
+  refusedSum: 'Left out, for their corrections are not taken: {n}.',
   outcome: 'Outcome', done: 'Stored: {n}', failedSome: 'Not stored: {n}',
   open: 'Open', openPhases: 'Phases', search: 'Search in {name}', recordingsOf: 'Recordings of {name}', again: 'Import more',
   outcome_added: 'added', outcome_unchanged: 'unchanged', 'outcome_clock, signer or rig changed': 'clock, signer or rig changed',
@@ -100,6 +106,8 @@ const fr: ImportWords = {
   title: 'Importer dans {name}',
   readOnly: '{name} n’est servie qu’en lecture : rien ne peut y être enregistré. Lancez le serveur avec --writable.',
   drop: 'Déposez ici fichiers et dossiers',
+  dropBusy: 'Des fichiers seront acceptés à nouveau quand ceci sera fini',
+  turnedAway: 'Pas fait, car des fichiers étaient envoyés, examinés ou stockés : ajoutez ou retirez des fichiers quand ce sera fini, ou annulez d’abord.',
   dropHint:
     'Mouvements, annotations et captures du visage : {endings}. Une table de paires (.csv) et un fichier de correspondance (.rig) disent ce qui va '
     + 'ensemble et quelle articulation est quoi.',
@@ -143,7 +151,7 @@ const fr: ImportWords = {
   wanted: 'Importer',
   wantedOne: 'Importer {name}',
   name: 'Nom', signs: 'Signes', phases: 'Phases', defects: 'Défauts', notices: 'Remarques', length: 'Durée',
-  new: 'nouveau', known: 'connu', fault: 'illisible', refusedState: 'non accepté', stale: 'nouvel examen…',
+  new: 'nouveau', known: 'connu', fault: 'illisible', refusedState: 'non accepté', stale: 'nouvel examen…', unlookedState: 'non examiné',
   hasMotion: 'mouvement', hasAnnotation: 'annotation', hasFace: 'visage',
   knownHint:
     'La base a un enregistrement de ce nom. Son annotation est remplacée si elle diffère. Son mouvement et son visage restent, sauf si « Remplacer » est '
@@ -189,6 +197,10 @@ const fr: ImportWords = {
   mend: 'Y remédier : {what}', mendAll: 'Y remédier pour les {n} qui l’ont', clock: 'Temps d’annotation de l’image 0',
   import: 'Importer {n}',
   nothingWanted: 'Plus rien à importer',
+  notLooked: 'Pas encore examiné : « Examiner à nouveau » reprend. Rien ne peut être importé avant.',
+  unlooked: 'Corrigés, et non examinés depuis : {n}. L’import attend que ce soit fait, ou qu’ils soient décochés.',
+  lookCorrected: 'Examiner ce qui a été corrigé',
+  refusedSum: 'Laissés de côté, car leurs corrections ne sont pas acceptées : {n}.',
   outcome: 'Résultat', done: 'Stockés : {n}', failedSome: 'Non stockés : {n}',
   open: 'Ouvrir', openPhases: 'Phases', search: 'Chercher dans {name}', recordingsOf: 'Enregistrements de {name}', again: 'Importer autre chose',
   outcome_added: 'ajouté', outcome_unchanged: 'inchangé', 'outcome_clock, signer or rig changed': 'horloge, signeur ou squelette changés',

@@ -70,4 +70,6 @@ it('refuses a file that it does not understand whole, and says where', () => {
   expect(refused((file) => (file.places[3].to_ms = 1))).toBe('badValue places[3].to_ms')
   expect(refused((file) => (file.places = {}))).toBe('badValue places')
   expect(refused((file) => (file.places[0] = 'A'))).toBe('badValue places[0]')
+  const many = (n: number) => refused((file) => (file.places = Array.from({ length: n }, () => ({ gloss: 'A' }))))
+  expect([many(10_000), many(10_001)]).toEqual(['taken', 'tooManyPlaces 10001'])
 })

@@ -21,9 +21,6 @@ export class FilmJob {
   cancel(): void {
     this.abort.abort()
   }
-  get cancelled(): boolean {
-    return this.abort.signal.aborted
-  }
 
   /** Resolves with the film's bytes; none where it was given up. `character` is whose surfaces are drawn. */
   async make(api: Api, database: string, body: SignBody, character: string | undefined, view: RenderView, size: FilmSize): Promise<Blob | undefined> {

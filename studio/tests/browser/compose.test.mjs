@@ -76,6 +76,32 @@ test('tells what cannot be signed, and keeps what is shown', async () => {
   assert.deepEqual(await cards(), ['VANNES'])
 })
 
+test('loses no text that has a fault: not by moving signs, not by undo, not of a link', async () => {
+  await compose('VANNES MATIN')
+  const typed = 'VANNES MATIN "LE MANS NUAGES'
+  await field().fill(typed)
+  await page.locator('.card').last().focus()
+  await page.getByText(/never closed: "LE MANS/).waitFor()
+  await page.keyboard.press('Alt+ArrowLeft')
+  assert.deepEqual([await cards(), await field().inputValue()], [['MATIN', 'VANNES'], typed])
+  await field().press('Control+z')
+  assert.equal(await field().inputValue(), 'MATIN VANNES')
+  await field().press('Control+y')
+  assert.equal(await field().inputValue(), typed)
+  await page.getByRole('link', { name: 'Recordings' }).click()
+  await page.locator('tbody').first().waitFor()
+  await page.goBack()
+  await page.locator('.card').first().waitFor()
+  assert.equal(await field().inputValue(), typed)
+  await button('Take the text back').click()
+  assert.deepEqual([await field().inputValue(), await page.getByText(/never closed/).count()], ['MATIN VANNES', 0])
+  await button('Undo').click() // what was done before the other page was looked at
+  assert.deepEqual(await cards(), ['VANNES', 'MATIN'])
+  await visit('#/demo/compose?utterance=VANNES+%22LE+MANS')
+  await page.getByText(/never closed: "LE MANS/).waitFor()
+  assert.equal(await field().inputValue(), 'VANNES "LE MANS')
+})
+
 test('moves signs by mouse and by keyboard, takes them out, and takes every step back', async () => {
   await compose('BONJOUR MATIN PLUIE')
   const [first, last] = [await page.locator('.card').first().boundingBox(), await page.locator('.card').last().boundingBox()]
@@ -85,16 +111,30 @@ test('moves signs by mouse and by keyboard, takes them out, and takes every step
   await page.mouse.up()
   assert.equal(await field().inputValue(), 'MATIN PLUIE BONJOUR')
   await page.locator('.card').last().focus()
+  await page.keyboard.press('Enter') // no click followed the drag: this one is meant
+  assert.equal(await page.locator('aside h2').textContent(), 'BONJOUR')
   await page.keyboard.press('Alt+ArrowLeft')
   assert.equal(await field().inputValue(), 'MATIN BONJOUR PLUIE')
+  const isLeft = () => page.evaluate(() => document.activeElement.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft', altKey: true, bubbles: true, cancelable: true })))
+  await page.locator('.junction').first().focus()
+  assert.equal(await isLeft(), false) // the browser does not go back
+  await page.locator('.card').nth(1).focus()
   assert.equal(await page.evaluate(() => document.activeElement.textContent.includes('BONJOUR')), true)
   await page.keyboard.press('Delete')
   assert.equal(await field().inputValue(), 'MATIN PLUIE')
   await page.keyboard.press('Enter')
   await button('Duplicate').click()
-  await page.getByRole('combobox', { name: 'Another sign' }).fill('VANNES')
+  const another = page.getByRole('combobox', { name: 'Another sign' })
+  await another.fill('"VANNES')
+  await button('Replace').click()
+  assert.match(await page.locator('#other-fault').textContent(), /never closed/)
+  await another.fill('"VANNES"')
   await button('Replace').click()
   assert.equal(await field().inputValue(), 'MATIN PLUIE VANNES')
+  await another.pressSequentially('P')
+  await page.keyboard.press('Control+z') // takes the typing back, not the sign
+  assert.deepEqual([await another.inputValue(), await field().inputValue()], ['', 'MATIN PLUIE VANNES'])
+  await page.locator('.card').last().focus()
   for (const before of ['MATIN PLUIE PLUIE', 'MATIN PLUIE', 'MATIN BONJOUR PLUIE', 'MATIN PLUIE BONJOUR', 'BONJOUR MATIN PLUIE']) {
     await page.keyboard.press('Control+z')
     assert.equal(await field().inputValue(), before)
@@ -124,6 +164,22 @@ test('shows the tokens of a place with what they cost, and signs the one that is
   await page.waitForFunction(() => /pinned/.test(document.querySelector('aside .token[aria-pressed=true]')?.textContent))
   await button('Least cost again').click()
   assert.equal(await field().inputValue(), 'VANNES MATIN')
+})
+
+test('tells what tokens cost beside a sign that the database does not know, and when something is tried again', async () => {
+  let broken = true
+  await visit('')
+  await page.route('**/sign', (route) => (broken ? route.abort() : route.continue()))
+  await page.evaluate(() => (location.hash = '#/demo/compose?utterance=NOBODY+VANNES+VANNES'))
+  await page.locator('.card').nth(1).click()
+  await page.locator('aside .fault:not([hidden])').waitFor()
+  broken = false
+  await page.locator('.trouble').getByRole('button', { name: 'Try again' }).click()
+  await page.locator('aside .token').nth(2).waitFor()
+  broken = true
+  await page.locator('.card').nth(2).click()
+  await page.locator('aside .fault:not([hidden])').waitFor()
+  assert.equal(await page.locator('aside .token').count(), 0) // costs of the other VANNES are none of this one
 })
 
 test('goes from junction to junction, and repeats what lies around each', async () => {
@@ -328,13 +384,42 @@ test('signs live: each word at once, and tells what cannot be', async () => {
   await compose('VANNES')
   await button('Live').click()
   await page.getByRole('combobox', { name: 'Type and it signs' }).waitFor()
+  await page.keyboard.type('NOBODY MATIN MATIN ') // while the stream is opened
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.store.arrived > 0)
-  await page.keyboard.type('NOBODY MATIN MATIN MATIN ') // long enough to be seen where pictures are slow
+  await page.keyboard.type('NOBODY2 MATIN ') // long enough to be seen where pictures are slow
   await page.waitForFunction(() => document.querySelector('.viewer .gloss')?.textContent === 'MATIN', null, { timeout: 60_000 })
-  assert.match(await page.getByRole('alert').textContent(), /no sign 'NOBODY'/)
+  await page.waitForFunction(() => document.querySelectorAll('.card').length === 4)
+  assert.match(await page.getByRole('alert').textContent(), /no sign 'NOBODY'[^]*no sign 'NOBODY2'/)
   assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'MATIN', 'MATIN'])
-  await button('Live').click()
+  await page.locator('.card').first().click() // what is chosen ends it, and has its panel
+  await page.locator('aside .token').first().waitFor()
   await shown('VANNES MATIN MATIN MATIN')
+})
+
+test('loses no word where the stream breaks', async () => {
+  let gone = () => {}, whole = true
+  await visit('')
+  await page.routeWebSocket(/stream/, (socket) => {
+    if (!whole) return socket.close({ code: 1001 })
+    const server = socket.connectToServer()
+    gone = () => (socket.close({ code: 1001 }), server.close())
+  })
+  await page.evaluate(() => (location.hash = '#/demo/compose?utterance=VANNES'))
+  await shown('VANNES')
+  await button('Live').click()
+  const live = page.getByRole('combobox', { name: 'Type and it signs' })
+  await page.waitForFunction(() => document.querySelector('.player.live') && window.signweaveStage?.panes[0]?.store.arrived > 0)
+  whole = false
+  gone()
+  await page.locator('.trouble').waitFor()
+  await live.pressSequentially('PLUIE NUAGES ')
+  await page.getByText('stands in the field again').waitFor()
+  assert.deepEqual([await live.inputValue(), await cards()], ['PLUIE NUAGES ', ['VANNES']])
+  whole = true
+  await page.locator('.trouble').getByRole('button', { name: 'Try again' }).click()
+  await button('Sign').click()
+  await page.waitForFunction(() => document.querySelectorAll('.card').length === 3)
+  assert.deepEqual([await live.inputValue(), await cards()], ['', ['VANNES', 'PLUIE', 'NUAGES']])
 })
 
 for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {

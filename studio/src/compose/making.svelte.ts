@@ -10,7 +10,7 @@ import type { Showing, Strand } from '../viewer/showing'
 import { Transport, type Loop } from '../viewer/transport'
 import { bodyOf } from './body'
 import { laidOf, type Laid } from './laid'
-import { documentOf } from './made_document'
+import { documentOf, kEafLabels, type MadeLabels } from './made_document'
 import { firstChange, type Project } from './project'
 import { mainSigns } from './start'
 import { textOf } from './utterance'
@@ -28,7 +28,7 @@ export type Beside =
 /** What is to be shown. */
 export interface Wish { readonly project: Project; readonly title: string; readonly beside?: Beside }
 /** What is shown: the wish, and what the server tells of it. */
-export interface Made { readonly wish: Wish; readonly report: Report; readonly laid?: Laid; readonly document: AnnotationDocument }
+export interface Made { readonly wish: Wish; readonly report: Report; readonly laid?: Laid }
 
 /** A recording that stands beside; `before` is the one that is shown until it is there. */
 interface Recorded { readonly key: string; readonly opening: Opening; readonly strand: Promise<Strand>; before?: Recorded }
@@ -60,14 +60,14 @@ export class Making implements Showing {
   private steps = $state.raw<Steps | undefined>()
   /** A recording that stands beside: it stays while everything else is made anew. */
   private recorded?: Recorded
+  /** What was made, as the timeline draws it. */
+  readonly document: AnnotationDocument = $derived.by(() => (this.made ? documentOf(this.made.report, this.labels()) : kNothing))
   private closed = false
   private told = 0
 
-  constructor(private readonly api: Api, private readonly database: string) {}
+  /** `labels` is how parts of it are called. */
+  constructor(private readonly api: Api, private readonly database: string, private readonly labels: () => MadeLabels = () => kEafLabels) {}
 
-  get document(): AnnotationDocument {
-    return this.made?.document ?? kNothing
-  }
   get complete(): boolean {
     return this.main?.source.complete ?? true
   }
@@ -171,7 +171,7 @@ export class Making implements Showing {
     const other = wish.beside?.kind === 'method' ? strands[1].motion.report : undefined
     const laid = laidOf(wish.project.places, report)
     this.steps = other ? stepsOfSigns(report.signs, other.signs.map(({ begin_ms, end_ms }) => ({ begin: begin_ms, end: end_ms })), 0) : this.stepsOfOriginal(wish, report, strands[0])
-    this.made = { wish, report, laid, document: documentOf(report) }
+    this.made = { wish, report, laid }
     this.main = main
     this.strands = strands
     if (wish.beside?.kind !== 'original') this.forgetOriginal()

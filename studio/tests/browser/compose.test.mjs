@@ -321,7 +321,7 @@ test('copies a link that opens the same', async () => {
 
 test('opens the paper’s scenarios, the original beside them, and starts from a recording', async () => {
   await visit('#/demo/compose')
-  await button('Scenario 1: four words replaced by city signs').click()
+  await button('Scenario 1: four words replaced by city signs').dblclick() // is one step
   await page.waitForFunction(() => window.signweaveStage?.panes.length === 2)
   await pause()
   const text = await field().inputValue()
@@ -332,6 +332,8 @@ test('opens the paper’s scenarios, the original beside them, and starts from a
   const steps = await page.evaluate(() => [5, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
   near(steps[0], 6.2, 0.05) // what was made begins with the first sign
   assert.ok(Math.abs(steps[1] - 40) > 0.05)
+  await button('Undo').click()
+  assert.deepEqual([await cards(), await button('Undo').isDisabled()], [[], true])
   await pick('Open', 'Scenario 2: the predictions of two days change places')
   await page.waitForFunction(() => /#1 NUAGES#2 NUIT#1 EN-MER#1 MATIN#2 BROUILLARD#1 DEMAIN#1/.test(document.querySelector('.compose').dataset.made))
   await button('Original beside').click()
@@ -417,6 +419,8 @@ test('loses no word where the stream breaks', async () => {
   assert.deepEqual([await live.inputValue(), await cards()], ['PLUIE NUAGES ', ['VANNES']])
   whole = true
   await page.locator('.trouble').getByRole('button', { name: 'Try again' }).click()
+  await page.waitForFunction(() => !document.querySelector('.trouble, .waits'))
+  assert.equal(await live.inputValue(), 'PLUIE NUAGES ')
   await button('Sign').click()
   await page.waitForFunction(() => document.querySelectorAll('.card').length === 3)
   assert.deepEqual([await live.inputValue(), await cards()], ['', ['VANNES', 'PLUIE', 'NUAGES']])

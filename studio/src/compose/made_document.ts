@@ -2,7 +2,9 @@ import type { Report } from '../api/answers'
 import type { Annotation, AnnotationDocument, Tier } from '../annotation/document'
 
 /** How phases, sources and junctions are called, with what is filled in as `{…}`. */
-export interface MadeLabels { readonly preparation: string; readonly stroke: string; readonly retraction: string; readonly madeSource: string; readonly madeSeam: string }
+export interface MadeLabels {
+  readonly preparation: string; readonly stroke: string; readonly retraction: string; readonly madeSource: string; readonly madeSeam: string
+}
 /** As the EAF has them. */
 export const kEafLabels: MadeLabels = {
   preparation: 'Preparation', stroke: 'Stroke', retraction: 'Retraction', madeSource: '{recording} frames {from}..{to}',

@@ -1,5 +1,7 @@
 /** What became of something that was begun: another was begun after it, or what it was begun from is no more what is there. */
-export type Outcome<T> = { readonly kind: 'done'; readonly value: T } | { readonly kind: 'failed'; readonly fault: unknown } | { readonly kind: 'overtaken' } | { readonly kind: 'changed' }
+export type Outcome<T> =
+  | { readonly kind: 'done'; readonly value: T } | { readonly kind: 'failed'; readonly fault: unknown }
+  | { readonly kind: 'overtaken' } | { readonly kind: 'changed' }
 
 /** Work of which only the newest counts, and that overwrites nothing that was done meanwhile. */
 export class Newest {

@@ -1,37 +1,12 @@
-// Composing: glosses as text and cards, tokens, junctions, files, films and live signing, as a person would do it.
+// Composing: glosses as text and cards, tokens, junctions, files and films, as a person would do it.
 import assert from 'node:assert/strict'
-import { readFileSync } from 'node:fs'
+import { button, cards, compose, field, pause, pick, saved, shown } from './compose_tools.mjs'
 import { axeFaults, transport } from './page_tools.mjs'
 import { decoded, readWebm } from './render_webm.mjs'
 import { context, kDeclared, page, test, visit } from './suite.mjs'
 
-const button = (name) => page.getByRole('button', { name, exact: true })
-const field = () => page.getByRole('combobox', { name: 'Glosses in order' })
-const cards = () => page.locator('.card .gloss').allTextContents()
-const pause = () => page.evaluate(() => { window.signweaveStage.transport.pause() })
 const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not ${wanted}`)
 const kScenario1 = 'LE-TEMPS-PREVU#1 VANNES MATIN#1 NUAGES#1 APRES-MIDI#1 PLUIE#1 MARSEILLE SOLEIL-BRILLER#1'
-
-/** Until what was made of a text is on the screen. */
-const shown = (text) => page.waitForFunction((wanted) => {
-  const { made, busy } = document.querySelector('.compose')?.dataset ?? {}
-  return busy === 'false' && made === wanted && window.signweaveStage?.panes.length > 0
-}, text, { timeout: 60_000 })
-/** Opens the page with an utterance, and stops the picture, which software draws slowly. */
-async function compose(utterance, more = {}, options = {}) {
-  await visit(`#/demo/compose?${new URLSearchParams({ utterance, ...more })}`, options)
-  await shown(utterance)
-  await pause()
-}
-/** Picks something from a menu of the tools. */
-async function pick(menu, name) {
-  await button(menu).click()
-  await page.locator('.list').getByRole('button', { name }).click()
-}
-const saved = async (act) => {
-  const [file] = await Promise.all([page.waitForEvent('download', { timeout: 180_000 }), act()])
-  return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) }
-}
 
 test('signs glosses that are typed and completed, by keyboard alone', async () => {
   await visit('#/demo/compose')
@@ -74,32 +49,6 @@ test('tells what cannot be signed, and keeps what is shown', async () => {
   await page.keyboard.press('Enter')
   assert.match(await page.getByRole('alert').textContent(), /never closed: "LE MA/)
   assert.deepEqual(await cards(), ['VANNES'])
-})
-
-test('loses no text that has a fault: not by moving signs, not by undo, not of a link', async () => {
-  await compose('VANNES MATIN')
-  const typed = 'VANNES MATIN "LE MANS NUAGES'
-  await field().fill(typed)
-  await page.locator('.card').last().focus()
-  await page.getByText(/never closed: "LE MANS/).waitFor()
-  await page.keyboard.press('Alt+ArrowLeft')
-  assert.deepEqual([await cards(), await field().inputValue()], [['MATIN', 'VANNES'], typed])
-  await field().press('Control+z')
-  assert.equal(await field().inputValue(), 'MATIN VANNES')
-  await field().press('Control+y')
-  assert.equal(await field().inputValue(), typed)
-  await page.getByRole('link', { name: 'Recordings' }).click()
-  await page.locator('tbody').first().waitFor()
-  await page.goBack()
-  await page.locator('.card').first().waitFor()
-  assert.equal(await field().inputValue(), typed)
-  await button('Take the text back').click()
-  assert.deepEqual([await field().inputValue(), await page.getByText(/never closed/).count()], ['MATIN VANNES', 0])
-  await button('Undo').click() // what was done before the other page was looked at
-  assert.deepEqual(await cards(), ['VANNES', 'MATIN'])
-  await visit('#/demo/compose?utterance=VANNES+%22LE+MANS')
-  await page.getByText(/never closed: "LE MANS/).waitFor()
-  assert.equal(await field().inputValue(), 'VANNES "LE MANS')
 })
 
 test('moves signs by mouse and by keyboard, takes them out, and takes every step back', async () => {
@@ -164,22 +113,6 @@ test('shows the tokens of a place with what they cost, and signs the one that is
   await page.waitForFunction(() => /pinned/.test(document.querySelector('aside .token[aria-pressed=true]')?.textContent))
   await button('Least cost again').click()
   assert.equal(await field().inputValue(), 'VANNES MATIN')
-})
-
-test('tells what tokens cost beside a sign that the database does not know, and when something is tried again', async () => {
-  let broken = true
-  await visit('')
-  await page.route('**/sign', (route) => (broken ? route.abort() : route.continue()))
-  await page.evaluate(() => (location.hash = '#/demo/compose?utterance=NOBODY+VANNES+VANNES'))
-  await page.locator('.card').nth(1).click()
-  await page.locator('aside .fault:not([hidden])').waitFor()
-  broken = false
-  await page.locator('.trouble').getByRole('button', { name: 'Try again' }).click()
-  await page.locator('aside .token').nth(2).waitFor()
-  broken = true
-  await page.locator('.card').nth(2).click()
-  await page.locator('aside .fault:not([hidden])').waitFor()
-  assert.equal(await page.locator('aside .token').count(), 0) // costs of the other VANNES are none of this one
 })
 
 test('goes from junction to junction, and repeats what lies around each', async () => {
@@ -380,50 +313,6 @@ test('says where the browser can make no film', async () => {
   await pick('Download', /^WebM/)
   assert.match(await page.locator('dialog [role=alert]').textContent(), /no WebCodecs/)
   await page.keyboard.press('Escape')
-})
-
-test('signs live: each word at once, and tells what cannot be', async () => {
-  await compose('VANNES')
-  await button('Live').click()
-  await page.getByRole('combobox', { name: 'Type and it signs' }).waitFor()
-  await page.keyboard.type('NOBODY MATIN MATIN ') // while the stream is opened
-  await page.waitForFunction(() => window.signweaveStage?.panes[0]?.store.arrived > 0)
-  await page.keyboard.type('NOBODY2 MATIN ') // long enough to be seen where pictures are slow
-  await page.waitForFunction(() => document.querySelector('.viewer .gloss')?.textContent === 'MATIN', null, { timeout: 60_000 })
-  await page.waitForFunction(() => document.querySelectorAll('.card').length === 4)
-  assert.match(await page.getByRole('alert').textContent(), /no sign 'NOBODY'[^]*no sign 'NOBODY2'/)
-  assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'MATIN', 'MATIN'])
-  await page.locator('.card').first().click() // what is chosen ends it, and has its panel
-  await page.locator('aside .token').first().waitFor()
-  await shown('VANNES MATIN MATIN MATIN')
-})
-
-test('loses no word where the stream breaks', async () => {
-  let gone = () => {}, whole = true
-  await visit('')
-  await page.routeWebSocket(/stream/, (socket) => {
-    if (!whole) return socket.close({ code: 1001 })
-    const server = socket.connectToServer()
-    gone = () => (socket.close({ code: 1001 }), server.close())
-  })
-  await page.evaluate(() => (location.hash = '#/demo/compose?utterance=VANNES'))
-  await shown('VANNES')
-  await button('Live').click()
-  const live = page.getByRole('combobox', { name: 'Type and it signs' })
-  await page.waitForFunction(() => document.querySelector('.player.live') && window.signweaveStage?.panes[0]?.store.arrived > 0)
-  whole = false
-  gone()
-  await page.locator('.trouble').waitFor()
-  await live.pressSequentially('PLUIE NUAGES ')
-  await page.getByText('stands in the field again').waitFor()
-  assert.deepEqual([await live.inputValue(), await cards()], ['PLUIE NUAGES ', ['VANNES']])
-  whole = true
-  await page.locator('.trouble').getByRole('button', { name: 'Try again' }).click()
-  await page.waitForFunction(() => !document.querySelector('.trouble, .waits'))
-  assert.equal(await live.inputValue(), 'PLUIE NUAGES ')
-  await button('Sign').click()
-  await page.waitForFunction(() => document.querySelectorAll('.card').length === 3)
-  assert.deepEqual([await live.inputValue(), await cards()], ['', ['VANNES', 'PLUIE', 'NUAGES']])
 })
 
 for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {

@@ -29,7 +29,9 @@ export class LiveWords {
   /** Ends it, and gives back what was not answered. */
   close(): readonly Place[] {
     this.closed = true
-    return this.waiting
+    const left = this.waiting
+    this.waiting = []
+    return left
   }
 
   private async go(): Promise<void> {

@@ -87,4 +87,11 @@ test('loses no word where the stream breaks', async () => {
   await button('Sign').click()
   await page.waitForFunction(() => document.querySelectorAll('.card').length === 3)
   assert.deepEqual([await live.inputValue(), await cards()], ['', ['VANNES', 'PLUIE', 'NUAGES']])
+  whole = false
+  gone()
+  await page.locator('.trouble').waitFor()
+  await live.pressSequentially('MATIN ')
+  await page.getByText('stands in the field again').waitFor()
+  await button('Live').click() // what was not signed joins the row
+  assert.deepEqual(await cards(), ['VANNES', 'PLUIE', 'NUAGES', 'MATIN'])
 })

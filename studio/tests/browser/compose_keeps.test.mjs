@@ -1,6 +1,6 @@
 // Where one composes nothing is lost: not what is typed with a fault, not a word where a stream breaks, not what is known beside what is not.
 import assert from 'node:assert/strict'
-import { button, cards, compose, field, shown } from './compose_tools.mjs'
+import { button, cards, compose, field, pick, shown } from './compose_tools.mjs'
 import { page, test, visit } from './suite.mjs'
 
 test('loses no text that has a fault: not by moving signs, not by undo, not of a link', async () => {
@@ -27,6 +27,45 @@ test('loses no text that has a fault: not by moving signs, not by undo, not of a
   await visit('#/demo/compose?utterance=VANNES+%22LE+MANS')
   await page.getByText(/never closed: "LE MANS/).waitFor()
   assert.equal(await field().inputValue(), 'VANNES "LE MANS')
+})
+
+test('keeps what was done last: where the page is left at once, and where something slow comes after it', async () => {
+  await compose('VANNES')
+  await page.locator('.card').click()
+  await button('Duplicate').waitFor()
+  await page.evaluate(() => {
+    [...document.querySelectorAll('aside button')].find(({ textContent }) => textContent === 'Duplicate').click()
+    location.hash = '#/demo'
+  })
+  await page.locator('tbody').first().waitFor()
+  await page.goBack()
+  await page.locator('.card').nth(1).waitFor()
+  assert.deepEqual(await cards(), ['VANNES', 'VANNES'])
+  let go
+  const held = new Promise((resolve) => (go = resolve))
+  await page.route('**/recordings/villes', async (route) => (await held, route.continue()))
+  await pick('Open', 'villes')
+  await page.locator('.card').last().focus()
+  await page.keyboard.press('Delete')
+  go()
+  await page.getByText('villes was not opened, for the signs were changed meanwhile').waitFor()
+  assert.deepEqual(await cards(), ['VANNES'])
+})
+
+test('makes files side by side, and says so', async () => {
+  await compose('VANNES')
+  let go
+  const held = new Promise((resolve) => (go = resolve))
+  await page.route('**/sign', async (route) => (await held, route.continue()))
+  const files = []
+  page.on('download', (file) => files.push(file.suggestedFilename()))
+  await pick('Download', /^BVH/)
+  await pick('Download', /^EAF/)
+  await page.getByText('VANNES.bvh, VANNES.eaf: being made…').waitFor()
+  const second = new Promise((resolve) => page.on('download', () => files.length === 2 && resolve()))
+  go()
+  await second
+  assert.deepEqual(files.sort(), ['VANNES.bvh', 'VANNES.eaf'])
 })
 
 test('tells what tokens cost beside a sign that the database does not know, and when something is tried again', async () => {

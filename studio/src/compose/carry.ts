@@ -9,7 +9,8 @@ const kMostCompared = 400
  * they are joined. Those that ask for the same sign are the same place, as many as can be in order.
  */
 export function carried(before: readonly Place[], read: readonly Place[]): Place[] {
-  const take = (old: Place, fresh: Place): Place => ({ ...fresh, id: old.id, join: old.join })
+  // Before the first place a text says nothing, so that what waits there stays.
+  const take = (old: Place, fresh: Place): Place => ({ ...fresh, id: old.id, join: old.join, pause: fresh === read[0] ? old.pause : fresh.pause })
   const result = [...read]
   let from = 0
   while (from < before.length && from < read.length && sameSign(before[from], read[from])) (result[from] = take(before[from], read[from])), ++from

@@ -7,8 +7,12 @@ import { projectOf, stateOf } from './state'
 /** What the panel beside the picture is about: a place, the junction before a place (by the place's id), or all of it. */
 export type Selected = { readonly kind: 'place' | 'junction'; readonly id: number } | { readonly kind: 'all' }
 
-/** What was composed last of each database since the page was loaded: whoever comes back goes on with it. */
-const kept = new Map<string, Project>()
+interface Kept { readonly history: History<Project>; readonly written: string; readonly unread?: string }
+/**
+ * What was composed last of each database since the page was loaded: whoever comes back goes on with it. The address is written a
+ * little after a step, so that one that was left at once still says what was before; it is told by `written`.
+ */
+const kept = new Map<string, Kept>()
 
 /** A project while somebody works on it: every step can be taken back. */
 export class Composition {
@@ -17,7 +21,9 @@ export class Composition {
   readonly project = $derived(this.history.now)
   readonly canUndo = $derived(this.history.past.length > 0)
   readonly canRedo = $derived(this.history.future.length > 0)
-  /** The state that the address was given last, as text. */
+  /** A text in which signs cannot be read: it stands in the field until it is put right. */
+  private faulty = $state.raw<string | undefined>()
+  /** The state that the address was given last, as text; empty before the first. */
   private written = ''
 
   constructor(private readonly database: string) {}
@@ -26,21 +32,36 @@ export class Composition {
   follow(state: WorkState): readonly string[] {
     const text = JSON.stringify(state)
     if (text === this.written) return []
-    const { project, wrong } = projectOf(state)
-    const wanted = Object.keys(state).length > 0 ? project : kept.get(this.database) ?? project
+    const { project, wrong, unread } = projectOf(state)
+    const isFirst = this.written === '', says = Object.keys(state).length > 0, last = kept.get(this.database)
     this.written = text
-    if (this.history.now === kEmpty) {
-      this.history = begun(wanted)
-      this.settle()
+    if (isFirst && last && (!says || text === last.written)) {
+      this.history = last.history
+      this.faulty = last.unread
+    } else {
+      if (isFirst) this.history = begun(project)
+      else if (!sameProject(this.project, project) && project.places.length > 0) this.change(project)
+      if (says) this.faulty = unread
     }
-    if (!sameProject(this.project, wanted) && wanted.places.length > 0) this.change(wanted)
+    this.settle()
     return wrong
+  }
+  get unread(): string | undefined {
+    return this.faulty
+  }
+  set unread(text: string | undefined) {
+    this.faulty = text
+    this.keep()
   }
   /** What the address should say; none where it says so already. */
   address(): WorkState | undefined {
-    const state = stateOf(this.project), text = JSON.stringify(state)
+    const state = stateOf(this.project)
+    // A link that cannot be read stays what it is, until there is something else to say.
+    if (this.faulty !== undefined && this.project.places.length === 0) state.utterance = this.faulty
+    const text = JSON.stringify(state)
     if (text === this.written) return undefined
     this.written = text
+    this.keep()
     return state
   }
 
@@ -89,8 +110,11 @@ export class Composition {
 
   /** After each step: it is kept for whoever comes back. A selection of what is gone, or of the junction before the first place, is none. */
   private settle(): void {
-    kept.set(this.database, this.project)
+    this.keep()
     const at = this.indexOf(this.selected)
     if (this.selected.kind !== 'all' && at < (this.selected.kind === 'junction' ? 1 : 0)) this.selected = { kind: 'all' }
+  }
+  private keep(): void {
+    kept.set(this.database, { history: this.history, written: this.written, unread: this.faulty })
   }
 }

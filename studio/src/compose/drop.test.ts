@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest'
-import { dropAt } from './drop'
+import { dropAt, scrollAt } from './drop'
 
 it('finds the gap that a card is let go at, line by line', () => {
   const box = (left: number, top: number) => ({ left, right: left + 80, top, bottom: top + 40 })
@@ -7,4 +7,8 @@ it('finds the gap that a card is let go at, line by line', () => {
   const at = (x: number, y: number) => dropAt(boxes, x, y)
   expect([at(-5, 20), at(30, 20), at(60, 20), at(150, 20), at(500, 20)]).toEqual([0, 0, 1, 2, 3])
   expect([at(10, 70), at(90, 70), at(500, 70), at(10, 45), at(5, -20), at(5, 500)]).toEqual([3, 4, 5, 3, 0, 5])
+})
+
+it('moves a list on where something is dragged to its border', () => {
+  expect([-50, 5, 50, 95, 300].map((y) => scrollAt({ top: 0, bottom: 100 }, y))).toEqual([-10, -10, 0, 10, 10])
 })

@@ -11,3 +11,9 @@ export function dropAt(boxes: readonly Box[], x: number, y: number): number {
   }
   return at
 }
+
+const kEdge = 10
+/** How many px a list of lines moves on while something is dragged to a point near its upper or lower border, or beyond. */
+export function scrollAt({ top, bottom }: Pick<Box, 'top' | 'bottom'>, y: number): number {
+  return y < top + kEdge ? -kEdge : y > bottom - kEdge ? kEdge : 0
+}

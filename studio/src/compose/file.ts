@@ -1,5 +1,5 @@
 import { isDuration, isMethod, isTempo } from './joins'
-import { kAligns, kHow, kPauses, piecePlace, signPlace, withPlaces, type How, type Join, type Pause, type Place, type Project } from './project'
+import { kAligns, kHow, kMostPlaces, kPauses, piecePlace, signPlace, withPlaces, type How, type Join, type Pause, type Place, type Project } from './project'
 import { isRate } from './state'
 import { canBeTyped } from './utterance'
 
@@ -8,7 +8,7 @@ const kVersion = 1
 const kName = 'signweave compose'
 
 /** What is wrong with a project file, by the key of its words; `detail` says where or what. */
-export type FileWrong = 'notJson' | 'notProject' | 'newerVersion' | 'unknownField' | 'badValue'
+export type FileWrong = 'notJson' | 'notProject' | 'newerVersion' | 'unknownField' | 'badValue' | 'tooManyPlaces'
 export class FileFault extends Error {
   constructor(readonly wrong: FileWrong, readonly detail = '') {
     super(`${wrong} ${detail}`)
@@ -20,9 +20,12 @@ export function fileOf({ places, how, original }: Project, database: string): st
   return JSON.stringify({
     project: kName, version: kVersion, database, original,
     settings: { transition: how.transition || undefined, duration: how.duration, tempo: how.tempo, align: how.align, rate: how.rate || undefined },
-    places: places.map(placeRow),
+    places: places.map((place, k) => placeRow(k === 0 ? bare(place) : place)),
   }, null, 2) + '\n'
 }
+
+/** Before the first place there is neither pause nor junction. */
+const bare = (place: Place): Place => ({ ...place, pause: 'none', join: {} })
 
 function placeRow(place: Place): object {
   const { method, durationMs, tempo } = place.join
@@ -51,11 +54,12 @@ export function readFile(text: string): FileRead {
   const settings = whole.settings === undefined ? {} : recordAt(whole.settings, 'settings')
   const places = whole.places
   if (!Array.isArray(places)) throw new FileFault('badValue', 'places')
+  if (places.length > kMostPlaces) throw new FileFault('tooManyPlaces', String(places.length))
   const project: Project = {
     places: [], how: howOf(fields(settings, 'settings.', ['transition', 'duration', 'tempo', 'align', 'rate'])),
     original: optional(whole.original, 'original', isText),
   }
-  return { project: withPlaces(project, places.map((row: unknown, k) => placeOf(row, `places[${k}]`))), database: optional(whole.database, 'database', isText) }
+  return { project: withPlaces(project, places.map(readPlace)), database: optional(whole.database, 'database', isText) }
 }
 
 function howOf({ transition, duration, tempo, align, rate }: Record<string, unknown>): How {
@@ -70,6 +74,10 @@ function howOf({ transition, duration, tempo, align, rate }: Record<string, unkn
   }
 }
 
+function readPlace(row: unknown, k: number): Place {
+  const place = placeOf(row, `places[${k}]`)
+  return k === 0 ? bare(place) : place
+}
 function placeOf(given: unknown, where: string): Place {
   const row = recordAt(given, where)
   const isPause = (value: unknown): value is Pause => kPauses.some((one) => one === value)

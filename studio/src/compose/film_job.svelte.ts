@@ -1,5 +1,6 @@
 import type { Api } from '../api/client'
 import type { RenderRequest, RenderView } from '../render/request'
+import type { Text } from '../text/en'
 import type { SignBody } from './body'
 
 /** How large films are. */
@@ -21,19 +22,17 @@ export class FilmJob {
   cancel(): void {
     this.abort.abort()
   }
-  get cancelled(): boolean {
-    return this.abort.signal.aborted
-  }
 
-  /** Resolves with the film's bytes; none where it was given up. `character` is whose surfaces are drawn. */
-  async make(api: Api, database: string, body: SignBody, character: string | undefined, view: RenderView, size: FilmSize): Promise<Blob | undefined> {
+  /** Resolves with the film's bytes; none where it was given up. `character` is whose surfaces are drawn, `text` the language beneath the pictures. */
+  async make(api: Api, database: string, body: SignBody, character: string | undefined, view: RenderView, size: FilmSize,
+             text: Text): Promise<Blob | undefined> {
     const { signal } = this.abort
     const [width, height] = size.split('x').map(Number)
     const request: RenderRequest = { database, call: 'sign', parameters: { ...body }, character: character ?? '', width, height, rate: kRate, view, kind: 'webm', at_ms: null, put: '' }
     // What makes films is fetched by those who want one.
     const { filmOf } = await import('../render/film_of')
     try {
-      return await filmOf(api, request, (done, of) => ((this.done = done), (this.of = of)), signal)
+      return await filmOf(api, request, (done, of) => ((this.done = done), (this.of = of)), signal, text)
     } catch (fault) {
       if (signal.aborted) return undefined
       throw fault

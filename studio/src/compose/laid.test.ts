@@ -48,6 +48,8 @@ it('draws what was made as its EAF has it', () => {
   expect(tiers[2].annotations[1]).toEqual({ begin: 2400, end: 4600, label: 's frames 100..320' })
   expect(tiers[3].annotations[0].label).toBe('gap 450 ms: A -> B (m_i 1, m_j 2, p 3)')
   expect(tiers[1].annotations[1]).toEqual({ begin: 100, end: 900, label: 'Stroke' })
+  const other = documentOf(kReport, { preparation: 'P', stroke: 'S', retraction: 'R', madeSource: '{recording}, images {from} à {to}', madeSeam: '{method} en {ms} ms' }).tiers
+  expect([other[1].annotations[1].label, other[2].annotations[1].label, other[3].annotations[0].label]).toEqual(['S', 's, images 100 à 320', 'gap en 450 ms'])
 })
 
 it('tells the candidates of a place by their tokens, the cheapest first, and what their costs are made of', () => {

@@ -1,4 +1,5 @@
 import type { Api } from '../api/client'
+import { StudioFault } from '../api/fault'
 import type { AnnotationDocument } from '../annotation/document'
 import type { Declarations } from '../motion/source'
 import { StreamSource } from '../motion/stream_source'
@@ -30,6 +31,8 @@ export class Live implements Showing {
   private source?: StreamSource
   /** From which frame on which gloss is signed; none at rest. */
   private readonly places: { frame: number; gloss?: string }[] = []
+  /** Those who wait until it is known whether there is a stream. */
+  private readonly waiting: (() => void)[] = []
   private closed = false
   private told = 0
 
@@ -45,10 +48,14 @@ export class Live implements Showing {
 
   /** Opens the stream in a character's joints; another one takes the place of the one that is shown. */
   wear(character: string | undefined): void {
-    const newest = this.next ?? this.current
-    if (this.closed || (newest && newest.character === character)) return
+    const isThere = this.next ? this.next.character === character : this.source !== undefined && this.current?.character === character
+    if (this.closed || isThere) return
     this.next?.close()
-    const next = (this.next = new Opening(character, (fault) => this.note(fault), () => this.progress()))
+    const next: Opening = (this.next = new Opening(character, (fault) => {
+      // A stream that broke is over: it is opened anew when it is asked for again.
+      if (this.current === next) this.source = undefined
+      this.note(fault)
+    }, () => this.progress()))
     this.busy = true
     const source = new StreamSource(this.api, this.database, '', character, this.resting, this.how)
     source.onNotice = (fault) => this.note(fault)
@@ -62,7 +69,6 @@ export class Live implements Showing {
       this.current = next
       this.next = undefined
       this.source = source
-      this.busy = false
       this.trouble = undefined
       this.places.length = 0
       this.transport.time = 0
@@ -72,18 +78,27 @@ export class Live implements Showing {
       this.declarations = [strand.motion.declarations]
       this.transport.play()
       this.progress()
+      this.settle()
     }).catch((fault: unknown) => {
       next.close()
       if (this.next !== next) return
       this.next = undefined
-      this.busy = false
-      this.note(fault)
+      this.fail(fault)
     })
   }
+  /** No stream will come, until it is asked for again. */
+  fail(fault: unknown): void {
+    this.note(fault)
+    this.settle()
+  }
 
-  /** Signs this after what is left. Resolves when it will be signed, rejects with the server's line where it cannot be. */
+  /**
+   * Signs this after what is left, as soon as the stream is there. Resolves when it will be signed; rejects with the server's line
+   * (ApiError) where it cannot be, and with a StudioFault where there is no stream.
+   */
   async append(utterance: string): Promise<void> {
-    if (!this.source) throw this.trouble ?? new Error(utterance)
+    while (this.busy && !this.closed) await new Promise<void>((resolve) => this.waiting.push(resolve))
+    if (!this.source) throw new StudioFault('streamClosed')
     await this.source.append(utterance)
   }
 
@@ -97,7 +112,13 @@ export class Live implements Showing {
     this.closed = true
     this.next?.close()
     this.current?.close()
-    this.next = undefined
+    this.next = this.source = undefined
+    this.settle()
+  }
+
+  private settle(): void {
+    this.busy = false
+    for (const go of this.waiting.splice(0)) go()
   }
 
   private progress(): void {

@@ -7,10 +7,10 @@ import { RecordingSource } from '../motion/recording_source'
 import type { Declarations, MotionSource } from '../motion/source'
 import { Opening } from '../player/opening'
 import type { Showing, Strand } from '../viewer/showing'
-import { Transport } from '../viewer/transport'
+import { Transport, type Loop } from '../viewer/transport'
 import { bodyOf } from './body'
 import { laidOf, type Laid } from './laid'
-import { documentOf } from './made_document'
+import { documentOf, kEafLabels, type MadeLabels } from './made_document'
 import { firstChange, type Project } from './project'
 import { mainSigns } from './start'
 import { textOf } from './utterance'
@@ -28,7 +28,10 @@ export type Beside =
 /** What is to be shown. */
 export interface Wish { readonly project: Project; readonly title: string; readonly beside?: Beside }
 /** What is shown: the wish, and what the server tells of it. */
-export interface Made { readonly wish: Wish; readonly report: Report; readonly laid?: Laid; readonly document: AnnotationDocument; readonly other?: Laid }
+export interface Made { readonly wish: Wish; readonly report: Report; readonly laid?: Laid }
+
+/** A recording that stands beside; `before` is the one that is shown until it is there. */
+interface Recorded { readonly key: string; readonly opening: Opening; readonly strand: Promise<Strand>; before?: Recorded }
 
 /** Signs a project anew after each change. What is shown stays until the new one is there, and stays where there never is one. */
 export class Making implements Showing {
@@ -50,20 +53,21 @@ export class Making implements Showing {
   original = $state.raw<AnnotationDocument>(kNothing)
   /** The place before which a junction is shown again and again, by its id. */
   around: number | undefined
+  /** The loop that is around it; one that somebody set since is none of it. */
+  private aroundLoop: Loop | null = null
   private current?: Opening
   private next?: Opening
-  private wanted?: Wish
   private steps = $state.raw<Steps | undefined>()
   /** A recording that stands beside: it stays while everything else is made anew. */
-  private recorded?: { readonly key: string; readonly opening: Opening; readonly strand: Promise<Strand> }
+  private recorded?: Recorded
+  /** What was made, as the timeline draws it. */
+  readonly document: AnnotationDocument = $derived.by(() => (this.made ? documentOf(this.made.report, this.labels()) : kNothing))
   private closed = false
   private told = 0
 
-  constructor(private readonly api: Api, private readonly database: string) {}
+  /** `labels` is how parts of it are called. */
+  constructor(private readonly api: Api, private readonly database: string, private readonly labels: () => MadeLabels = () => kEafLabels) {}
 
-  get document(): AnnotationDocument {
-    return this.made?.document ?? kNothing
-  }
   get complete(): boolean {
     return this.main?.source.complete ?? true
   }
@@ -84,7 +88,6 @@ export class Making implements Showing {
     if (this.closed) return
     this.next?.close()
     this.next = undefined
-    this.wanted = wish
     if (wish.project.places.length === 0) return this.clear()
     const next = (this.next = new Opening(character, (fault) => this.note(fault), (source) => this.progress(source)))
     this.busy = true
@@ -104,9 +107,6 @@ export class Making implements Showing {
       this.note(fault)
     })
   }
-  again(character: string | undefined): void {
-    if (this.wanted) this.make(this.wanted, character)
-  }
 
   /** Shows the junction before a place again and again; none where it is no junction of what is shown. */
   loopAround(id: number): boolean {
@@ -114,6 +114,7 @@ export class Making implements Showing {
     if (!seam) return false
     this.around = id
     this.transport.setLoop(seam.begin - kAround, seam.end + kAround)
+    this.aroundLoop = this.transport.loop
     this.transport.seek(this.transport.loop?.begin ?? seam.begin)
     return true
   }
@@ -126,7 +127,7 @@ export class Making implements Showing {
     this.closed = true
     this.next?.close()
     this.current?.close()
-    this.recorded?.opening.close()
+    this.forgetOriginal()
     this.next = undefined
   }
 
@@ -144,14 +145,18 @@ export class Making implements Showing {
   private originalStrand(recording: string, character: string | undefined): Promise<Strand> {
     const key = JSON.stringify([recording, character])
     if (this.recorded?.key === key) return this.recorded.strand
-    const before = this.recorded
     const opening = new Opening(character, (fault) => this.note(fault), (source) => this.progress(source))
     const strand = Promise.all([opening.strand('original', new RecordingSource(this.api, this.database, recording, character)), this.readOriginal(recording)])
-    this.recorded = { key, opening, strand: strand.then(([one]) => one) }
-    strand.then(() => before?.opening.close(), () => {
-      if (this.recorded?.key === key) this.recorded = undefined // to be tried again when asked again
+    const mine: Recorded = { key, opening, strand: strand.then(([one]) => one), before: this.recorded }
+    this.recorded = mine
+    strand.then(() => {
+      mine.before?.opening.close()
+      mine.before = undefined
+    }, () => {
+      opening.close()
+      if (this.recorded === mine) this.recorded = mine.before // to be tried again when asked again
     })
-    return this.recorded.strand
+    return mine.strand
   }
   private async readOriginal(recording: string): Promise<void> {
     const signs = mainSigns(await this.api.signs(this.database, recording))
@@ -166,13 +171,10 @@ export class Making implements Showing {
     const other = wish.beside?.kind === 'method' ? strands[1].motion.report : undefined
     const laid = laidOf(wish.project.places, report)
     this.steps = other ? stepsOfSigns(report.signs, other.signs.map(({ begin_ms, end_ms }) => ({ begin: begin_ms, end: end_ms })), 0) : this.stepsOfOriginal(wish, report, strands[0])
-    this.made = { wish, report, laid, document: documentOf(report), other: other && laidOf(wish.project.places, other) }
+    this.made = { wish, report, laid }
     this.main = main
     this.strands = strands
-    if (wish.beside?.kind !== 'original') {
-      this.recorded?.opening.close()
-      this.recorded = undefined
-    }
+    if (wish.beside?.kind !== 'original') this.forgetOriginal()
     this.declarations = strands.map(({ motion }) => motion.declarations)
     const atEnd = !transport.loop && transport.time >= transport.duration - 1.5 / transport.rate
     transport.rate = main.motion.store.rate
@@ -185,11 +187,16 @@ export class Making implements Showing {
   private goOn(before: Made | undefined, { project }: Wish, laid: Laid | undefined, atEnd: boolean): void {
     const { transport } = this
     const change = before ? firstChange(before.wish.project, project) : 0
-    const looped = transport.loop !== null
-    if (looped) {
-      const time = transport.time
-      if (this.around === undefined || !this.loopAround(this.around)) transport.setLoop(transport.loop!.begin, transport.loop!.end)
-      else if (!transport.playing) transport.seek(time)
+    const { time } = transport
+    const wasAround = this.around !== undefined && transport.loop !== null && transport.loop === this.aroundLoop
+    if (!wasAround) this.around = undefined
+    else if (!this.loopAround(this.around!)) {
+      // The junction is no more: there is nothing to be shown again and again.
+      transport.loop = null
+      this.around = undefined
+    } else if (!transport.playing) transport.seek(time)
+    if (transport.loop) {
+      if (!wasAround) transport.setLoop(transport.loop.begin, transport.loop.end)
     } else if ((transport.playing || atEnd) && change < project.places.length) {
       const from = change === 0 ? 0 : laid?.seams[change]?.begin ?? laid?.places[change]?.begin ?? transport.time
       transport.seek(from - (change === 0 ? 0 : kAround))
@@ -205,9 +212,15 @@ export class Making implements Showing {
     return other?.kind === 'original' && annotations.length === signs.length ? stepsOfSigns(signs, annotations, motion.originMs) : undefined
   }
 
+  private forgetOriginal(): void {
+    for (let one = this.recorded; one; one = one.before) one.opening.close()
+    this.recorded = undefined
+  }
   private clear(): void {
     this.current?.close()
     this.current = undefined
+    this.forgetOriginal()
+    this.around = undefined
     this.busy = false
     this.trouble = this.main = this.made = this.steps = undefined
     this.strands = []

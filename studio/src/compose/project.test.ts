@@ -1,6 +1,10 @@
 import { expect, it } from 'vitest'
 import { byMethod, bodyOf, pinned } from './body'
+import { carried } from './carry'
+import { fileOf } from './file'
 import { changed, duplicated, firstChange, inserted, kEmpty, moved, piecePlace, removed, replaced, sameProject, signPlace, withHow, withJoin, withPause, withPlaces, withToken } from './project'
+import { stateOf } from './state'
+import { placesOf } from './utterance'
 
 const glosses = (project: typeof kEmpty) => project.places.map((place) => (place.kind === 'sign' ? place.gloss : place.recording)).join(' ')
 const abc = withPlaces(kEmpty, ['A', 'B', 'C'].map((gloss) => signPlace(gloss)))
@@ -17,10 +21,14 @@ it('inserts, removes, moves and duplicates, and leaves what was there as it was'
   expect(glosses(abc)).toBe('A B C')
 })
 
-it('takes pause and junction along with the place that they are before, and has none before the first', () => {
+it('takes pause and junction along with the place that they are before, and says nothing of what waits before the first', () => {
   const joined = withJoin(withPause(abc, 1, 'stop'), 1, { method: 'gap', durationMs: 300 })
   expect(moved(joined, 1, 2).places[2]).toMatchObject({ pause: 'stop', join: { method: 'gap', durationMs: 300 } })
-  expect(moved(joined, 1, 0).places[0]).toMatchObject({ pause: 'none', join: {} })
+  const first = moved(joined, 1, 0)
+  expect([bodyOf(first), stateOf(first), 'junction' in JSON.parse(fileOf(first, 'd')).places[0]]).toEqual([{ utterance: 'B A C' }, { utterance: 'B A C' }, false])
+  expect(sameProject(moved(first, 0, 1), joined)).toBe(true)
+  expect([sameProject(first, withPlaces(kEmpty, placesOf('B A C'))), firstChange(first, withPlaces(kEmpty, placesOf('B A C')))]).toEqual([true, 3])
+  expect(sameProject(moved(withPlaces(first, carried(first.places, placesOf('B A C'))), 0, 1), joined)).toBe(true)
   expect(withJoin(joined, 1, { durationMs: undefined }).places[1].join).toEqual({ method: 'gap' })
   expect(replaced(joined, 1, signPlace('Z', 4)).places[1]).toMatchObject({ gloss: 'Z', token: 4, pause: 'stop', id: joined.places[1].id })
 })

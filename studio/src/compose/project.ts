@@ -8,7 +8,7 @@ export interface Join { readonly method?: string; readonly durationMs?: number; 
 interface Placed {
   /** Tells places apart while they move; not saved. */
   readonly id: number
-  /** Before this place, as `join` is of the junction before it: both go along when it moves. */
+  /** Before this place, as `join` is of the junction before it: both go along when it moves. Of the first place neither says anything, and both wait. */
   readonly pause: Pause
   readonly join: Join
 }
@@ -42,6 +42,7 @@ export const kEmpty: Project = { places: [], how: kHow }
 /** What the server takes, as its description says. */
 export const kTempo = { least: 0.25, most: 4 } as const
 export const kLongestMs = 60_000
+export const kMostPlaces = 10_000
 
 let ids = 0
 /** A place as it is before anybody says more of it. */
@@ -52,35 +53,28 @@ export function piecePlace(recording: string, from: number, to: number, pause: P
   return { kind: 'piece', id: ++ids, recording, from, to, pause, join }
 }
 
-/** Before the first sign there is neither pause nor junction. */
-function tidy(project: Project, places: readonly Place[]): Project {
-  const [first, ...rest] = places
-  const bare = first && (first.pause !== 'none' || !isPlain(first.join)) ? { ...first, pause: 'none' as const, join: {} } : first
-  return { ...project, places: first ? [bare, ...rest] : [] }
-}
-
 export function withPlaces(project: Project, places: readonly Place[]): Project {
-  return tidy(project, places)
+  return { ...project, places }
 }
 export function inserted(project: Project, at: number, ...more: readonly Place[]): Project {
   const { places } = project
-  return tidy(project, [...places.slice(0, at), ...more, ...places.slice(at)])
+  return withPlaces(project, [...places.slice(0, at), ...more, ...places.slice(at)])
 }
 export function removed(project: Project, at: number): Project {
-  return tidy(project, project.places.filter((_, k) => k !== at))
+  return withPlaces(project, project.places.filter((_, k) => k !== at))
 }
 /** Place `from` so that it comes to stand at `to` of the new order. */
 export function moved(project: Project, from: number, to: number): Project {
   const { places } = project
   const rest = places.filter((_, k) => k !== from)
   const end = Math.min(Math.max(0, to), rest.length)
-  return from < 0 || from >= places.length || end === from ? project : tidy(project, [...rest.slice(0, end), places[from], ...rest.slice(end)])
+  return from < 0 || from >= places.length || end === from ? project : withPlaces(project, [...rest.slice(0, end), places[from], ...rest.slice(end)])
 }
 export function duplicated(project: Project, at: number): Project {
   return inserted(project, at + 1, { ...project.places[at], id: ++ids, pause: 'none', join: {} })
 }
 export function changed(project: Project, at: number, change: (place: Place) => Place): Project {
-  return tidy(project, project.places.map((place, k) => (k === at ? change(place) : place)))
+  return withPlaces(project, project.places.map((place, k) => (k === at ? change(place) : place)))
 }
 /** Another sign at a place, with the pause and the junction that were there. */
 export function replaced(project: Project, at: number, by: Place): Project {
@@ -117,10 +111,14 @@ export function sameSign(a: Place, b: Place): boolean {
 export function sameHow(a: How, b: How): boolean {
   return a.transition === b.transition && a.duration === b.duration && a.tempo === b.tempo && a.align === b.align && a.rate === b.rate
 }
+/** Whether two places are joined alike to what is before them; before the first there is nothing. */
+function sameBefore(a: Place, b: Place, k: number): boolean {
+  return k === 0 || (a.pause === b.pause && sameJoin(a.join, b.join))
+}
 /** Whether two projects are the same but for their ids. */
 export function sameProject(a: Project, b: Project): boolean {
   return a.original === b.original && sameHow(a.how, b.how) && a.places.length === b.places.length
-    && a.places.every((one, k) => sameSign(one, b.places[k]) && one.pause === b.places[k].pause && sameJoin(one.join, b.places[k].join))
+    && a.places.every((one, k) => sameSign(one, b.places[k]) && sameBefore(one, b.places[k], k))
 }
 /** The first place that is another one, or stands elsewhere, or is joined otherwise; their number where all are alike. */
 export function firstChange(a: Project, b: Project): number {
@@ -128,7 +126,7 @@ export function firstChange(a: Project, b: Project): number {
   let k = 0
   while (k < a.places.length && k < b.places.length) {
     const one = a.places[k], other = b.places[k]
-    if (!sameSign(one, other) || one.pause !== other.pause || !sameJoin(one.join, other.join)) break
+    if (!sameSign(one, other) || !sameBefore(one, other, k)) break
     ++k
   }
   return k

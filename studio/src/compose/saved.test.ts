@@ -25,7 +25,7 @@ it('names what in an address cannot be read, and keeps the rest', () => {
   const { project, wrong } = projectOf({ utterance: 'A B', duration: '1.5', tempo: '9', align: 'x', rate: 'y', transition: '1;2', junctions: '1=gap;7=gap;1=,' })
   expect(wrong).toEqual(['transition', 'duration', 'tempo', 'align', 'rate', 'junctions'])
   expect(project.places.map(({ join }) => join)).toEqual([{}, { method: 'gap' }])
-  expect(projectOf({ utterance: 'A "B' })).toEqual({ project: kEmpty, wrong: ['utterance'] })
+  expect(projectOf({ utterance: 'A "B' })).toEqual({ project: kEmpty, wrong: ['utterance'], unread: 'A "B' })
 })
 
 it('comes out of a file as it went in', () => {
@@ -70,4 +70,6 @@ it('refuses a file that it does not understand whole, and says where', () => {
   expect(refused((file) => (file.places[3].to_ms = 1))).toBe('badValue places[3].to_ms')
   expect(refused((file) => (file.places = {}))).toBe('badValue places')
   expect(refused((file) => (file.places[0] = 'A'))).toBe('badValue places[0]')
+  const many = (n: number) => refused((file) => (file.places = Array.from({ length: n }, () => ({ gloss: 'A' }))))
+  expect([many(10_000), many(10_001)]).toEqual(['taken', 'tooManyPlaces 10001'])
 })

@@ -21,13 +21,14 @@ export function mainSigns(signs: readonly SignAnswer[]): readonly SignAnswer[] {
 }
 
 /** A recording's signs as the places of a project, each with its own token; what is no token of its gloss is a piece. */
-export async function projectFrom(api: Api, database: string, recording: string): Promise<Project> {
+export async function projectFrom(api: Api, database: string, recording: string, signal?: AbortSignal): Promise<Project> {
   const [info, answers] = await Promise.all([api.recording(database, recording), api.signs(database, recording)])
   const signs = mainSigns(answers)
+  signal?.throwIfAborted()
   const glosses = [...new Set(signs.map(({ name }) => name))].filter(canBeTyped)
   const tokens = new Map<string, readonly CandidateRow[]>()
   for (let at = 0; at < glosses.length; at += kAtOnce) {
-    for (const [gloss, rows] of await candidates(api, database, glosses.slice(at, at + kAtOnce))) tokens.set(gloss, rows)
+    for (const [gloss, rows] of await candidates(api, database, glosses.slice(at, at + kAtOnce), signal)) tokens.set(gloss, rows)
   }
   const frameAt = (ms: number) => ((ms - info.clock_origin_ms) * info.frames_per_second) / 1000
   const places = signs.map((sign, k): Place => {
@@ -45,15 +46,15 @@ export function placeOf({ name, recording, begin_ms, end_ms }: SignAnswer, rows:
 }
 
 /** What the tokens of glosses are. One that cannot be signed spoils a call, so that those beside it are asked about again without it. */
-async function candidates(api: Api, database: string, glosses: readonly string[]): Promise<[string, readonly CandidateRow[]][]> {
+async function candidates(api: Api, database: string, glosses: readonly string[], signal?: AbortSignal): Promise<[string, readonly CandidateRow[]][]> {
   if (glosses.length === 0) return []
   try {
-    const { places } = await api.explained(database, { utterance: glosses.map(quoted).join(' ') })
+    const { places } = await api.explained(database, { utterance: glosses.map(quoted).join(' ') }, signal)
     return glosses.map((gloss, k) => [gloss, places[k].candidates])
   } catch (fault) {
     if (!(fault instanceof ApiError) || fault.status !== 404) throw fault
     if (glosses.length === 1) return []
     const half = glosses.length >> 1
-    return [...(await candidates(api, database, glosses.slice(0, half))), ...(await candidates(api, database, glosses.slice(half)))]
+    return [...(await candidates(api, database, glosses.slice(0, half), signal)), ...(await candidates(api, database, glosses.slice(half), signal))]
   }
 }

@@ -1,10 +1,10 @@
-import type { WorkState } from '../ui/route'
+import { addressOf, type WorkState } from '../ui/route'
 import { isDuration, isMethod, isTempo, joinTexts, readJoin } from './joins'
 import { kAligns, kEmpty, kHow, withJoin, withPlaces, type How, type Project } from './project'
 import { placesOf, textOf } from './utterance'
 
 /** A project as the address holds it: only what is not as it is anyway. */
-export function stateOf({ places, how, original }: Project): WorkState {
+export function stateOf({ places, how, original }: Project): Record<string, string> {
   const state: Record<string, string> = {}
   if (places.length > 0) state.utterance = textOf(places)
   if (how.transition !== kHow.transition) state.transition = how.transition
@@ -18,8 +18,15 @@ export function stateOf({ places, how, original }: Project): WorkState {
   return state
 }
 
-/** What an address says, and the names of what in it could not be read. */
-export interface Read { readonly project: Project; readonly wrong: readonly string[] }
+/** A link to a project for somebody else: without what else the page's address holds, such as the token that lets its user in. */
+export function linkTo(project: Project, database: string, page: string): string {
+  const link = new URL(addressOf({ page: 'compose', database, state: stateOf(project) }), page)
+  link.search = ''
+  return link.href
+}
+
+/** What an address says, and the names of what in it could not be read. `unread` is a text whose signs could not be. */
+export interface Read { readonly project: Project; readonly wrong: readonly string[]; readonly unread?: string }
 
 /** The project that an address holds. What cannot be read is left out, and named. */
 export function projectOf(state: WorkState): Read {
@@ -50,7 +57,7 @@ export function projectOf(state: WorkState): Read {
     if (one && one.junction < project.places.length) project = withJoin(project, one.junction, one.join)
     else if (!wrong.includes('junctions')) wrong.push('junctions')
   }
-  return { project, wrong }
+  return { project, wrong, ...(wrong.includes('utterance') && { unread: state.utterance }) }
 }
 
 export function readDuration(text: string): How['duration'] | undefined {

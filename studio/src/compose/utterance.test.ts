@@ -26,6 +26,8 @@ it('says where a text is wrong', () => {
     }
     return undefined
   }
+  expect(() => placesOf('A '.repeat(10_001))).toThrow('tooManyPlaces')
+  expect(placesOf('A '.repeat(10_000)).length).toBe(10_000)
   expect(['A "B', '"" A', 'A r@5..5', 'A "B"x', 'A#0'].map(wrong)).toEqual([['noClosingQuote', 2], ['emptyName', 0], ['pieceOrder', 2], ['badSuffix', 2], ['tokenZero', 0]])
 })
 

@@ -1,7 +1,7 @@
-import { piecePlace, signPlace, type Pause, type Place } from './project'
+import { kMostPlaces, piecePlace, signPlace, type Pause, type Place } from './project'
 
 /** What is wrong with a text, by the key of its words; `at` counts characters from 0, `rest` is what stands there. */
-export type UtteranceWrong = 'noClosingQuote' | 'emptyName' | 'pieceOrder' | 'badSuffix' | 'tokenZero' | 'tooLong'
+export type UtteranceWrong = 'noClosingQuote' | 'emptyName' | 'pieceOrder' | 'badSuffix' | 'tokenZero' | 'tooLong' | 'tooManyPlaces'
 export class UtteranceFault extends Error {
   constructor(readonly wrong: UtteranceWrong, readonly at: number, readonly detail = '', readonly rest = '') {
     super(`${wrong} at ${at}`)
@@ -80,6 +80,7 @@ export function placesOf(text: string): Place[] {
   for (const word of wordsOf(text)) {
     if (word.pause) pause = pause === 'stop' ? 'stop' : word.pause
     if (!word.place) continue
+    if (places.length === kMostPlaces) throw new UtteranceFault('tooManyPlaces', word.from)
     places.push({ ...word.place, pause: places.length > 0 ? pause : 'none' })
     pause = 'none'
   }

@@ -1,10 +1,12 @@
 import { expect, it } from 'vitest'
+import { fr } from '../text/fr'
 import { captionOf, linesOf } from './caption'
 
 it('a caption has each thing once, and says where the face is neutral', () => {
   expect(captionOf({ a: 'shapes', b: 'shapes' }, true)).toEqual(['shapes'])
   expect(captionOf({ a: 'shapes' }, false, ['a drawn body'])).toEqual(['shapes', 'No face captured: the face is neutral', 'a drawn body'])
   expect(captionOf({}, true)).toEqual([])
+  expect(captionOf({}, false, [], fr)).toEqual(['Visage non capté : il reste neutre'])
 })
 
 it('a caption that is too wide goes on in further lines, and loses no word', () => {

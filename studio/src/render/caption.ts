@@ -1,9 +1,9 @@
 import type { Declarations } from '../motion/source'
-import { en } from '../text/en'
+import { en, type Text } from '../text/en'
 
 /** What stands at the bottom of every picture: what the recordings say of themselves, and what is not as it was captured. */
-export function captionOf(declarations: Declarations, hasFace: boolean, notes: readonly string[] = []): readonly string[] {
-  return [...new Set([...Object.values(declarations).map(String), ...(hasFace ? [] : [en.neutralFace]), ...notes])]
+export function captionOf(declarations: Declarations, hasFace: boolean, notes: readonly string[] = [], text: Text = en): readonly string[] {
+  return [...new Set([...Object.values(declarations).map(String), ...(hasFace ? [] : [text.neutralFace]), ...notes])]
 }
 
 /** Words put into lines of at most `width`, as `measure` measures them; what belongs together stays so where it can. */

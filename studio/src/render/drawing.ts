@@ -1,6 +1,7 @@
 import type { WebGLRenderer } from 'three'
 import type { Api } from '../api/client'
 import type { OpenedMotion } from '../motion/source'
+import { en, type Text } from '../text/en'
 import { CharacterModel } from '../viewer/character_model'
 import { Pane } from '../viewer/pane'
 import { signerRenderer } from '../viewer/stage'
@@ -18,20 +19,20 @@ export class Drawing {
   /** Side by side: one, or one for each hand. */
   private readonly sights: readonly Sight[]
 
-  private constructor(private readonly renderer: WebGLRenderer, private readonly pane: Pane, motion: OpenedMotion, request: RenderRequest, notes: readonly string[]) {
+  private constructor(private readonly renderer: WebGLRenderer, private readonly pane: Pane, motion: OpenedMotion, request: RenderRequest, notes: readonly string[], text: Text) {
     const { width, height, view } = request
     this.canvas = new OffscreenCanvas(width, height)
     this.context = this.canvas.getContext('2d', { alpha: false })!
     this.context.fillStyle = '#12161b'
     this.ground = groundOf(width, height)
-    this.caption = drawCaption(captionOf(motion.declarations, pane.body.hasFace, notes), width, height)
+    this.caption = drawCaption(captionOf(motion.declarations, pane.body.hasFace, notes, text), width, height)
     const foot = this.caption?.height ?? 0, lens = pane.camera.camera.fov
     this.sights = sightsOf(motion, pane.signer, view, (shots) => ({ lens, width: width / shots, height, foot }))
     renderer.setScissorTest(true)
   }
 
-  /** Dresses the signer and finds the camera's place; all frames must be there. */
-  static async of(api: Api, motion: OpenedMotion, request: RenderRequest): Promise<Drawing> {
+  /** Dresses the signer and finds the camera's place; all frames must be there. `text` is the language of what is written beneath. */
+  static async of(api: Api, motion: OpenedMotion, request: RenderRequest, text: Text = en): Promise<Drawing> {
     const renderer = signerRenderer(document.createElement('canvas'))
     renderer.setPixelRatio(1)
     renderer.setSize(request.width, request.height, false)
@@ -42,11 +43,11 @@ export class Drawing {
         pane.wear((await CharacterModel.load(await api.character(motion.character))).body(motion.store.skeleton))
       } catch (fault) {
         console.warn(fault)
-        notes.push(`The surfaces of ${motion.character} could not be had: a drawn body stands in`)
+        notes.push(text.surfacesMissing.replace('{name}', () => motion.character!))
       }
     }
     try {
-      return new Drawing(renderer, pane, motion, request, notes)
+      return new Drawing(renderer, pane, motion, request, notes, text)
     } catch (fault) {
       pane.dispose()
       renderer.dispose()

@@ -1,4 +1,5 @@
 import type { Api } from '../api/client'
+import type { Text } from '../text/en'
 import { Drawing } from './drawing'
 import { Film } from './film'
 import { gather } from './gather'
@@ -6,13 +7,14 @@ import { everyMoment } from './moments'
 import type { RenderRequest } from './request'
 
 /** Makes a film in a page that does other things, too: as `signweave render` does, every picture drawn. Rejects where `signal` gives it up. */
-export async function filmOf(api: Api, request: RenderRequest, progress: (done: number, of: number) => void, signal: AbortSignal): Promise<Blob> {
+export async function filmOf(api: Api, request: RenderRequest, progress: (done: number, of: number) => void, signal: AbortSignal,
+                             text?: Text): Promise<Blob> {
   const { width, height, rate } = request
   const motion = await gather(api, request, signal)
   const { seconds } = everyMoment(motion.store.length, motion.store.rate, rate)
   progress(0, seconds.length)
   const film = await Film.of(width, height, rate)
-  const drawing = await Drawing.of(api, motion, request)
+  const drawing = await Drawing.of(api, motion, request, text)
   try {
     for (let picture = 0; picture < seconds.length; ++picture) {
       signal.throwIfAborted()

@@ -69,7 +69,7 @@ export const en = {
   body_man: 'Man',
   body_drawn: 'Drawn',
   fullscreen: 'Full screen',
-  neutralFace: 'No face captured: the face is neutral',
+  neutralFace: 'No face captured: the face is neutral', surfacesMissing: 'The surfaces of {name} could not be had: a drawn body stands in',
   time: 'Time',
   at: '{time} of {length}',
   original: 'Recorded',

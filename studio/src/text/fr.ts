@@ -71,7 +71,7 @@ export const fr: Text = {
   body_man: 'Homme',
   body_drawn: 'Dessiné',
   fullscreen: 'Plein écran',
-  neutralFace: 'Visage non capté : il reste neutre',
+  neutralFace: 'Visage non capté : il reste neutre', surfacesMissing: 'La surface de {name} n’a pas pu être obtenue : un corps dessiné la remplace',
   time: 'Temps',
   at: '{time} sur {length}',
   original: 'Enregistré',

@@ -1,37 +1,12 @@
-// Composing: glosses as text and cards, tokens, junctions, files, films and live signing, as a person would do it.
+// Composing: glosses as text and cards, tokens, junctions, files and films, as a person would do it.
 import assert from 'node:assert/strict'
-import { readFileSync } from 'node:fs'
+import { button, cards, compose, field, pause, pick, saved, shown } from './compose_tools.mjs'
 import { axeFaults, transport } from './page_tools.mjs'
 import { decoded, readWebm } from './render_webm.mjs'
 import { context, kDeclared, page, test, visit } from './suite.mjs'
 
-const button = (name) => page.getByRole('button', { name, exact: true })
-const field = () => page.getByRole('combobox', { name: 'Glosses in order' })
-const cards = () => page.locator('.card .gloss').allTextContents()
-const pause = () => page.evaluate(() => { window.signweaveStage.transport.pause() })
 const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not ${wanted}`)
 const kScenario1 = 'LE-TEMPS-PREVU#1 VANNES MATIN#1 NUAGES#1 APRES-MIDI#1 PLUIE#1 MARSEILLE SOLEIL-BRILLER#1'
-
-/** Until what was made of a text is on the screen. */
-const shown = (text) => page.waitForFunction((wanted) => {
-  const { made, busy } = document.querySelector('.compose')?.dataset ?? {}
-  return busy === 'false' && made === wanted && window.signweaveStage?.panes.length > 0
-}, text, { timeout: 60_000 })
-/** Opens the page with an utterance, and stops the picture, which software draws slowly. */
-async function compose(utterance, more = {}, options = {}) {
-  await visit(`#/demo/compose?${new URLSearchParams({ utterance, ...more })}`, options)
-  await shown(utterance)
-  await pause()
-}
-/** Picks something from a menu of the tools. */
-async function pick(menu, name) {
-  await button(menu).click()
-  await page.locator('.list').getByRole('button', { name }).click()
-}
-const saved = async (act) => {
-  const [file] = await Promise.all([page.waitForEvent('download', { timeout: 180_000 }), act()])
-  return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) }
-}
 
 test('signs glosses that are typed and completed, by keyboard alone', async () => {
   await visit('#/demo/compose')
@@ -85,16 +60,30 @@ test('moves signs by mouse and by keyboard, takes them out, and takes every step
   await page.mouse.up()
   assert.equal(await field().inputValue(), 'MATIN PLUIE BONJOUR')
   await page.locator('.card').last().focus()
+  await page.keyboard.press('Enter') // no click followed the drag: this one is meant
+  assert.equal(await page.locator('aside h2').textContent(), 'BONJOUR')
   await page.keyboard.press('Alt+ArrowLeft')
   assert.equal(await field().inputValue(), 'MATIN BONJOUR PLUIE')
+  const isLeft = () => page.evaluate(() => document.activeElement.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft', altKey: true, bubbles: true, cancelable: true })))
+  await page.locator('.junction').first().focus()
+  assert.equal(await isLeft(), false) // the browser does not go back
+  await page.locator('.card').nth(1).focus()
   assert.equal(await page.evaluate(() => document.activeElement.textContent.includes('BONJOUR')), true)
   await page.keyboard.press('Delete')
   assert.equal(await field().inputValue(), 'MATIN PLUIE')
   await page.keyboard.press('Enter')
   await button('Duplicate').click()
-  await page.getByRole('combobox', { name: 'Another sign' }).fill('VANNES')
+  const another = page.getByRole('combobox', { name: 'Another sign' })
+  await another.fill('"VANNES')
+  await button('Replace').click()
+  assert.match(await page.locator('#other-fault').textContent(), /never closed/)
+  await another.fill('"VANNES"')
   await button('Replace').click()
   assert.equal(await field().inputValue(), 'MATIN PLUIE VANNES')
+  await another.pressSequentially('P')
+  await page.keyboard.press('Control+z') // takes the typing back, not the sign
+  assert.deepEqual([await another.inputValue(), await field().inputValue()], ['', 'MATIN PLUIE VANNES'])
+  await page.locator('.card').last().focus()
   for (const before of ['MATIN PLUIE PLUIE', 'MATIN PLUIE', 'MATIN BONJOUR PLUIE', 'MATIN PLUIE BONJOUR', 'BONJOUR MATIN PLUIE']) {
     await page.keyboard.press('Control+z')
     assert.equal(await field().inputValue(), before)
@@ -265,7 +254,7 @@ test('copies a link that opens the same', async () => {
 
 test('opens the paper’s scenarios, the original beside them, and starts from a recording', async () => {
   await visit('#/demo/compose')
-  await button('Scenario 1: four words replaced by city signs').click()
+  await button('Scenario 1: four words replaced by city signs').dblclick() // is one step
   await page.waitForFunction(() => window.signweaveStage?.panes.length === 2)
   await pause()
   const text = await field().inputValue()
@@ -276,6 +265,8 @@ test('opens the paper’s scenarios, the original beside them, and starts from a
   const steps = await page.evaluate(() => [5, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
   near(steps[0], 6.2, 0.05) // what was made begins with the first sign
   assert.ok(Math.abs(steps[1] - 40) > 0.05)
+  await button('Undo').click()
+  assert.deepEqual([await cards(), await button('Undo').isDisabled()], [[], true])
   await pick('Open', 'Scenario 2: the predictions of two days change places')
   await page.waitForFunction(() => /#1 NUAGES#2 NUIT#1 EN-MER#1 MATIN#2 BROUILLARD#1 DEMAIN#1/.test(document.querySelector('.compose').dataset.made))
   await button('Original beside').click()
@@ -322,19 +313,6 @@ test('says where the browser can make no film', async () => {
   await pick('Download', /^WebM/)
   assert.match(await page.locator('dialog [role=alert]').textContent(), /no WebCodecs/)
   await page.keyboard.press('Escape')
-})
-
-test('signs live: each word at once, and tells what cannot be', async () => {
-  await compose('VANNES')
-  await button('Live').click()
-  await page.getByRole('combobox', { name: 'Type and it signs' }).waitFor()
-  await page.waitForFunction(() => window.signweaveStage?.panes[0]?.store.arrived > 0)
-  await page.keyboard.type('NOBODY MATIN MATIN MATIN ') // long enough to be seen where pictures are slow
-  await page.waitForFunction(() => document.querySelector('.viewer .gloss')?.textContent === 'MATIN', null, { timeout: 60_000 })
-  assert.match(await page.getByRole('alert').textContent(), /no sign 'NOBODY'/)
-  assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'MATIN', 'MATIN'])
-  await button('Live').click()
-  await shown('VANNES MATIN MATIN MATIN')
 })
 
 for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {

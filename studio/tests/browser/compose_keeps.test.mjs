@@ -1,0 +1,136 @@
+// Where one composes nothing is lost: not what is typed with a fault, not a word where a stream breaks, not what is known beside what is not.
+import assert from 'node:assert/strict'
+import { button, cards, compose, field, pick, shown } from './compose_tools.mjs'
+import { page, test, visit } from './suite.mjs'
+
+test('loses no text that has a fault: not by moving signs, not by undo, not of a link', async () => {
+  await compose('VANNES MATIN')
+  const typed = 'VANNES MATIN "LE MANS NUAGES'
+  await field().fill(typed)
+  await page.locator('.card').last().focus()
+  await page.getByText(/never closed: "LE MANS/).waitFor()
+  await page.keyboard.press('Alt+ArrowLeft')
+  assert.deepEqual([await cards(), await field().inputValue()], [['MATIN', 'VANNES'], typed])
+  await field().press('Control+z')
+  assert.equal(await field().inputValue(), 'MATIN VANNES')
+  await field().press('Control+y')
+  assert.equal(await field().inputValue(), typed)
+  await page.getByRole('link', { name: 'Recordings' }).click()
+  await page.locator('tbody').first().waitFor()
+  await page.goBack()
+  await page.locator('.card').first().waitFor()
+  assert.equal(await field().inputValue(), typed)
+  await button('Take the text back').click()
+  assert.deepEqual([await field().inputValue(), await page.getByText(/never closed/).count()], ['MATIN VANNES', 0])
+  await button('Undo').click() // what was done before the other page was looked at
+  assert.deepEqual(await cards(), ['VANNES', 'MATIN'])
+  await visit('#/demo/compose?utterance=VANNES+%22LE+MANS')
+  await page.getByText(/never closed: "LE MANS/).waitFor()
+  assert.equal(await field().inputValue(), 'VANNES "LE MANS')
+})
+
+test('keeps what was done last: where the page is left at once, and where something slow comes after it', async () => {
+  await compose('VANNES')
+  await page.locator('.card').click()
+  await button('Duplicate').waitFor()
+  await page.evaluate(() => {
+    [...document.querySelectorAll('aside button')].find(({ textContent }) => textContent === 'Duplicate').click()
+    location.hash = '#/demo'
+  })
+  await page.locator('tbody').first().waitFor()
+  await page.goBack()
+  await page.locator('.card').nth(1).waitFor()
+  assert.deepEqual(await cards(), ['VANNES', 'VANNES'])
+  let go
+  const held = new Promise((resolve) => (go = resolve))
+  await page.route('**/recordings/villes', async (route) => (await held, route.continue()))
+  await pick('Open', 'villes')
+  await page.locator('.card').last().focus()
+  await page.keyboard.press('Delete')
+  go()
+  await page.getByText('villes was not opened, for the signs were changed meanwhile').waitFor()
+  assert.deepEqual(await cards(), ['VANNES'])
+})
+
+test('makes files side by side, and says so', async () => {
+  await compose('VANNES')
+  let go
+  const held = new Promise((resolve) => (go = resolve))
+  await page.route('**/sign', async (route) => (await held, route.continue()))
+  const files = []
+  page.on('download', (file) => files.push(file.suggestedFilename()))
+  await pick('Download', /^BVH/)
+  await pick('Download', /^EAF/)
+  await page.getByText('VANNES.bvh, VANNES.eaf: being made…').waitFor()
+  const second = new Promise((resolve) => page.on('download', () => files.length === 2 && resolve()))
+  go()
+  await second
+  assert.deepEqual(files.sort(), ['VANNES.bvh', 'VANNES.eaf'])
+})
+
+test('tells what tokens cost beside a sign that the database does not know, and when something is tried again', async () => {
+  let broken = true
+  await visit('')
+  await page.route('**/sign', (route) => (broken ? route.abort() : route.continue()))
+  await page.evaluate(() => (location.hash = '#/demo/compose?utterance=NOBODY+VANNES+VANNES'))
+  await page.locator('.card').nth(1).click()
+  await page.locator('aside .fault:not([hidden])').waitFor()
+  broken = false
+  await page.locator('.trouble').getByRole('button', { name: 'Try again' }).click()
+  await page.locator('aside .token').nth(2).waitFor()
+  broken = true
+  await page.locator('.card').nth(2).click()
+  await page.locator('aside .fault:not([hidden])').waitFor()
+  assert.equal(await page.locator('aside .token').count(), 0) // costs of the other VANNES are none of this one
+})
+
+test('signs live: each word at once, and tells what cannot be', async () => {
+  await compose('VANNES')
+  await button('Live').click()
+  await page.getByRole('combobox', { name: 'Type and it signs' }).waitFor()
+  await page.keyboard.type('NOBODY MATIN MATIN ') // while the stream is opened
+  await page.waitForFunction(() => window.signweaveStage?.panes[0]?.store.arrived > 0)
+  await page.keyboard.type('NOBODY2 MATIN ') // long enough to be seen where pictures are slow
+  await page.waitForFunction(() => document.querySelector('.viewer .gloss')?.textContent === 'MATIN', null, { timeout: 60_000 })
+  await page.waitForFunction(() => document.querySelectorAll('.card').length === 4)
+  assert.match(await page.getByRole('alert').textContent(), /no sign 'NOBODY'[^]*no sign 'NOBODY2'/)
+  assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'MATIN', 'MATIN'])
+  await page.locator('.card').first().click() // what is chosen ends it, and has its panel
+  await page.locator('aside .token').first().waitFor()
+  await shown('VANNES MATIN MATIN MATIN')
+})
+
+test('loses no word where the stream breaks', async () => {
+  let gone = () => {}, whole = true
+  await visit('')
+  await page.routeWebSocket(/stream/, (socket) => {
+    if (!whole) return socket.close({ code: 1001 })
+    const server = socket.connectToServer()
+    gone = () => (socket.close({ code: 1001 }), server.close())
+  })
+  await page.evaluate(() => (location.hash = '#/demo/compose?utterance=VANNES'))
+  await shown('VANNES')
+  await button('Live').click()
+  const live = page.getByRole('combobox', { name: 'Type and it signs' })
+  await page.waitForFunction(() => document.querySelector('.player.live') && window.signweaveStage?.panes[0]?.store.arrived > 0)
+  whole = false
+  gone()
+  await page.locator('.trouble').waitFor()
+  await live.pressSequentially('PLUIE NUAGES ')
+  await page.getByText('stands in the field again').waitFor()
+  assert.deepEqual([await live.inputValue(), await cards()], ['PLUIE NUAGES ', ['VANNES']])
+  whole = true
+  await page.locator('.trouble').getByRole('button', { name: 'Try again' }).click()
+  await page.waitForFunction(() => !document.querySelector('.trouble, .waits'))
+  assert.equal(await live.inputValue(), 'PLUIE NUAGES ')
+  await button('Sign').click()
+  await page.waitForFunction(() => document.querySelectorAll('.card').length === 3)
+  assert.deepEqual([await live.inputValue(), await cards()], ['', ['VANNES', 'PLUIE', 'NUAGES']])
+  whole = false
+  gone()
+  await page.locator('.trouble').waitFor()
+  await live.pressSequentially('MATIN ')
+  await page.getByText('stands in the field again').waitFor()
+  await button('Live').click() // what was not signed joins the row
+  assert.deepEqual(await cards(), ['VANNES', 'PLUIE', 'NUAGES', 'MATIN'])
+})

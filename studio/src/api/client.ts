@@ -127,8 +127,12 @@ export class Api {
   job<Result>(id: string, from = 0): Promise<JobState<Result>> {
     return this.json(path('jobs', id) + (from > 0 ? query({ from }) : ''))
   }
-  /** Waits until a job is over, and gives its result; throws what it failed with. `told` hears how far it is. A server that does not answer for a while is waited for: the job goes on there. */
-  async result<Result>({ job }: JobBegun, told: (state: JobState<Result>) => void = () => {}, signal?: AbortSignal): Promise<Result> {
+  /**
+   * Waits until a job is over, and gives its result; throws what it failed with. `told` hears how far it is. A server that does not answer is waited for so many ms of
+   * `patience`: the job goes on there.
+   */
+  async result<Result>({ job }: JobBegun, told: (state: JobState<Result>) => void = () => {}, signal?: AbortSignal,
+    patience = kPatience): Promise<Result> {
     const recordings: unknown[] = []
     for (let wait = 100, away = 0; ; wait = Math.min(1000, wait * 1.3)) {
       let state: JobState<Result> | undefined
@@ -136,7 +140,7 @@ export class Api {
         state = await this.job<Result>(job, recordings.length)
       } catch (fault) {
         // What is told of it, such as that there is no such job, is no silence.
-        if (fault instanceof ApiError || away > kPatience) throw fault
+        if (fault instanceof ApiError || away >= patience) throw fault
       }
       away = state ? 0 : away + wait
       // A long list comes in parts, each once.

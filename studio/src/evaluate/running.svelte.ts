@@ -85,7 +85,7 @@ export class Running {
           this.fault = undefined
           wait = kFirstWait
           if (this.unwanted) void this.cancel()
-        })
+        }, undefined, 0)
         this.end()
         this.open({ evaluation })
       } catch (fault) {

@@ -28,6 +28,11 @@ export function indexAt(tier: Tier, ms: number): number {
   return low < tier.annotations.length && tier.annotations[low].begin <= ms ? low : -1
 }
 
+/** The annotation of a tier at a time, else the next one, else the last. */
+export function annotationNear(tier: Tier, ms: number): Annotation | undefined {
+  return tier.annotations[indexAt(tier, ms)] ?? tier.annotations.find(({ begin }) => begin > ms) ?? tier.annotations.at(-1)
+}
+
 /** The begin of the annotation that lies next after `ms` (direction 1) or before it (−1); none past the ends. */
 export function nextBegin(tier: Tier, ms: number, direction: 1 | -1): number | undefined {
   const list = tier.annotations

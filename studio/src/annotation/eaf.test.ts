@@ -1,6 +1,6 @@
 // @vitest-environment jsdom
 import { expect, it } from 'vitest'
-import { indexAt, nextBegin } from './document'
+import { annotationNear, indexAt, nextBegin } from './document'
 import { readEaf } from './eaf'
 
 const kEaf = `<?xml version="1.0"?><ANNOTATION_DOCUMENT>
@@ -27,6 +27,7 @@ it('reads tiers in the order of a tree, with the times that ELAN shows', () => {
 it('finds what is at a time, half-open', () => {
   const tier = readEaf(kEaf).tiers[0]
   expect([99, 100, 399.9, 400, 600].map((ms) => indexAt(tier, ms))).toEqual([-1, 0, 0, 1, -1])
+  expect([99, 100, 400, 600].map((ms) => annotationNear(tier, ms)?.begin)).toEqual([100, 100, 400, 400])
   expect([99, 100, 399.7].map((ms) => nextBegin(tier, ms, 1))).toEqual([100, 400, undefined])
   expect([100, 400, 401].map((ms) => nextBegin(tier, ms, -1))).toEqual([undefined, 100, 400])
 })

@@ -1,4 +1,4 @@
-import { indexAt, nextBegin, type Tier } from '../annotation/document'
+import { annotationNear, nextBegin, type Tier } from '../annotation/document'
 import type { Action } from '../ui/keys'
 import { preferences } from '../ui/preferences.svelte'
 import { kViews, type View } from '../viewer/camera'
@@ -40,8 +40,11 @@ export function act(action: Action, { transport, tier, originMs, viewer, timelin
     case 'faster': transport.setSpeed(transport.speed + (transport.speed >= 0.5 ? 0.25 : 0.1)); break
     case 'repeat': transport.repeat = !transport.repeat; break
     case 'select': {
-      const at = tier ? indexAt(tier, ms) : -1
-      if (tier && at >= 0) transport.setLoop((tier.annotations[at].begin - originMs) / 1000, (tier.annotations[at].end - originMs) / 1000)
+      const sign = tier && annotationNear(tier, ms)
+      if (sign) {
+        transport.setLoop((sign.begin - originMs) / 1000, (sign.end - originMs) / 1000)
+        if (ms < sign.begin || ms >= sign.end) transport.seek((sign.begin - originMs) / 1000)
+      }
       break
     }
     case 'loopBegin': transport.setLoop(transport.time, transport.loop?.end ?? transport.duration); break

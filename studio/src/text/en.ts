@@ -131,7 +131,7 @@ export const en = {
   key_ends: 'Begin, end',
   key_speed: 'Slower, faster',
   key_repeat: 'Repeat',
-  key_select: 'Select the sign here',
+  key_select: 'Select the sign here, or the next',
   key_bounds: 'Selection begins, ends here',
   key_clear: 'Clear the selection',
   key_views: 'Front, left, right, hands, face, whole body',

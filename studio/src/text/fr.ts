@@ -133,7 +133,7 @@ export const fr: Text = {
   key_ends: 'Début, fin',
   key_speed: 'Plus lent, plus vite',
   key_repeat: 'Répéter',
-  key_select: 'Choisir le signe présent',
+  key_select: 'Choisir le signe présent, ou le suivant',
   key_bounds: 'La sélection commence, finit ici',
   key_clear: 'Effacer la sélection',
   key_views: 'De face, gauche, droite, mains, visage, corps entier',

@@ -60,6 +60,13 @@ std::string check_sync(const std::string& text) {
   return parse_sync(text) ? std::string() : "expected FRAME@MS, such as 120@4010";
 }
 
+std::string check_fingerprint(const std::string& text) {
+  const bool is_one = text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+  return is_one || text == "none" ? std::string()
+                                  : "expected annotation_fingerprint as info --json tells it: 16 hexadecimal digits, "
+                                    "or none";
+}
+
 std::string_view name_of(ImportOutcome outcome) {
   switch (outcome) {
     case ImportOutcome::added:
@@ -100,6 +107,7 @@ ImportOptions options_of(const ImportCall& call) {
   for (const std::string& sync : call.syncs) options.sync.push_back(*parse_sync(sync));
   if (!call.rig.empty()) options.rig = read_rig_names(call.rig);
   options.replace_motion = call.replace_motion;
+  if (!call.if_annotation.empty()) options.if_annotation = call.if_annotation;
   return options;
 }
 

@@ -28,11 +28,15 @@ struct ImportCall {
   FacePlacing face;
   std::string rig;
   bool replace_motion = false;
+  std::string if_annotation;            ///< empty: whichever it is
   std::vector<std::string> recordings;  ///< none: all
 };
 
 /// Empty, or why `text` is no FRAME@MS.
 std::string check_sync(const std::string& text);
+
+/// Empty, or why `text` tells no annotation.
+std::string check_fingerprint(const std::string& text);
 
 template <class Visit>
 void fields(Visit& visit, ImportCall& call) {
@@ -61,6 +65,11 @@ void fields(Visit& visit, ImportCall& call) {
   visit(Field{.name = "replace_motion",
               .help = "take motion and face files again, changed or not: instead of what was imported, or over damage"},
         call.replace_motion);
+  visit(Field{.name = "if_annotation",
+              .help = "another annotation is stored only over this one: annotation_fingerprint of info, or none",
+              .check = check_fingerprint,
+              .type_name = "FINGERPRINT"},
+        call.if_annotation);
   visit(Field{.name = "recordings",
               .help = "only these of what was found, by the names that the recordings would get",
               .several_words = true},

@@ -5,6 +5,7 @@
 #include "app/calls/defect_report.h"
 #include "app/calls/rig_json.h"
 #include "app/calls/selection_report.h"
+#include "signweave/database/import.h"
 #include "signweave/formats/file_format.h"
 
 namespace signweave::calls {
@@ -111,6 +112,7 @@ RecordingDetails run(const Database& database, const RecordingCall& call) {
 
 nlohmann::ordered_json json_of(const RecordingDetails& details) {
   nlohmann::ordered_json report = details.figures;
+  report["annotation_fingerprint"] = annotation_fingerprint(details.info);
   report["notices"] = json_of(details.info.notices);
   if (details.model) report["rig"] = json_of_rig(*details.skeleton, details.model->rig);
   if (details.model) report["defects"] = json_of(details.info.defects, *details.skeleton);

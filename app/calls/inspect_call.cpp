@@ -97,7 +97,9 @@ void inspect(const Database& database, const Pairing& pairing, const ImportOptio
                         {"known", database.info(job.name).has_value()}};
   };
   std::size_t at = 0;
-  run(store, pairing, options, listener, [&](const Imported& imported) {
+  ImportOptions here = options;
+  here.if_annotation.reset();  // that is about the database, and what is there is not changed
+  run(store, pairing, here, listener, [&](const Imported& imported) {
     ordered_json one = report(pairing.jobs[at++]);
     if (imported.error) {
       one["error"] = imported.error->what();

@@ -55,11 +55,6 @@ void signing_fields(Visit& visit, SynthesisChoices& choices) {
               .one_of = {"auto", "ground", "none"}},
         choices.align);
   visit(Field{.name = "character", .help = kCharacterHelp}, choices.character);
-}
-
-template <class Visit>
-void fields(Visit& visit, SynthesisChoices& choices) {
-  signing_fields(visit, choices);
   visit(
       Field{.name = "junctions",
             .help = "N=PART[,PART...]: how junction N is made, counted from 1 between the first two signs: a method, a "
@@ -68,6 +63,11 @@ void fields(Visit& visit, SynthesisChoices& choices) {
             .words = "--junction",
             .check = check_junction},
       choices.junctions);
+}
+
+template <class Visit>
+void fields(Visit& visit, SynthesisChoices& choices) {
+  signing_fields(visit, choices);
   visit(Field{.name = "rate",
               .help = "frames a second of the result; the highest of its sources where not given",
               .or_number = true,

@@ -135,6 +135,7 @@ json task_of(const RenderArguments& given, const std::string& database, const st
     parameters["duration"] = drawn.how.duration;
     parameters["tempo"] = drawn.how.tempo;
     parameters["align"] = drawn.how.align;
+    if (!drawn.how.junctions.empty()) parameters["junctions"] = drawn.how.junctions;
     if (!drawn.replace.empty()) parameters["replace"] = drawn.replace;
     if (!drawn.swap.empty()) parameters["swap"] = drawn.swap;
   }
@@ -254,6 +255,9 @@ void check(const RenderArguments& given) {
   if (edits && part) {
     throw Error(ErrorCode::bad_input,
                 "--from and --to draw a part of a recording as it is; --at takes moments of an edit");
+  }
+  if (!drawn.how.junctions.empty() && !drawn.recording.empty() && !edits) {
+    throw Error(ErrorCode::bad_input, "--junction belongs to an UTTERANCE or to a change: a recording has none to make");
   }
   if (!given.at.empty() && !fold_case(given.output).ends_with(".png")) {
     throw Error(ErrorCode::bad_input, "--at is for pictures: name them -o FILE.png");

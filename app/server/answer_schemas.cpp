@@ -37,11 +37,12 @@ constexpr const char* kDatabaseAnswers = R"json({
       "pairs": {"type": "integer"}, "comparisons": {"type": "integer"}, "folds": {"type": "integer"},
       "wins": {"type": "number"}, "default_wins": {"type": "number"}}},
   "Recording": {"type": "object",
-    "required": ["recording", "signer", "motion_file", "face_file", "annotation_file", "phases", "phases_measured",
-                 "not_measured", "notices"],
+    "required": ["recording", "signer", "motion_file", "face_file", "annotation_file", "annotation_fingerprint",
+                 "phases", "phases_measured", "not_measured", "notices"],
     "properties": {
       "recording": {"type": "string"}, "signer": {"type": "string"}, "motion_file": {"type": "string"},
-      "face_file": {"type": "string"}, "annotation_file": {"type": "string"}, "frames": {"type": "integer"},
+      "face_file": {"type": "string"}, "annotation_file": {"type": "string"},
+      "annotation_fingerprint": {"type": "string"}, "frames": {"type": "integer"},
       "frames_per_second": {"type": "number"}, "seconds": {"type": "number"}, "joints": {"type": "integer"},
       "scalar_tracks": {"type": "integer"}, "clock_origin_ms": {"type": "number"}, "phases": {"type": "integer"},
       "phases_measured": {"type": "integer"}, "not_measured": {"type": "string"},
@@ -63,6 +64,11 @@ constexpr const char* kDatabaseAnswers = R"json({
     "recordings": {"type": "array", "items": {"type": "string"}},
     "signers": {"type": "array", "items": {"type": "string"}},
     "language": {"type": "object", "additionalProperties": {"type": "array", "items": {"type": "string"}}}}},
+  "Labels": {"type": "object", "required": ["tier", "labels", "left_out"], "properties": {
+    "tier": {"type": "string"},
+    "labels": {"type": "array", "items": {"type": "object", "required": ["label", "annotations"], "properties": {
+      "label": {"type": "string"}, "annotations": {"type": "integer"}}}},
+    "left_out": {"type": "integer", "description": "labels of fewer annotations that the limit left out"}}},
   "Characters": {"type": "object", "required": ["characters"], "properties": {"characters": {"type": "array",
     "items": {"type": "object", "required": ["name", "file", "height", "face_units"], "properties": {
       "name": {"type": "string"}, "file": {"type": "string"},

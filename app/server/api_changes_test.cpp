@@ -134,6 +134,29 @@ TEST(ApiChanges, OfAnUploadSomeRecordingsAreImportedAndTheOthersLater) {
   EXPECT_EQ(api.send("DELETE", at({"uploads", id})).status, 200);
 }
 
+TEST(ApiChanges, AnAnnotationThatWasReplacedMeanwhileIsNotReplacedUnseen) {
+  TestApi api(true);
+  const auto fingerprint = [&] {
+    return json_in(api.send("GET", at({"recordings", "a"})))["annotation_fingerprint"].get<std::string>();
+  };
+  const std::string first = upload_of(api, {{"a.bvh", another_bvh()}, {"a.eaf", eaf::write_text(another().document)}});
+  EXPECT_EQ(import(api, first)["result"]["recordings"][0]["outcome"], "added");
+  const std::string before = fingerprint();
+  AnnotationDocument changed = another().document;
+  changed.author = "somebody";
+  const std::string theirs = upload_of(api, {{"a.eaf", eaf::write_text(changed)}});
+  EXPECT_EQ(import(api, theirs, {{"if_annotation", before}})["result"]["recordings"][0]["outcome"],
+            "annotation replaced");
+  changed.author = "somebody else";
+  const std::string ours = upload_of(api, {{"a.eaf", eaf::write_text(changed)}});
+  EXPECT_THAT(fault_of(api.send("POST", at({"uploads", ours, "import"}), {{"if_annotation", "a.eaf"}})),
+              HasSubstr("expected annotation_fingerprint"));
+  EXPECT_FALSE(inspect(api, ours, {{"if_annotation", before}})["result"]["recordings"][0].contains("error"));
+  const json refused = import(api, ours, {{"if_annotation", before}})["result"]["recordings"][0];
+  EXPECT_EQ(refused["outcome"], "failed");
+  EXPECT_THAT(refused["error"].get<std::string>(), HasSubstr("is no longer " + before + " but " + fingerprint()));
+}
+
 TEST(ApiChanges, AFileIsTakenOutOfAnUpload) {
   TestApi api(true);
   const std::string id = upload_of(api, {{"a.bvh", another_bvh()}, {"b.bvh", "HIERARCHY"}});

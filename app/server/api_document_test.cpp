@@ -153,6 +153,7 @@ TEST(ApiDocument, EveryAnswerToGetFitsItsSchema) {
     if (route.method != "GET" || !path || route.answer.empty()) continue;
     std::map<std::string, std::string> query;
     if (route.id == "query") query = {{"text", "gloss = \"MATIN\" -> gloss = \"BROUILLARD\""}};
+    if (route.id == "labels") query = {{"tier", "Phase"}};
     if (route.id == "xpath") query = {{"expression", "//TIER[@TIER_ID = \"Gloss\"]"}, {"limit", "3"}};
     if (route.id == "stats") query = {{"pairs", "true"}, {"glosses", "true"}, {"ngrams", "3"}};
     const ApiResponse response = api.get(*path, query);

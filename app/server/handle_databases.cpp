@@ -9,6 +9,10 @@ namespace signweave::server {
 
 using nlohmann::json;
 
+calls::SchemaWriter label_fields() {
+  return calls::schema_of_call<calls::LabelsCall>();
+}
+
 ApiResponse list_databases(Call& call) {
   json list = json::array();
   for (const auto& one : call.state.databases.all()) {
@@ -43,6 +47,13 @@ ApiResponse list_vocabulary(Call& call) {
   const Database& database = call.database().database();
   call.declare_all(*database.contents());
   return json_answer(calls::vocabulary_json(database));
+}
+
+ApiResponse list_labels(Call& call) {
+  const auto wanted = read_parameters<calls::LabelsCall>(call);
+  const Database& database = call.database().database();
+  call.declare_all(*database.contents());
+  return json_answer(calls::labels_json(database, wanted));
 }
 
 ApiResponse check_database(Call& call) {

@@ -15,6 +15,8 @@ constexpr Route kRoutes[] = {
     {"GET", "databases/{database}/vocabulary", "vocabulary",
      "glosses, tiers, recordings and signers, and the words of queries", list_vocabulary, Source::none, nullptr,
      "Vocabulary"},
+    {"GET", "databases/{database}/labels", "labels", "what the annotations of a tier say, and how many say it",
+     list_labels, Source::query, label_fields, "Labels"},
     {"GET", "databases/{database}/check", "checkDatabase", "verify every stored byte", check_database, Source::none,
      nullptr, "Check"},
     {"GET", "databases/{database}/query", "query", "find signs, phases and annotations", find_segments, Source::query,

@@ -95,6 +95,7 @@ ApiResponse list_databases(Call& call);  // handle_databases.cpp
 ApiResponse show_database(Call& call);
 ApiResponse show_recording(Call& call);
 ApiResponse list_vocabulary(Call& call);
+ApiResponse list_labels(Call& call);
 ApiResponse check_database(Call& call);
 ApiResponse list_formats(Call& call);
 ApiResponse show_openapi(Call& call);
@@ -128,6 +129,7 @@ ApiResponse show_job(Call& call);
 ApiResponse cancel_job(Call& call);
 
 /// The fields of each call that has some, for the table and the document.
+calls::SchemaWriter label_fields();
 calls::SchemaWriter query_fields();
 calls::SchemaWriter xpath_fields();
 calls::SchemaWriter stats_fields();

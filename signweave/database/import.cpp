@@ -172,7 +172,21 @@ std::optional<RecordingInfo> find_known(const Database& database, const ImportJo
   return database.info(job.name);
 }
 
+/// Throws where the recording has another annotation than the one that is to be replaced.
+void check_annotation(const std::string& expected, const std::optional<RecordingInfo>& known, const ImportJob& job) {
+  const std::string found = known ? annotation_fingerprint(*known) : "none";
+  if (found == expected) return;
+  throw Error(ErrorCode::conflict,
+              fmt::format("{}: the annotation of recording '{}' is no longer {} but {}; look at what is stored now, "
+                          "and import again with --if-annotation {}",
+                          job.annotation->string(), known ? known->name : job.name, expected, found, found));
+}
+
 }  // namespace
+
+std::string annotation_fingerprint(const RecordingInfo& info) {
+  return info.document == 0 ? "none" : fmt::format("{:016x}", info.annotation_fingerprint);
+}
 
 ImportReport import_recording(Database& database, const ImportJob& job, const ImportOptions& options,
                               const Database::Progress& progress) {
@@ -215,6 +229,8 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                     "--replace-motion takes it, and another file name makes another recording",
                     job.motion->string(), recording.name));
   }
+  const bool same_annotation = document_known && known->annotation_fingerprint == annotation_print;
+  if (options.if_annotation && job.annotation && !same_annotation) check_annotation(*options.if_annotation, known, job);
   const auto half = [](const Database::Progress& whole, double from) {
     return whole ? Database::Progress([&whole, from](double part) { whole(from + part / 2); }) : Database::Progress();
   };
@@ -226,13 +242,13 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   std::vector<Notice> annotation_notices;
   const bool options_about_tiers = !options.sign_tiers.empty() || !options.phase_tiers.empty() ||
                                    !options.phase_labels.empty() || options.no_sign_tier || options.no_phase_tier;
-  if (job.annotation && (!document_known || known->annotation_fingerprint != annotation_print || options_about_tiers)) {
+  if (job.annotation && (!same_annotation || options_about_tiers)) {
     const std::string where = job.annotation->string();
     annotation_file::File file = annotation_file::read(*job.annotation);
     annotation_notices = std::move(file.notices);
     names = tier_names(file.document, options, known ? &*known : nullptr, where, annotation_notices);
     document = std::move(file.document);
-    new_annotation = !document_known || known->annotation_fingerprint != annotation_print || names != known->tiers;
+    new_annotation = !same_annotation || names != known->tiers;
   } else if (document_known) {
     try {
       document = database.document(recording.name);

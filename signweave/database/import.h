@@ -67,7 +67,12 @@ struct ImportOptions {
   std::optional<std::string> face_timecode;  ///< of the motion's frame 0, on the clock of the face capture
   std::optional<RigNames> rig;  ///< what a mapping file says of the skeletons; none: as they were told before
   bool replace_motion = false;  ///< take a motion or face file that changed since it was imported
+  /// Which annotation the recording must have, as annotation_fingerprint tells it, for another to be stored.
+  std::optional<std::string> if_annotation;
 };
+
+/// Tells the annotation that a recording has from any other: 16 hexadecimal digits, or "none".
+std::string annotation_fingerprint(const RecordingInfo& info);
 
 enum class ImportOutcome {
   added,
@@ -94,8 +99,9 @@ struct ImportReport {
 
 /// Imports one recording: nothing where nothing changed; a changed annotation replaces the annotation alone; a changed
 /// motion, or a changed face, which is a part of it, is Error{conflict} unless replace_motion (which also takes an
-/// unchanged one again, over damage). What an
-/// earlier import was told (clock, tiers, signer) holds until it is told anew. A fault leaves the recording as it was.
+/// unchanged one again, over damage). An annotation other than the stored one is Error{conflict} where `if_annotation`
+/// names a third, which somebody has replaced meanwhile. What an earlier import was told (clock, tiers, signer) holds
+/// until it is told anew. A fault leaves the recording as it was.
 ImportReport import_recording(Database& database, const ImportJob& job, const ImportOptions& options,
                               const Database::Progress& progress = {});
 

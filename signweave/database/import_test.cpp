@@ -400,6 +400,37 @@ TEST_F(ImportTest, TiersThatThereAreNotAreNotGuessed) {
   EXPECT_EQ(tiers().phase_tiers, guessed.phase_tiers);
 }
 
+TEST_F(ImportTest, AnAnnotationTakesThePlaceOfTheOneThatItWasMadeFromAndOfNoOther) {
+  write_motion("a.bvh", 1);
+  write_annotation("a.eaf", {"A"});
+  const auto stored = [&] {
+    return annotation_fingerprint(*Database(folder_ / "db", kv::Access::read_only).info("a"));
+  };
+  EXPECT_THAT(import_all({.if_annotation = "none"}), ElementsAre(ImportOutcome::added));
+  const std::string first = stored();
+  EXPECT_EQ(first.size(), 16u);
+  // What lies there already may come again, as after an answer that was lost.
+  EXPECT_THAT(import_all({.if_annotation = "none"}), ElementsAre(ImportOutcome::unchanged));
+  write_annotation("a.eaf", {"B"});
+  for (const std::string other : {"none", "0123456789abcdef"}) {
+    try {
+      import_all({.replace_motion = true, .if_annotation = other});
+      FAIL() << other;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::conflict);
+      EXPECT_THAT(error.what(), HasSubstr("recording 'a' is no longer " + other + " but " + first + "; look at"));
+    }
+    EXPECT_EQ(stored(), first);
+  }
+  EXPECT_THAT(import_all({.if_annotation = first}), ElementsAre(ImportOutcome::annotation_replaced));
+  EXPECT_NE(stored(), first);
+  // A motion alone asks nothing of the annotation.
+  std::filesystem::remove(files() / "a.eaf");
+  write_motion("b.bvh", 1);
+  EXPECT_THAT(import_all({.if_annotation = first}), ElementsAre(ImportOutcome::unchanged, ImportOutcome::added));
+  EXPECT_EQ(annotation_fingerprint(*Database(folder_ / "db", kv::Access::read_only).info("b")), "none");
+}
+
 TEST_F(ImportTest, AFaceIsTakenWhetherItIsNamedOrItsMotion) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <unordered_map>
 
 #include "signweave/query/movement_term.h"
 #include "signweave/query/words.h"
@@ -34,6 +35,28 @@ Vocabulary vocabulary(const Segments& segments) {
                     .signers = {signers.begin(), signers.end()}};
   result.glosses.reserve(tokens.size());
   for (const auto& [gloss, count] : tokens) result.glosses.push_back({gloss, count});
+  return result;
+}
+
+std::vector<LabelCount> labels_of(const Segments& segments, std::string_view tier) {
+  std::map<std::string, std::size_t, std::less<>> annotations;
+  for (const Segments::Member& member : segments.members()) {
+    const SegmentTable& table = member.table;
+    const std::uint32_t number = table.find_tier(tier);
+    if (number == SegmentTable::kNone) continue;
+    std::unordered_map<std::uint32_t, std::size_t> counts;  // of labels, as the table numbers them
+    for (std::uint32_t recording = 0; recording < table.recording_count(); ++recording) {
+      const SegmentTable::TierRows* rows = table.tier_rows(recording, number);
+      if (rows == nullptr || member.numbers[recording] == Segments::kNone) continue;
+      for (RowId row = rows->own().begin; row < rows->own().end; ++row) ++counts[table.label(row)];
+    }
+    for (const auto& [label, count] : counts) {
+      if (!table.text_at(label).empty()) annotations[std::string(table.text_at(label))] += count;
+    }
+  }
+  std::vector<LabelCount> result;
+  result.reserve(annotations.size());
+  for (const auto& [label, count] : annotations) result.push_back({label, count});
   return result;
 }
 

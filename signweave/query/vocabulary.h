@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "signweave/semantic_db/segments.h"
@@ -23,6 +24,15 @@ struct Vocabulary {
 /// The time it takes grows with glosses and tiers, not with rows; but for recordings that were changed since their
 /// tables were merged, whose rows are counted.
 Vocabulary vocabulary(const Segments& segments);
+
+struct LabelCount {
+  std::string label;  ///< match form
+  std::size_t annotations = 0;
+};
+
+/// The labels of a tier's annotations, over all recordings, without the empty one; sorted, once. None for a tier that
+/// there is not. The time it takes grows with the rows of the tier.
+std::vector<LabelCount> labels_of(const Segments& segments, std::string_view tier);
 
 /// The words of the query language (docs/query.md), by what they are.
 struct LanguageWords {

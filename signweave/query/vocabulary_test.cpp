@@ -50,6 +50,32 @@ TEST(Vocabulary, LeavesOutWhatIsNoMore) {
   EXPECT_THAT(words.recordings, ElementsAre("b"));
 }
 
+TEST(Vocabulary, CountsTheLabelsOfATier) {
+  const auto mouthed = [](const std::string& recording, const std::vector<std::string>& labels) {
+    TestCorpus corpus;
+    corpus.recording(recording).tier("Gloss").tier("Phase");
+    corpus.sign("Gloss", "PLUIE", {0ms, 90ms});
+    corpus.tier("Mouthing");
+    for (std::size_t i = 0; i < labels.size(); ++i) corpus.annotation(labels[i], {i * 100ms, i * 100ms + 50ms});
+    return corpus.table();
+  };
+  const std::vector<Segments::Tombstone> gone = {{"c", 5}};
+  const Segments segments({{mouthed("a", {"nuage", "", "Pluie ", "nuage"}), 1},
+                           {mouthed("b", {"pluie", "nuage"}), 2},
+                           {mouthed("c", {"gone", "nuage"}), 3},
+                           {corpus("d", {"nuage"}), 4}},
+                          gone);
+  std::vector<std::string> shown;
+  for (const auto& [label, annotations] : labels_of(segments, "Mouthing")) {
+    shown.push_back(fmt::format("{} {}", label, annotations));
+    EXPECT_EQ(find(parse("tier(\"Mouthing\") = \"" + label + "\""), segments).size(), annotations);
+  }
+  EXPECT_THAT(shown, ElementsAre("Pluie 1", "nuage 3", "pluie 1"));
+  EXPECT_THAT(labels_of(segments, "mouthing"), testing::IsEmpty());
+  // Phases lie on a tier of their own, also those that were inferred for signs without; those are no annotations.
+  EXPECT_THAT(labels_of(segments, "Phase"), testing::IsEmpty());
+}
+
 TEST(Vocabulary, HasTheWordsThatQueriesAreMadeOf) {
   const LanguageWords words = language_words();
   EXPECT_THAT(words.fields, IsSupersetOf({"gloss", "phase", "tier", "duration", "signer"}));

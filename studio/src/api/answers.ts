@@ -74,6 +74,11 @@ export interface SignAnswer { readonly name: string; readonly recording: string;
 /** A way of making transitions. */
 export interface TransitionRow { readonly name: string; readonly description: string }
 
+/** What the annotations of a tier say, in the order of the alphabet, and how many say it. */
+export interface TierLabels {
+  readonly labels: readonly { readonly label: string; readonly annotations: number }[]
+}
+
 /** What is in a database, for completion. */
 export interface Vocabulary {
   /** In the order of the alphabet, with the number of tokens that can be found. */

@@ -1,6 +1,6 @@
 import { readFrames, type FrameTaker } from '../motion/frames_body'
 import type { Declarations } from '../motion/source'
-import type { CharacterRow, DatabaseRow, ExplainedReport, JobBegun, JobState, MediaRow, NoticeRow, RecordingInfo, RecordingRow, SignAnswer, Statistics, TransitionRow, Vocabulary } from './answers'
+import type { CharacterRow, DatabaseRow, ExplainedReport, JobBegun, JobState, MediaRow, NoticeRow, RecordingInfo, RecordingRow, SignAnswer, Statistics, TierLabels, TransitionRow, Vocabulary } from './answers'
 import { ApiError, StudioFault } from './fault'
 
 /** How long a server may be silent while a job is under way there, in ms. */
@@ -122,6 +122,9 @@ export class Api {
   /** What can be asked for and signed: for completion. */
   vocabulary(database: string): Promise<Vocabulary> {
     return this.json(path('databases', database, 'vocabulary'))
+  }
+  labels(database: string, tier: string): Promise<TierLabels> {
+    return this.json(path('databases', database, 'labels') + query({ tier }))
   }
   /** How far a job is; of its list of recordings only those at `from` and after it. */
   job<Result>(id: string, from = 0): Promise<JobState<Result>> {

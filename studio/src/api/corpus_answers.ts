@@ -35,6 +35,8 @@ export interface RigReport {
 export interface StoredRecording {
   readonly recording: string; readonly signer: string
   readonly motion_file: string; readonly face_file: string; readonly annotation_file: string
+  /** Changes with the annotation; "none" where there is none. */
+  readonly annotation_fingerprint: string
   readonly frames?: number; readonly frames_per_second?: number; readonly seconds?: number; readonly clock_origin_ms?: number
   readonly phases: number; readonly phases_measured: number; readonly not_measured: string
   readonly notices: readonly Notice[]

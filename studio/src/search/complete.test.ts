@@ -13,9 +13,9 @@ const words: Words = {
   },
 }
 /** `|` is the caret. What is offered, and what the text becomes with the first of it. */
-const at = (marked: string) => {
+const at = (marked: string, known = words) => {
   const caret = marked.indexOf('|'), text = marked.slice(0, caret) + marked.slice(caret + 1)
-  const { from, to, options, eager } = complete(text, caret, words)
+  const { from, to, options, eager } = complete(text, caret, known)
   const [first] = options
   return { labels: options.map(({ label }) => label), first, eager, chosen: first ? text.slice(0, from) + first.insert + text.slice(to) : text }
 }
@@ -61,6 +61,18 @@ it('offers what the other fields may be', () => {
   expect(at('signer != |').chosen).toBe('signer != "anna"')
   expect(at('duration > |').labels).toEqual(['300ms'])
   expect(at('tier("Gloss") = |').labels).toEqual(['"…"', '$X'])
+})
+
+it('offers what a tier says once that is known, and tells which tier to ask for', () => {
+  const wants = (text: string, known = words) => complete(text, text.length, known).wants
+  expect([wants('tier("Mouthing") = '), wants('tier("Mouthing") = "nu'), wants('!tier("Gloss") != ')]).toEqual(['Mouthing', 'Mouthing', 'Gloss'])
+  // Not where a name is no tier's, or an expression is written, or something else.
+  expect([wants('tier("Mouth") = '), wants('tier("Mouthing") =~ '), wants('tier("Mouthing"'), wants('tier("Mouthing") = "nuage" & gloss = '), wants('tier("Mouthing") = $X & tier() = ')]).toEqual(Array(5).fill(undefined))
+  const known = { ...words, labels: new Map([['Mouthing', [{ label: 'le "nuage"', annotations: 3 }, { label: 'pluie', annotations: 1 }]]]) }
+  expect([wants('tier("Mouthing") = ', known), wants('tier("Gloss") = ', known)]).toEqual([undefined, 'Gloss'])
+  expect(at('gloss = "A" overlaps tier("Mouthing") = |', known).labels).toEqual(['le "nuage"', 'pluie', '$X'])
+  expect(at('tier("Mouthing") = nua|', known)).toMatchObject({ chosen: 'tier("Mouthing") = "le \\"nuage\\""', first: { tokens: 3 } })
+  expect(at('tier("Gloss") = |', known).labels).toEqual(['"…"', '$X'])
 })
 
 it('offers names of tiers, recordings, tracks and points in parentheses', () => {

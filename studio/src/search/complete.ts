@@ -1,19 +1,19 @@
-import type { Vocabulary } from '../api/answers'
+import type { TierLabels, Vocabulary } from '../api/answers'
 import { quoted } from './answers'
 import { contextAfter, isCall, type Context } from './context'
 import { kAngles, kComponents, kMoments, kNamesOf, kNumberOf, kRelations, kTextFields, kTimes } from './language'
 import { scan, type Token } from './scan'
 
-/** What completion knows of a database; `tracks` are those of the face. */
-export type Words = Vocabulary & { readonly tracks?: readonly string[] }
+/** What completion knows of a database; `tracks` are those of the face, `labels` those of the tiers that were asked for. */
+export type Words = Vocabulary & { readonly tracks?: readonly string[]; readonly labels?: ReadonlyMap<string, TierLabels['labels']> }
 
 export interface Option {
   /** What it is called in the list. */
   readonly label: string
   /** What is put in place of what was typed. */
   readonly insert: string
-  readonly kind: 'gloss' | 'phase' | 'hand' | 'recording' | 'signer' | 'tier' | 'track' | 'word' | 'sign'
-  /** Of a gloss: how many tokens it has. */
+  readonly kind: 'gloss' | 'label' | 'phase' | 'hand' | 'recording' | 'signer' | 'tier' | 'track' | 'word' | 'sign'
+  /** Of a gloss or label: how many tokens it has. */
   readonly tokens?: number
 }
 export interface Completion {
@@ -22,6 +22,8 @@ export interface Completion {
   readonly options: readonly Option[]
   /** Whether the list may open by itself. */
   readonly eager: boolean
+  /** A tier whose labels should be asked for. */
+  readonly wants?: string
 }
 
 const kMost = 60
@@ -42,7 +44,8 @@ export function complete(text: string, caret: number, words: Words): Completion 
   const options = matching(offered(context, words, rest, before), typed).map((option) => spaced(option, text, from, context))
   const done = text.slice(from, to)
   const only = typed !== '' && options.length === 1 && options[0].insert.trim() === done
-  return { from, to, options: only ? [] : options, eager: typed !== '' || (typing !== undefined && typing.kind === 'text') || context.at === 'value' || context.at === 'argument' }
+  const wants = context.at === 'value' && context.by !== '=~' && context.tier !== undefined && words.tiers.includes(context.tier) && !words.labels?.has(context.tier)
+  return { from, to, options: only ? [] : options, ...(wants ? { wants: context.tier } : {}), eager: typed !== '' || (typing !== undefined && typing.kind === 'text') || context.at === 'value' || context.at === 'argument' }
 }
 
 /** Whether the caret is in a token that is being typed; behind a sign or a closed text it is not. */
@@ -66,7 +69,7 @@ function offered(context: Context, words: Words, rest: string, before: readonly 
       const { fields, functions, links } = words.language
       return [fields, functions, links].some((list) => list.includes(context.of)) ? compares(context.of, context.part) : []
     }
-    case 'value': return values(context.of, context.by, context.part, words)
+    case 'value': return values(context, words)
     case 'argument': return argumentsOf(context.of, context.index, words, rest)
     case 'after': return after(context.open)
     case 'nothing': return []
@@ -100,7 +103,7 @@ function compares(of: string, part?: string): Option[] {
   return [...signs.map((one) => sign(one, `${one} `)), ...moments.map((name) => word(name))]
 }
 
-function values(of: string, by: string, part: string | undefined, words: Words): readonly Option[] {
+function values({ of, by, part, tier }: Context & { readonly at: 'value' }, words: Words): readonly Option[] {
   if (by === '=~') return [sign('/…/', '/')]
   const { language } = words
   const texts = (list: readonly string[], kind: Option['kind']) => list.map((label): Option => ({ label, insert: quoted(label), kind }))
@@ -111,7 +114,10 @@ function values(of: string, by: string, part: string | undefined, words: Words):
     case 'hand': return plain(language.hands, 'hand')
     case 'recording': return texts(words.recordings, 'recording')
     case 'signer': return texts(words.signers, 'signer')
-    case 'tier': return [sign('"…"', '"'), sign('$X')]
+    case 'tier': {
+      const labels = words.labels?.get(tier ?? '')?.map(({ label, annotations }): Option => ({ label, insert: quoted(label), kind: 'label', tokens: annotations }))
+      return [...(labels ?? [sign('"…"', '"')]), sign('$X')]
+    }
   }
   const what = part || of
   return [...(what in kNumberOf ? [sign(kNumberOf[what])] : []), ...(kNamesOf[what] ?? []).map((name) => word(name))]

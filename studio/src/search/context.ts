@@ -4,9 +4,9 @@ import type { Token } from './scan'
 /** What may stand at the end of what was typed. */
 export type Context =
   | { readonly at: 'condition' }
-  /** `of` is the field or function; `tier` the name of its tier, `part` the component behind a function. */
-  | { readonly at: 'compare'; readonly of: string; readonly part?: string }
-  | { readonly at: 'value'; readonly of: string; readonly by: string; readonly part?: string }
+  /** `of` is the field or function; `tier` the name that was given in the parenthesis of `tier`, `part` the component behind a function. */
+  | { readonly at: 'compare'; readonly of: string; readonly part?: string; readonly tier?: string }
+  | { readonly at: 'value'; readonly of: string; readonly by: string; readonly part?: string; readonly tier?: string }
   | { readonly at: 'argument'; readonly of: string; readonly index: number }
   /** A condition is whole. `open` counts parentheses. */
   | { readonly at: 'after'; readonly open: number }
@@ -20,18 +20,21 @@ export function contextAfter(tokens: readonly Token[]): Context {
   let here: Context = { at: 'condition' }
   /** What each open parenthesis belongs to: a group or a link, else the function's name. */
   const open: string[] = []
+  let tier: string | undefined
   for (const token of tokens) {
     const { text } = token
     const symbol = token.kind === 'symbol'
     if (symbol && (text === '&' || text === '|' || text === '->')) here = { at: 'condition' }
-    else if (symbol && text === ')') here = closed(open.pop(), open)
+    else if (symbol && text === ')') here = closed(open.pop(), open, tier)
     else if (symbol && text === '(') {
       const of: string = here.at === 'compare' ? here.of : ''
       const call = of !== '' && !kLinks.includes(of)
       open.push(call ? of : '')
+      tier = undefined
       here = call ? { at: 'argument', of, index: 0 } : { at: 'condition' }
-    } else if (symbol && kCompare.test(text)) here = here.at === 'compare' ? { at: 'value', of: here.of, by: text, part: here.part } : { at: 'nothing' }
+    } else if (symbol && kCompare.test(text)) here = here.at === 'compare' ? { at: 'value', of: here.of, by: text, part: here.part, tier: here.tier } : { at: 'nothing' }
     else if (symbol && text === ',') here = here.at === 'argument' ? { at: 'argument', of: here.of, index: here.index + 1 } : here
+    else if (here.at === 'argument' && here.of === 'tier') tier = text
     else if (here.at === 'condition') here = begun(here, token, open)
     else if (here.at === 'value') here = { at: 'after', open: open.length }
     else if (here.at === 'after' && token.kind === 'word' && kRelations.includes(text)) here = { at: 'condition' }
@@ -49,9 +52,10 @@ function begun(here: Context, { kind, text }: Token, open: readonly string[]): C
 }
 
 /** Behind a parenthesis that was closed. */
-function closed(of: string | undefined, open: readonly string[]): Context {
+function closed(of: string | undefined, open: readonly string[], tier: string | undefined): Context {
   if (of === undefined) return { at: 'nothing' }
-  return of === '' || of === 'like' ? { at: 'after', open: open.length } : { at: 'compare', of, part: '' }
+  if (of === '' || of === 'like') return { at: 'after', open: open.length }
+  return { at: 'compare', of, part: '', ...(of === 'tier' ? { tier } : {}) }
 }
 
 /** Whether a word needs a parenthesis, as functions and links do. */

@@ -177,10 +177,19 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   await button('Store in the database').click()
   await page.getByText('so nothing was stored yet').waitFor()
   assert.match(await annotation('plain'), />AGAIN</)
+  // Nor is one replaced that came at the last moment, when the import was on its way.
+  const again = page.waitForResponse('**/uploads/*/inspect')
+  await page.route('**/uploads/*/import', async (route) => {
+    await colleague('LAST')
+    await route.continue()
+  }, { times: 1 })
+  await button('Store in the database').click()
+  await again
   await page.getByLabel('the checked phases: Phase RH (checked)').check()
+  assert.match(await annotation('plain'), />LAST</)
   await button('Store in the database').click()
   await page.getByText('Stored: annotation replaced').waitFor({ timeout: 60_000 })
-  assert.equal(await annotation('plain'), written.replace('>METEO<', '>AGAIN<'))
+  assert.equal(await annotation('plain'), written.replace('>METEO<', '>LAST<'))
   const query = encodeURIComponent('phase = stroke')
   const strokes = await (await fetch(`${address}/api/databases/mine/query?text=${query}`)).json()
   const ours = strokes.filter(({ recording }) => recording === 'plain')

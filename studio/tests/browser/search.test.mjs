@@ -47,6 +47,26 @@ test('completes a query where it stands, by keyboard alone', async () => {
   await answered(3)
   assert.equal(new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]).get('q'), 'gloss = "VANNES" & phase = stroke')
   assert.match(await page.locator('[role=status]').filter({ hasText: 'LSF' }).textContent(), kDeclared)
+  // What a tier says is asked for when it is wanted, and is in the list as soon as it is there.
+  let asked = 0, goOn
+  const hold = new Promise((resolve) => (goOn = resolve))
+  await page.route('**/labels?tier=Phase', async (route) => {
+    ++asked
+    await hold
+    await route.continue()
+  })
+  await field().fill('')
+  await page.keyboard.type('tier("Phase") = ')
+  assert.deepEqual(await options.locator('code').allTextContents(), ['"…"', '$X'])
+  goOn()
+  await options.filter({ hasText: /^Stroke\s+64 tokens/ }).waitFor()
+  await page.keyboard.type('r')
+  assert.equal(await first().locator('code').textContent(), 'Retraction')
+  await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('Enter')
+  assert.equal(await field().inputValue(), 'tier("Phase") = "Retraction"')
+  assert.equal(asked, 1)
+  await page.unroute('**/labels?tier=Phase')
 })
 
 test('marks what is at fault where it stands, and offers what was meant', async () => {

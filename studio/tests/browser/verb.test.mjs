@@ -43,6 +43,12 @@ test('signweave render', async (t) => {
       assert.notDeepEqual(readFileSync(join(folder, 'p-00001.png')), readFileSync(join(folder, 'p-00002.png')))
     })
 
+    await t.test('a junction is made as it is told', async () => {
+      const frames = async (junction) => JSON.parse((await render('VANNES MATIN', '--junction', junction, '-o', join(folder, 'j.webm'), '--size', '160x90', '--rate', '10')).stdout).frames
+      const more = (await frames('1=quintic,1200ms')) - (await frames('1=300ms'))
+      assert.ok(more >= 8 && more <= 10, `${more} frames more for 900 ms`)
+    })
+
     await t.test('a gloss that is not there is one line, and no file', async () => {
       await assert.rejects(render('VANES', '-o', join(folder, 'none.webm')), (fault) => {
         assert.equal(fault.code, 1)

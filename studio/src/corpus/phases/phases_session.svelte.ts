@@ -179,11 +179,11 @@ export class PhasesSession {
    * reviewed.
    */
   async renew(): Promise<'same' | 'annotation' | 'motion'> {
-    const found = this.found
+    const { found, info: before } = this
     await this.read()
     this.isOn(this.begunOn)
     if (!isOf({ frames: framesOf(this.info!), review: this.review }, this.frames)) return 'motion'
-    return this.found === found ? 'same' : 'annotation'
+    return this.found === found && this.info?.annotation_fingerprint === before?.annotation_fingerprint ? 'same' : 'annotation'
   }
 
   /** The annotation as it is now was stored: what is decided is kept there. */

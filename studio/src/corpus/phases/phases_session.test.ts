@@ -7,10 +7,10 @@ import { PhasesSession } from './phases_session.svelte'
 import { acceptedAll, decided, kEmpty, put } from './review'
 
 /** What the server has. */
-let eaf: string, frames: number
+let eaf: string, frames: number, print: string
 const api = {
   json: (where: string) => Promise.resolve(where.endsWith('/segment') ? { hands: { right: [{ phase: 'stroke', begin_ms: 0, end_ms: 500, confidence: 1 }, { phase: 'hold', begin_ms: 500, end_ms: 700, confidence: 1 }], left: [] } }
-    : { motion_file: 'r.bvh', annotation_file: 'r.eaf', frames, frames_per_second: 100, clock_origin_ms: 0 }),
+    : { motion_file: 'r.bvh', annotation_file: 'r.eaf', annotation_fingerprint: print, frames, frames_per_second: 100, clock_origin_ms: 0 }),
   call: () => Promise.resolve({ arrayBuffer: () => Promise.resolve(new TextEncoder().encode(eaf).buffer) }),
 } as unknown as Api
 const kTheirs = put(kEmpty, { hand: 'right', kind: 'retraction', begin: 100, end: 200, state: 'accepted' })
@@ -21,7 +21,7 @@ const opened = async () => {
 }
 beforeEach(() => {
   localStorage.clear()
-  ;[eaf, frames] = [emptyEaf('r.bvh', ''), 100]
+  ;[eaf, frames, print] = [emptyEaf('r.bvh', ''), 100, '1']
 })
 
 it('sees that the annotation or the motion is another one, and whose phases stay', async () => {
@@ -31,6 +31,9 @@ it('sees that the annotation or the motion is another one, and whose phases stay
   expect([await session.renew(), session.beside, session.eaf.includes('"B"')]).toEqual(['annotation', [], true])
   eaf = writeChecked(eaf, kTheirs, 'B').text
   expect([await session.renew(), session.beside, await session.renew(), session.beside]).toEqual(['annotation', ['right'], 'same', ['right']])
+  // One that came after the recording was asked for and before its annotation was.
+  print = '2'
+  expect([await session.renew(), await session.renew()]).toEqual(['annotation', 'same'])
   // What was stored after that is this review's own.
   await session.stored()
   expect(session.beside).toEqual([])

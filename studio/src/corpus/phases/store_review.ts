@@ -67,9 +67,9 @@ export async function sendReview(api: Api, database: string, recording: string, 
     throw fault
   }
 }
-/** Stores what was sent: the recording's annotation is replaced. */
-export async function storeSent(api: Api, database: string, { upload, body: about, report }: Sent, choice: PhaseChoice | undefined): Promise<Imported> {
-  const body = { ...about, ...(choice && report && !isTold(report, choice) ? { phase_tier: choice.tiers } : {}) }
+/** Stores what was sent: it takes the place of the recording's annotation where that is still `over`. */
+export async function storeSent(api: Api, database: string, { upload, body: about, report }: Sent, choice: PhaseChoice | undefined, over: string): Promise<Imported> {
+  const body = { ...about, if_annotation: over, ...(choice && report && !isTold(report, choice) ? { phase_tier: choice.tiers } : {}) }
   const { recordings } = await api.result<ImportResult>(await beginUpload(api, database, upload, 'import', body))
   return recordings[0]
 }

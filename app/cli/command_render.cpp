@@ -257,7 +257,8 @@ void check(const RenderArguments& given) {
                 "--from and --to draw a part of a recording as it is; --at takes moments of an edit");
   }
   if (!drawn.how.junctions.empty() && !drawn.recording.empty() && !edits) {
-    throw Error(ErrorCode::bad_input, "--junction belongs to an UTTERANCE or to a change: a recording has none to make");
+    throw Error(ErrorCode::bad_input,
+                "--junction belongs to an UTTERANCE or to a change: a recording has none to make");
   }
   if (!given.at.empty() && !fold_case(given.output).ends_with(".png")) {
     throw Error(ErrorCode::bad_input, "--at is for pictures: name them -o FILE.png");

@@ -187,8 +187,12 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   await again
   await page.getByLabel('the checked phases: Phase RH (checked)').check()
   assert.match(await annotation('plain'), />LAST</)
+  // Stored is said when nothing is left to do, however slowly the server answers.
+  const reading = '**/recordings/plain/annotation*'
+  await page.route(reading, (route) => void setTimeout(() => void route.continue(), 400))
   await button('Store in the database').click()
   await page.getByText('Stored: annotation replaced').waitFor({ timeout: 60_000 })
+  await page.unroute(reading)
   assert.equal(await annotation('plain'), written.replace('>METEO<', '>LAST<'))
   const query = encodeURIComponent('phase = stroke')
   const strokes = await (await fetch(`${address}/api/databases/mine/query?text=${query}`)).json()

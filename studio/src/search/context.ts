@@ -54,8 +54,7 @@ function begun(here: Context, { kind, text }: Token, open: readonly string[]): C
 /** Behind a parenthesis that was closed. */
 function closed(of: string | undefined, open: readonly string[], tier: string | undefined): Context {
   if (of === undefined) return { at: 'nothing' }
-  if (of === '' || of === 'like') return { at: 'after', open: open.length }
-  return { at: 'compare', of, part: '', ...(of === 'tier' ? { tier } : {}) }
+  return of === '' || of === 'like' ? { at: 'after', open: open.length } : { at: 'compare', of, part: '', tier }
 }
 
 /** Whether a word needs a parenthesis, as functions and links do. */

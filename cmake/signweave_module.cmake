@@ -2,41 +2,53 @@
 #
 # One module of the library: the folder it is called from. The sources are its table of contents; its tests are found by
 # name (*_test.cpp), never listed. DEPENDS names the modules whose headers it may include; the test `layers` holds it to
-# that. LIBRARIES are third-party targets. APART are sources whose private names are also those of another's: where sources
-# are compiled together, they are not.
+# that. LIBRARIES are third-party targets.
 define_property(GLOBAL PROPERTY SIGNWEAVE_LAYERS BRIEF_DOCS "rows 'module:dependency,dependency'")
 define_property(GLOBAL PROPERTY SIGNWEAVE_MODULES BRIEF_DOCS "library targets, lowest first")
 
-# What nearly every file reads, compiled once. Includes stay written out in each file: the precompiled header only saves time.
+# What nearly every file reads, compiled once (docs/building.md says what it saves). Includes stay written out in each file, and the
+# test `alone` compiles each without any of this: precompiled headers and batches only save time.
+set(read_by_all <Eigen/Geometry> <algorithm> <array> <charconv> <cmath> <filesystem> <functional> <map> <memory> <mutex> <optional> <set>
+                <span> <string> <string_view> <unordered_map> <variant> <vector> <fmt/format.h>)
 file(WRITE ${PROJECT_BINARY_DIR}/pch.cpp "")
-add_library(signweave_pch OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
-target_link_libraries(signweave_pch PRIVATE signweave_flags)
-target_include_directories(signweave_pch SYSTEM PRIVATE ${EIGEN3_INCLUDE_DIRS})
-target_precompile_headers(signweave_pch PRIVATE <Eigen/Geometry> <algorithm> <cmath> <filesystem> <functional> <map> <memory>
-                          <optional> <span> <string> <string_view> <unordered_map> <variant> <vector>)
+function(signweave_precompiled name)
+  cmake_parse_arguments(arg "" "" "LIBRARIES;HEADERS" ${ARGN})
+  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} fmt::fmt)
+  target_include_directories(${name} SYSTEM PRIVATE ${EIGEN3_INCLUDE_DIRS})
+  target_precompile_headers(${name} PRIVATE ${read_by_all} ${arg_HEADERS})
+endfunction()
+signweave_precompiled(signweave_pch LIBRARIES signweave_flags)
+signweave_precompiled(signweave_app_pch LIBRARIES signweave_app_flags nlohmann_json::nlohmann_json HEADERS <nlohmann/json.hpp>)
 if(SIGNWEAVE_TESTS)
-  add_library(signweave_test_pch OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
-  target_link_libraries(signweave_test_pch PRIVATE signweave_test_flags)
-  target_include_directories(signweave_test_pch SYSTEM PRIVATE ${EIGEN3_INCLUDE_DIRS})
-  target_precompile_headers(signweave_test_pch PRIVATE <Eigen/Geometry> <algorithm> <cmath> <filesystem> <functional> <map>
-                            <memory> <optional> <span> <string> <string_view> <unordered_map> <variant> <vector>
-                            <gmock/gmock.h> <gtest/gtest.h> <rapidcheck/gtest.h>)
+  signweave_precompiled(signweave_test_pch LIBRARIES signweave_test_flags HEADERS <gmock/gmock.h> <gtest/gtest.h> <rapidcheck/gtest.h>)
 endif()
 
+# signweave_batches(TARGET [PER_BATCH]): compiles the target's files in batches, so that what they all include and instantiate is
+# compiled once a batch. Files of one target must therefore not share private names. SIGNWEAVE_BATCHES=OFF compiles each by itself,
+# which is quicker where one file is changed again and again.
+function(signweave_batches target)
+  set(size 16)
+  if(ARGC GREATER 1)
+    set(size ${ARGV1})
+  endif()
+  if(SIGNWEAVE_BATCHES)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+    # A type of one file's unnamed namespace is a member of another of its types: no fault, though the batch's name is not the file's.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 function(signweave_module name)
-  cmake_parse_arguments(arg "" "" "SOURCES;APART;DEPENDS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
   set(target signweave_${name})
   list(TRANSFORM arg_DEPENDS PREPEND signweave:: OUTPUT_VARIABLE depends)
   if(arg_SOURCES)
-    add_library(${target} STATIC ${arg_SOURCES} ${arg_APART})
+    add_library(${target} STATIC ${arg_SOURCES})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:signweave_flags>)
     target_precompile_headers(${target} REUSE_FROM signweave_pch)
-    if(SIGNWEAVE_SANITIZE)
-      # A third of the time of compiling is what files include. The release build compiles each by itself.
-      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-      set_source_files_properties(${arg_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    endif()
+    signweave_batches(${target})
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
@@ -52,34 +64,50 @@ function(signweave_module name)
   signweave_tests(${name} LIBRARIES signweave::${name})
 endfunction()
 
-# signweave_tests(NAME LIBRARIES …): one test program from every *_test.cpp of the folder it is called from.
+# signweave_tests(NAME [LABEL full] LIBRARIES …): one test program from every *_test.cpp of the folder it is called from. Its tests
+# are of the tier `quick` unless LABEL says otherwise (CONTRIBUTING.md).
+define_property(GLOBAL PROPERTY SIGNWEAVE_TEST_FILES BRIEF_DOCS "every *_test.cpp of a test program, whether this build makes it or not")
 function(signweave_tests name)
-  cmake_parse_arguments(arg "" "" "LIBRARIES;SOURCES" ${ARGN})
-  if(NOT SIGNWEAVE_TESTS OR (SIGNWEAVE_TESTED AND NOT name IN_LIST SIGNWEAVE_TESTED))
+  cmake_parse_arguments(arg "" "LABEL" "LIBRARIES;SOURCES" ${ARGN})
+  if(NOT SIGNWEAVE_TESTS)
     return()
   endif()
   file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   if(NOT tests)
     return()
   endif()
+  foreach(test IN LISTS tests)
+    file(RELATIVE_PATH short ${PROJECT_SOURCE_DIR} ${test})
+    set_property(GLOBAL APPEND PROPERTY SIGNWEAVE_TEST_FILES ${short})
+  endforeach()
+  if(SIGNWEAVE_TESTED AND NOT name IN_LIST SIGNWEAVE_TESTED)
+    return()
+  endif()
+  if(NOT arg_LABEL)
+    set(arg_LABEL quick)
+  endif()
   add_executable(${name}_test ${tests} ${arg_SOURCES})
   target_link_libraries(${name}_test PRIVATE ${arg_LIBRARIES} signweave_test_flags)
   target_precompile_headers(${name}_test REUSE_FROM signweave_test_pch)
+  add_dependencies(tests_${arg_LABEL} ${name}_test)
   if(SIGNWEAVE_SANITIZE)
     # Instrumented programs take long to start: each runs as a whole, in two halves.
     foreach(half IN ITEMS 0 1)
       add_test(NAME ${name}_test.${half} COMMAND ${name}_test)
-      set_tests_properties(${name}_test.${half} PROPERTIES TIMEOUT 1800
+      set_tests_properties(${name}_test.${half} PROPERTIES TIMEOUT 1800 LABELS ${arg_LABEL}
                            ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${half};GTEST_BRIEF=1")
     endforeach()
   else()
-    gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+    gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${arg_LABEL})
   endif()
 endfunction()
 
-# Writes the table of modules for the test `layers`.
-function(signweave_write_layers)
+# Writes what tests of the structure read: the table of modules, and the files of tests that belong to a program.
+function(signweave_write_structure)
   get_property(rows GLOBAL PROPERTY SIGNWEAVE_LAYERS)
   string(REPLACE ";" "\n" text "${rows}")
   file(WRITE ${PROJECT_BINARY_DIR}/layers.txt "${text}\n")
+  get_property(files GLOBAL PROPERTY SIGNWEAVE_TEST_FILES)
+  string(REPLACE ";" "\n" text "${files}")
+  file(WRITE ${PROJECT_BINARY_DIR}/tested.txt "${text}\n")
 endfunction()

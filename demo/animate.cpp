@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "demo/arm.h"
 #include "demo/arms.h"
 #include "demo/body.h"
 #include "demo/face.h"
@@ -16,10 +17,6 @@ using Eigen::AngleAxisf;
 using Eigen::Matrix3f;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-Quaternionf turn(double angle, const Vector3f& axis) {
-  return Quaternionf(AngleAxisf(static_cast<float>(angle), axis));
-}
 
 /// Fills the frames of one motion, one after another.
 class Animator {

@@ -6,6 +6,11 @@ namespace signweave::demo {
 
 // Everything here is told of the left arm: x to the signer's left, y up, z forward. The right arm is its mirror image.
 
+/// A turn about a unit axis; radians.
+inline Eigen::Quaternionf turn(double angle, const Eigen::Vector3f& axis) {
+  return Eigen::Quaternionf(Eigen::AngleAxisf(static_cast<float>(angle), axis));
+}
+
 /// Two bones of fixed lengths from a joint to a target.
 struct TwoBones {
   Eigen::Vector3f middle;  ///< the elbow or knee, metres

@@ -21,10 +21,6 @@ Quaternionf as_left(const Quaternionf& q, Side side) {
   return side == Side::left ? q : mirrored(q);
 }
 
-Quaternionf turn(double angle, const Vector3f& axis) {
-  return Quaternionf(AngleAxisf(static_cast<float>(angle), axis));
-}
-
 Vector3f middle_of(const std::vector<Vector3f>& points) {
   Vector3f sum = Vector3f::Zero();
   for (const Vector3f& point : points) sum += point;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "signweave/motion/turn_between.h"
+
 namespace signweave::demo {
 namespace {
 
@@ -14,7 +16,7 @@ using Eigen::Vector3f;
 using Angles = std::array<float, kFingerAngles>;
 
 // The thumb.
-constexpr Angles kOut = {68, 6, 0, 0};
+constexpr Angles kThumbOut = {68, 6, 0, 0};
 constexpr Angles kBeside = {22, 14, 6, 8};
 constexpr Angles kHalfOpen = {38, 27, 15, 18};
 constexpr Angles kAcross = {12, 42, 26, 34};  // over index and middle of a fist
@@ -35,26 +37,26 @@ struct Row {
 constexpr Row kShapes[kHandshapes] = {
     {"relaxed",    {kHalfOpen, Angles{22, 26, 14, 3}, Angles{28, 30, 16, 0}, Angles{33, 32, 17, -2}, Angles{36, 32, 18, -5}}},
     {"flat",       {kBeside, kStraight, kStraight, kStraight, Angles{3, 3, 2, 2}}},
-    {"spread",     {kOut, Angles{2, 4, 3, 13}, Angles{2, 4, 3, 2}, Angles{2, 4, 3, -9}, Angles{3, 5, 3, -20}}},
+    {"spread",     {kThumbOut, Angles{2, 4, 3, 13}, Angles{2, 4, 3, 2}, Angles{2, 4, 3, -9}, Angles{3, 5, 3, -20}}},
     {"claw",       {Angles{52, 34, 24, 34}, Angles{18, 58, 34, 11}, Angles{20, 60, 36, 2}, Angles{20, 60, 36, -7}, Angles{18, 56, 34, -16}}},
     {"fist",       {kAcross, kClosed, kClosed, kClosed, kClosed}},
-    {"thumb",      {kOut, kClosed, kClosed, kClosed, kClosed}},
+    {"thumb",      {kThumbOut, kClosed, kClosed, kClosed, kClosed}},
     {"index",      {kAcross, kStraight, kClosed, kClosed, kClosed}},
     {"hook",       {kAcross, Angles{14, 74, 48, 0}, kClosed, kClosed, kClosed}},
     {"two",        {kLocked, Angles{2, 3, 2, 11}, Angles{2, 3, 2, -9}, kClosed, kClosed}},
     {"two_flat",   {kLocked, kStraight, kStraight, kClosed, kClosed}},
     {"two_hook",   {kLocked, Angles{16, 70, 44, 9}, Angles{16, 70, 44, -7}, kClosed, kClosed}},
-    {"two_out",    {kOut, kStraight, kStraight, kClosed, kClosed}},
-    {"three",      {kOut, Angles{2, 3, 2, 11}, Angles{2, 3, 2, -7}, kClosed, kClosed}},
+    {"two_out",    {kThumbOut, kStraight, kStraight, kClosed, kClosed}},
+    {"three",      {kThumbOut, Angles{2, 3, 2, 11}, Angles{2, 3, 2, -7}, kClosed, kClosed}},
     {"trident",    {kLocked, Angles{2, 3, 2, 14}, Angles{2, 3, 2, 0}, Angles{2, 3, 2, -14}, kClosed}},
     {"four",       {kInPalm, Angles{2, 3, 2, 13}, Angles{2, 3, 2, 3}, Angles{2, 3, 2, -8}, Angles{2, 4, 3, -18}}},
-    {"corner",     {kOut, Angles{2, 3, 2, 4}, kClosed, kClosed, kClosed}},
+    {"corner",     {kThumbOut, Angles{2, 3, 2, 4}, kClosed, kClosed, kClosed}},
     {"corner_low", {Angles{58, 24, 4, 4}, Angles{64, 8, 5, 2}, kClosed, kClosed, kClosed}},
-    {"horns",      {kOut, kClosed, kClosed, kClosed, Angles{3, 4, 3, -16}}},
+    {"horns",      {kThumbOut, kClosed, kClosed, kClosed, Angles{3, 4, 3, -16}}},
     {"bull",       {kLocked, Angles{2, 3, 2, 8}, kClosed, kClosed, Angles{3, 4, 3, -14}}},
-    {"wings",      {kOut, Angles{2, 3, 2, 9}, kClosed, kClosed, Angles{3, 4, 3, -16}}},
+    {"wings",      {kThumbOut, Angles{2, 3, 2, 9}, kClosed, kClosed, Angles{3, 4, 3, -16}}},
     {"pinky",      {kAcross, kClosed, kClosed, kClosed, Angles{3, 4, 3, -10}}},
-    {"middle_out", {kOut, Angles{2, 4, 3, 12}, Angles{62, 10, 6, 0}, Angles{4, 5, 3, -9}, Angles{3, 5, 3, -19}}},
+    {"middle_out", {kThumbOut, Angles{2, 4, 3, 12}, Angles{62, 10, 6, 0}, Angles{4, 5, 3, -9}, Angles{3, 5, 3, -19}}},
     {"ring",       {Angles{28, 53, 7, 12}, Angles{58, 52, 20, 0}, Angles{10, 6, 4, -2}, Angles{4, 5, 3, -9}, Angles{2, 4, 3, -17}}},
     {"snap",       {Angles{2, 57, 8, 12}, Angles{4, 5, 3, 9}, Angles{60, 54, 24, 0}, Angles{9, 6, 4, -7}, Angles{4, 4, 3, -16}}},
     {"pinch",      {Angles{37, 46, 16, 22}, Angles{48, 62, 30, 0}, kClosed, kClosed, kClosed}},
@@ -64,7 +66,7 @@ constexpr Row kShapes[kHandshapes] = {
     {"curve",      {Angles{40, 50, 8, 22}, Angles{36, 42, 24, 0}, Angles{38, 44, 24, 0}, Angles{40, 44, 24, 0}, Angles{42, 42, 24, 0}}},
     {"cup",        {Angles{18, 30, 10, 12}, Angles{36, 10, 6, 0}, Angles{38, 10, 6, 0}, Angles{40, 10, 6, 0}, Angles{42, 10, 6, 3}}},
     {"bent",       {kBeside, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 2}}},
-    {"fan",        {kOut, Angles{48, 8, 5, 12}, Angles{50, 8, 5, 2}, Angles{50, 8, 5, -9}, Angles{48, 8, 5, -19}}},
+    {"fan",        {kThumbOut, Angles{48, 8, 5, 12}, Angles{50, 8, 5, 2}, Angles{50, 8, 5, -9}, Angles{48, 8, 5, -19}}},
     {"folded",     {kBeside, Angles{6, 98, 64, 0}, Angles{6, 100, 66, 0}, Angles{6, 100, 66, 0}, Angles{6, 98, 64, 0}}},
     {"tucked",     {kInPalm, kStraight, kStraight, kStraight, Angles{3, 3, 2, 2}}},
 };
@@ -76,7 +78,7 @@ constexpr float kDegree = std::numbers::pi_v<float> / 180.0f;
 const Vector3f kThumbRest = Vector3f(0.030f, -0.010f, 0.026f).normalized();
 const Vector3f kThumbHinge = kThumbRest.cross(Vector3f(0.25f, -0.45f, -0.85f)).normalized();
 
-Quaternionf turn(float degrees, const Vector3f& axis) {
+Quaternionf turn_degrees(float degrees, const Vector3f& axis) {
   return Quaternionf(AngleAxisf(kDegree * degrees, axis));
 }
 
@@ -113,15 +115,15 @@ FingerRotations finger_rotations(const HandAngles& angles, Side side) {
   const float aside = kDegree * thumb[0];
   const float forward = kDegree * thumb[1];
   const Vector3f along(std::cos(forward) * std::cos(aside), -std::sin(forward), std::cos(forward) * std::sin(aside));
-  hand[0][0] = Quaternionf::FromTwoVectors(kThumbRest, along);
-  hand[0][1] = turn(thumb[2], kThumbHinge);
-  hand[0][2] = turn(thumb[3], kThumbHinge);
+  hand[0][0] = turn_between(kThumbRest, along);
+  hand[0][1] = turn_degrees(thumb[2], kThumbHinge);
+  hand[0][2] = turn_degrees(thumb[3], kThumbHinge);
   const Vector3f flexion = -Vector3f::UnitZ();
   for (std::size_t finger = 1; finger < kFingers; ++finger) {
     const Angles& wanted = angles[finger];
-    hand[finger][0] = turn(wanted[3], -Vector3f::UnitY()) * turn(wanted[0], flexion);
-    hand[finger][1] = turn(wanted[1], flexion);
-    hand[finger][2] = turn(wanted[2], flexion);
+    hand[finger][0] = turn_degrees(wanted[3], -Vector3f::UnitY()) * turn_degrees(wanted[0], flexion);
+    hand[finger][1] = turn_degrees(wanted[1], flexion);
+    hand[finger][2] = turn_degrees(wanted[2], flexion);
   }
   if (side == Side::right) {
     for (auto& finger : hand) {

@@ -52,36 +52,36 @@ const FingerShape kHand[kFingers] = {
 
 const Vector3f kWrist = {0.705f, 1.385f, -0.010f};  // left, rest pose
 
-Vector3f mirrored(const Vector3f& place, Side side) {
+Vector3f on_side(const Vector3f& place, Side side) {
   return {sign_of(side) * place.x(), place.y(), place.z()};
 }
 
 SideJoints add_arm(Builder& body, Side side, JointIndex chest) {
   const std::string name = side == Side::left ? "Left" : "Right";
   SideJoints joints{};
-  joints.shoulder = body.add(name + "Shoulder", chest, mirrored({0.025f, 1.375f, 0.005f}, side));
-  joints.arm = body.add(name + "Arm", joints.shoulder, mirrored({0.175f, 1.385f, -0.010f}, side));
-  joints.fore_arm = body.add(name + "ForeArm", joints.arm, mirrored({0.455f, 1.385f, -0.010f}, side));
-  joints.hand = body.add(name + "Hand", joints.fore_arm, mirrored(kWrist, side));
+  joints.shoulder = body.add(name + "Shoulder", chest, on_side({0.025f, 1.375f, 0.005f}, side));
+  joints.arm = body.add(name + "Arm", joints.shoulder, on_side({0.175f, 1.385f, -0.010f}, side));
+  joints.fore_arm = body.add(name + "ForeArm", joints.arm, on_side({0.455f, 1.385f, -0.010f}, side));
+  joints.hand = body.add(name + "Hand", joints.fore_arm, on_side(kWrist, side));
   for (std::size_t finger = 0; finger < kFingers; ++finger) {
     JointIndex parent = joints.hand;
     for (std::size_t phalanx = 0; phalanx < kPhalanges; ++phalanx) {
       parent = body.add(name + "Hand" + kHand[finger].name + std::to_string(phalanx + 1), parent,
-                        mirrored(kWrist + kHand[finger].points[phalanx], side));
+                        on_side(kWrist + kHand[finger].points[phalanx], side));
       joints.fingers[finger][phalanx] = parent;
     }
-    body.tip(parent, mirrored(kWrist + kHand[finger].points[kPhalanges], side));
+    body.tip(parent, on_side(kWrist + kHand[finger].points[kPhalanges], side));
   }
   return joints;
 }
 
 void add_leg(Builder& body, Side side, JointIndex hips, SideJoints& joints) {
   const std::string name = side == Side::left ? "Left" : "Right";
-  joints.up_leg = body.add(name + "UpLeg", hips, mirrored({0.090f, 0.900f, 0.000f}, side));
-  joints.leg = body.add(name + "Leg", joints.up_leg, mirrored({0.095f, 0.485f, 0.005f}, side));
-  joints.foot = body.add(name + "Foot", joints.leg, mirrored({0.100f, 0.080f, -0.020f}, side));
-  joints.toe = body.add(name + "ToeBase", joints.foot, mirrored({0.110f, 0.020f, 0.110f}, side));
-  body.tip(joints.toe, mirrored({0.115f, 0.015f, 0.185f}, side));
+  joints.up_leg = body.add(name + "UpLeg", hips, on_side({0.090f, 0.900f, 0.000f}, side));
+  joints.leg = body.add(name + "Leg", joints.up_leg, on_side({0.095f, 0.485f, 0.005f}, side));
+  joints.foot = body.add(name + "Foot", joints.leg, on_side({0.100f, 0.080f, -0.020f}, side));
+  joints.toe = body.add(name + "ToeBase", joints.foot, on_side({0.110f, 0.020f, 0.110f}, side));
+  body.tip(joints.toe, on_side({0.115f, 0.015f, 0.185f}, side));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 namespace http = boost::beast::http;
 
-constexpr std::size_t kChunk = 64 * 1024;
+constexpr std::size_t kReplyChunk = 64 * 1024;
 constexpr std::chrono::milliseconds kLinger{2'000};
 constexpr std::size_t kMostLingered = 8 << 20;
 
@@ -96,7 +96,7 @@ void HttpSession::reply(Reply reply) {
 
 void HttpSession::send_head() {
   within(thread_.context.options.limits.body_time);
-  const std::size_t with = file_ >= 0 ? 0 : std::min<std::size_t>(kChunk, length_);
+  const std::size_t with = file_ >= 0 ? 0 : std::min<std::size_t>(kReplyChunk, length_);
   sent_ = with;
   const std::array parts = {boost::asio::buffer(head_), boost::asio::buffer(reply_.body.data(), with)};
   boost::asio::async_write(socket_, parts, [self = shared_from_this()](Error error, std::size_t) {
@@ -109,9 +109,9 @@ void HttpSession::send_next() {
   if (!socket_.is_open()) return;
   if (sent_ >= length_) return after_reply();
   within(thread_.context.options.limits.body_time);
-  const auto chunk = static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, length_ - sent_));
+  const auto chunk = static_cast<std::size_t>(std::min<std::uint64_t>(kReplyChunk, length_ - sent_));
   if (file_ < 0) return send_chunk(reply_.body.data() + sent_, chunk);
-  chunk_.resize(kChunk);
+  chunk_.resize(kReplyChunk);
   boost::asio::post(thread_.context.disk, [self = shared_from_this(), chunk, at = begins_ + sent_]() mutable {
     const ssize_t n = ::pread(self->file_, self->chunk_.data(), chunk, static_cast<off_t>(at));
     IoThread& thread = self->thread_;
@@ -150,7 +150,7 @@ void HttpSession::linger() {
     within(kLinger);
     Error error;
     socket_.shutdown(boost::asio::ip::tcp::socket::shutdown_send, error);
-    chunk_.resize(kChunk);
+    chunk_.resize(kReplyChunk);
   }
   // Closing with unread bytes would reset the connection, and the client might never see its answer.
   socket_.async_read_some(boost::asio::buffer(chunk_), [self = shared_from_this()](Error error, std::size_t bytes) {

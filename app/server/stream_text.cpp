@@ -5,21 +5,21 @@
 namespace signweave::server {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-std::string line_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string line_of(const OrderedJson& json) {
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
-void add_id(Json& json, std::string_view id) {
-  if (!id.empty()) json["id"] = Json::parse(id);
+void add_id(OrderedJson& json, std::string_view id) {
+  if (!id.empty()) json["id"] = OrderedJson::parse(id);
 }
 
-Json list_of(const Eigen::Vector3f& v) {
+OrderedJson list_of(const Eigen::Vector3f& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-std::string_view name_of(PlayerEvent::Kind kind) noexcept {
+std::string_view event_name(PlayerEvent::Kind kind) noexcept {
   switch (kind) {
     case PlayerEvent::Kind::place:
       return "place";
@@ -38,7 +38,7 @@ std::string_view name_of(PlayerEvent::Kind kind) noexcept {
 }  // namespace
 
 std::string header_text(const StreamHeader& header, const HeaderContext& context) {
-  Json joints = Json::array();
+  OrderedJson joints = OrderedJson::array();
   const Skeleton& skeleton = *header.skeleton;
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
     const Joint& joint = skeleton.joint(static_cast<JointIndex>(j));
@@ -47,15 +47,15 @@ std::string header_text(const StreamHeader& header, const HeaderContext& context
                       {"offset", list_of(joint.offset)},
                       {"translated", joint.translated}});
   }
-  Json tips = Json::array();
+  OrderedJson tips = OrderedJson::array();
   for (const Tip& tip : skeleton.tips()) {
     tips.push_back({{"joint", static_cast<std::int64_t>(tip.joint)}, {"offset", list_of(tip.offset)}});
   }
-  Json translated = Json::array();
+  OrderedJson translated = OrderedJson::array();
   for (const JointIndex joint : skeleton.translated_joints()) translated.push_back(static_cast<std::int64_t>(joint));
-  Json declarations = Json::array();
+  OrderedJson declarations = OrderedJson::array();
   for (const auto& [name, value] : header.declarations) declarations.push_back({{"name", name}, {"value", value}});
-  Json json = {{"type", "header"}, {"database", context.database}, {"recording", header.layout_from}};
+  OrderedJson json = {{"type", "header"}, {"database", context.database}, {"recording", header.layout_from}};
   if (!context.character.empty()) json["character"] = context.character;
   json["declarations"] = std::move(declarations);
   json["rate"] = header.rate.hertz();
@@ -75,19 +75,19 @@ std::string header_text(const StreamHeader& header, const HeaderContext& context
 }
 
 std::string ok_text(std::string_view id, std::uint64_t frame) {
-  Json json = {{"type", "ok"}, {"frame", frame}};
+  OrderedJson json = {{"type", "ok"}, {"frame", frame}};
   add_id(json, id);
   return line_of(json);
 }
 
 std::string error_text(ErrorCode code, std::string_view message, std::string_view id) {
-  Json json = {{"type", "error"}, {"code", name_of(code)}, {"message", message}};
+  OrderedJson json = {{"type", "error"}, {"code", name_of(code)}, {"message", message}};
   add_id(json, id);
   return line_of(json);
 }
 
 std::string event_text(const PlayerEvent& event) {
-  Json json = {{"type", name_of(event.kind)}, {"frame", event.frame}};
+  OrderedJson json = {{"type", event_name(event.kind)}, {"frame", event.frame}};
   if (event.kind == PlayerEvent::Kind::place) {
     json["place"] = event.place;
     json["gloss"] = event.gloss;

@@ -12,6 +12,11 @@ using Milliseconds = std::chrono::milliseconds;  ///< annotation time, whole mil
 using Seconds = std::chrono::duration<double>;   ///< everything that is computed
 using namespace std::chrono_literals;
 
+/// Milliseconds as a plain number, for statistics.
+inline double count_of(Milliseconds time) noexcept {
+  return static_cast<double>(time.count());
+}
+
 /// [begin, end) of annotation time.
 struct TimeSpan {
   Milliseconds begin{0};

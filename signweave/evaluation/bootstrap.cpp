@@ -7,7 +7,7 @@
 namespace signweave {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoEstimate = std::numeric_limits<double>::quiet_NaN();
 
 struct Sums {
   double value = 0;
@@ -15,7 +15,7 @@ struct Sums {
 };
 
 double figure_of(const Sums& sums, Pooling pooling) {
-  const double mean = sums.weight > 0 ? sums.value / sums.weight : kNone;
+  const double mean = sums.weight > 0 ? sums.value / sums.weight : kNoEstimate;
   return pooling == Pooling::geometric ? std::exp(mean) : mean;
 }
 
@@ -42,7 +42,7 @@ const std::vector<std::uint32_t>& Bootstrap::draws_of(std::size_t clusters) {
 Estimate Bootstrap::estimate(std::span<const ClusteredScore> scores, Pooling pooling) {
   std::map<std::size_t, Sums> by_cluster;
   Sums all;
-  Estimate estimate{.value = kNone, .low = kNone, .high = kNone};
+  Estimate estimate{.value = kNoEstimate, .low = kNoEstimate, .high = kNoEstimate};
   for (const ClusteredScore& one : scores) {
     if (!one.score.known()) continue;
     Sums& sums = by_cluster[one.cluster];

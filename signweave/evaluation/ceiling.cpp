@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector3f;
 using Path = std::span<const Vector3f>;
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kNoError = std::numeric_limits<double>::infinity();
 constexpr float kVelocityReach = 0.1f;  // seconds: how far a velocity at a border counts as a place. (ours)
 
 /// How far a stretch is from the wanted one once its ends are shifted to meet: the mean over the frames between. Stops
@@ -45,8 +45,8 @@ bool alike(const EvaluatedMotion& a, const EvaluatedMotion& b) {
 
 /// What is nearest to a span.
 struct Nearest {
-  double by_borders = kNone;
-  double knowing = kNone;
+  double by_borders = kNoError;
+  double knowing = kNoError;
 };
 
 Nearest nearest_to(std::span<const EvaluatedMotion> recordings, const EvaluatedSpan& span,
@@ -77,7 +77,7 @@ Nearest nearest_to(std::span<const EvaluatedMotion> recordings, const EvaluatedS
           continue;
       } else if (const float one = border_distance(path, at, wanted, wanted_at, last, hertz); one < least) {
         least = one;
-        nearest.by_borders = error_of(path.subspan(at, last + 1), wanted.subspan(wanted_at, last + 1), kNone);
+        nearest.by_borders = error_of(path.subspan(at, last + 1), wanted.subspan(wanted_at, last + 1), kNoError);
       }
       nearest.knowing = std::min(
           nearest.knowing, error_of(path.subspan(at, last + 1), wanted.subspan(wanted_at, last + 1), nearest.knowing));

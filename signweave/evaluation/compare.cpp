@@ -1,5 +1,7 @@
 #include "signweave/evaluation/compare.h"
 
+#include "signweave/evaluation/frame_at.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,10 +12,6 @@ namespace signweave {
 namespace {
 
 using Eigen::Vector3f;
-
-std::size_t at(std::int64_t frame) {
-  return static_cast<std::size_t>(frame);
-}
 
 /// A made point for a captured frame: where each is as far between the borders, linear between made frames.
 struct Place {

@@ -10,7 +10,7 @@
 namespace signweave {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 /// Weights of a cubic's derivative of some order at s = 0, fitted to s = -left … right by least squares. Per frame to
 /// the power of the order.
@@ -99,7 +99,7 @@ double length_of(std::span<const Eigen::Vector3f> path) noexcept {
 
 double log_dimensionless_jerk(std::span<const double> speeds, std::span<const double> squared_jerks,
                               FrameRate rate) noexcept {
-  if (speeds.empty() || speeds.size() != squared_jerks.size()) return kNone;
+  if (speeds.empty() || speeds.size() != squared_jerks.size()) return kNotMeasured;
   const double step = rate.frame_time().count();
   const double peak = *std::max_element(speeds.begin(), speeds.end());
   double integral = 0;  // by trapezia
@@ -107,14 +107,14 @@ double log_dimensionless_jerk(std::span<const double> speeds, std::span<const do
     integral += 0.5 * step * (squared_jerks[i - 1] + squared_jerks[i]);
   }
   const double duration = step * static_cast<double>(speeds.size() - 1);
-  if (!(peak > 1e-6) || !(integral > 0)) return kNone;
+  if (!(peak > 1e-6) || !(integral > 0)) return kNotMeasured;
   return -std::log(duration * duration * duration / (peak * peak) * integral);
 }
 
 double spectral_arc_length(std::span<const double> speeds, FrameRate rate) {
   constexpr double kHighest = 10;      // Hz
   constexpr double kThreshold = 0.05;  // of the greatest amplitude
-  if (speeds.size() < 2) return kNone;
+  if (speeds.size() < 2) return kNotMeasured;
   std::vector<std::complex<double>> spectrum(std::bit_ceil(speeds.size()) << 4);
   for (std::size_t i = 0; i < speeds.size(); ++i) spectrum[i] = speeds[i];
   transform(spectrum);
@@ -123,12 +123,12 @@ double spectral_arc_length(std::span<const double> speeds, FrameRate rate) {
   double most = 0;
   std::vector<double> amplitudes;
   for (std::size_t i = 0; i <= spectrum.size() / 2; ++i) most = std::max(most, std::abs(spectrum[i]));
-  if (!(most > 1e-9)) return kNone;
+  if (!(most > 1e-9)) return kNotMeasured;
   for (std::size_t i = 0; i <= spectrum.size() / 2 && hertz * static_cast<double>(i) <= kHighest; ++i) {
     amplitudes.push_back(std::abs(spectrum[i]) / most);
     if (amplitudes.back() >= kThreshold) end = i + 1;
   }
-  if (end < 2) return kNone;
+  if (end < 2) return kNotMeasured;
   const double step = 1 / static_cast<double>(end - 1);  // of frequency, as a share of the range that counts
   double length = 0;
   for (std::size_t i = 1; i < end; ++i) length += std::hypot(step, amplitudes[i] - amplitudes[i - 1]);

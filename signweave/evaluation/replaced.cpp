@@ -4,6 +4,7 @@
 
 #include "signweave/core/text.h"
 #include "signweave/evaluation/evaluate.h"
+#include "signweave/evaluation/frame_at.h"
 #include "signweave/evaluation/regenerate.h"
 #include "signweave/evaluation/training.h"
 #include "signweave/evaluation/wrist_kinematics.h"
@@ -14,10 +15,6 @@ namespace signweave {
 namespace {
 
 using Eigen::Vector3f;
-
-std::size_t at(std::int64_t frame) {
-  return static_cast<std::size_t>(frame);
-}
 
 /// The frames of a sign's strokes; empty where it has none, or they reach out of the motion or a defect spoils them.
 FrameRange stroke_frames(const EvaluatedMotion& recording, const Sign& sign) {

@@ -1,6 +1,7 @@
 #include "signweave/evaluation/spans.h"
 
 #include <fmt/format.h>
+#include "signweave/evaluation/frame_at.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,10 +23,6 @@ struct Peak {
 
 constexpr Seconds kShortest{0.1};  // of a natural movement
 constexpr Seconds kLongest{2.0};
-
-std::size_t at(std::int64_t frame) {
-  return static_cast<std::size_t>(frame);
-}
 
 std::int64_t frames_in(Seconds time, FrameRate rate) {
   return std::max<std::int64_t>(1, std::llround(time.count() * rate.hertz()));

@@ -11,10 +11,6 @@
 namespace signweave {
 namespace {
 
-double number_of(Milliseconds time) noexcept {
-  return static_cast<double>(time.count());
-}
-
 /// Where its meaning is: a sign without stroke has no better place than all of it.
 TimeSpan middle_of(const Sign& sign) {
   return sign.stroke_span().value_or(sign.span);
@@ -37,9 +33,9 @@ std::vector<GlossStats> glosses_of(std::span<const Sign> signs) {
   for (const Sign& sign : signs) {
     Group& group = groups[match_form(sign.gloss)];
     if (group.whole.empty()) group.gloss = sign.gloss;
-    group.whole.push_back(number_of(sign.span.duration()));
+    group.whole.push_back(count_of(sign.span.duration()));
     const auto stroke = sign.stroke_span();
-    if (stroke && !sign.inferred) group.strokes.push_back(number_of(stroke->duration()));
+    if (stroke && !sign.inferred) group.strokes.push_back(count_of(stroke->duration()));
   }
   std::vector<GlossStats> result;
   for (const auto& [name, group] : groups) {
@@ -77,7 +73,7 @@ std::vector<NgramStats> ngrams_of(std::span<const std::vector<Sign>> recordings,
         if (group.count == 1) group.glosses.push_back(signs[order[k]].gloss);
         if (k == first) continue;
         const TimeSpan before = middle_of(signs[order[k - 1]]);
-        group.intervals.push_back(number_of(middle_of(signs[order[k]]).begin - before.end));
+        group.intervals.push_back(count_of(middle_of(signs[order[k]]).begin - before.end));
       }
     }
   }

@@ -12,16 +12,12 @@
 namespace signweave {
 namespace {
 
-double number_of(Milliseconds time) noexcept {
-  return static_cast<double>(time.count());
-}
-
 template <typename DurationOf>
 PartStats part_of(std::span<const RecordedTransition> transitions, const DurationOf& duration_of,
                   std::array<HandTravel, 2> TransitionMotion::*part) {
   PartStats stats;
   std::vector<double> durations;
-  for (const RecordedTransition& one : transitions) durations.push_back(number_of(duration_of(one.transition)));
+  for (const RecordedTransition& one : transitions) durations.push_back(count_of(duration_of(one.transition)));
   stats.duration = distribution_of(durations);
   for (std::size_t side = 0; side < stats.hands.size(); ++side) {
     std::vector<double> displacements;
@@ -76,9 +72,9 @@ TransitionStats summarize(std::span<const Transition> transitions) {
   double preparation = 0;
   for (const Transition& transition : transitions) {
     if (transition.inferred != stats.inferred) continue;
-    durations.push_back(number_of(transition.span.duration()));
-    retraction += number_of(transition.retraction);
-    preparation += number_of(transition.preparation);
+    durations.push_back(count_of(transition.span.duration()));
+    retraction += count_of(transition.retraction);
+    preparation += count_of(transition.preparation);
   }
   const Distribution of = distribution_of(durations);
   stats.count = of.count;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "signweave/rig/joint_at.h"
+
 namespace signweave {
 namespace {
 
@@ -12,10 +14,6 @@ using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
-
-std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// One ring of a turned solid: how far along the axis, and its two half widths.
 struct Ring {

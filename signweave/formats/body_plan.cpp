@@ -4,16 +4,13 @@
 #include <cmath>
 
 #include "signweave/rig/body_shape.h"
+#include "signweave/rig/joint_at.h"
 #include "signweave/rig/structure.h"
 
 namespace signweave {
 namespace {
 
 using Eigen::Vector3f;
-
-std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// `of` without its part along `axis`, at unit length; `otherwise` where nothing is left.
 Vector3f across(const Vector3f& of, const Vector3f& axis, const Vector3f& otherwise) {

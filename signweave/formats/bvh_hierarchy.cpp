@@ -14,9 +14,6 @@ namespace signweave::bvh {
 namespace {
 
 constexpr std::size_t kMostJoints = 65'535;
-constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
-                                                           "Xrotation", "Yrotation", "Zrotation"};
-
 std::optional<Channel> channel_named(std::string_view word) noexcept {
   for (std::size_t i = 0; i < kChannelNames.size(); ++i) {
     if (is_keyword(word, kChannelNames[i])) return static_cast<Channel>(i);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "signweave/core/text_reader.h"
@@ -16,6 +18,10 @@ struct Hierarchy {
   std::vector<std::vector<Channel>> channels;  ///< [joint]
   std::size_t channel_count = 0;               ///< numbers a frame
 };
+
+/// How a channel is written: [Channel].
+inline constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
+                                                                  "Xrotation", "Yrotation", "Zrotation"};
 
 /// Lengths and angles past this are no measurements, and would not survive the arithmetic.
 inline constexpr double kLargest = 1e9;

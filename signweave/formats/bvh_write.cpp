@@ -11,6 +11,7 @@
 #include "signweave/formats/bvh.h"
 #include "signweave/formats/bvh_decimal.h"
 #include "signweave/formats/bvh_euler.h"
+#include "signweave/formats/bvh_hierarchy.h"
 #include "signweave/formats/bvh_space.h"
 
 namespace signweave::bvh {
@@ -20,9 +21,6 @@ constexpr std::size_t kFlushAt = std::size_t{1} << 16;
 constexpr std::size_t kDeepestIndent = 24;  ///< a chain of 60,000 joints would be all tabs otherwise
 constexpr std::size_t kNotTranslated = static_cast<std::size_t>(-1);
 constexpr int kAngleDecimals = 5;  ///< degrees; what follows is the rounding of float quaternions
-constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
-                                                           "Xrotation", "Yrotation", "Zrotation"};
-
 using Sink = std::function<void(std::string_view)>;
 
 /// The shortest decimal of six places or more that reads back as this rate, or comes nearest to it.

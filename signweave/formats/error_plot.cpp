@@ -13,20 +13,20 @@ namespace signweave {
 namespace {
 
 // Pixels.
-constexpr double kLeft = 70;
+constexpr double kLinesLeft = 70;
 constexpr double kField = 640;
-constexpr double kNames = 210;  // right of the field
-constexpr double kHeight = 280;
-constexpr double kTitle = 40;
-constexpr double kFoot = 40;
+constexpr double kLinesNames = 210;  // right of the field
+constexpr double kLinesHeight = 280;
+constexpr double kLinesTitle = 40;
+constexpr double kLinesFoot = 40;
 constexpr double kNameStep = 15;  // between names at least
 constexpr double kSpread = 5;     // rows beside each other at one place
-constexpr const char* kInk = "#202226";
+constexpr const char* kLinesInk = "#202226";
 // Okabe and Ito 2008: told apart by colour-blind readers too.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 constexpr const char* kDashes[] = {"", "6 3", "2 3"};
 
-double axis_step(double top) {
+double line_axis_step(double top) {
   for (double step = 1e-4;; step *= 10) {
     for (const double factor : {1.0, 2.0, 5.0}) {
       if (top / (step * factor) <= 6) return step * factor;
@@ -42,7 +42,7 @@ Style style_of(std::size_t row) {
   return {kColours[row % std::size(kColours)], kDashes[row / std::size(kColours) % std::size(kDashes)]};
 }
 
-class Canvas {
+class LineCanvas {
  public:
   template <typename... Arguments>
   void put(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
@@ -87,26 +87,26 @@ std::vector<double> name_places(std::vector<double> wanted, double head, double 
 }
 
 double height_of(const ErrorPanel& panel) {
-  return kTitle + std::max(kHeight, kNameStep * static_cast<double>(panel.rows.size())) + kFoot;
+  return kLinesTitle + std::max(kLinesHeight, kNameStep * static_cast<double>(panel.rows.size())) + kLinesFoot;
 }
 
-void draw(Canvas& canvas, const ErrorPanel& panel, double y) {
-  const double head = y + kTitle;
-  const double bottom = head + kHeight;
+void draw(LineCanvas& canvas, const ErrorPanel& panel, double y) {
+  const double head = y + kLinesTitle;
+  const double bottom = head + kLinesHeight;
   const double top = top_of(panel);
-  const double step = axis_step(top);
-  const auto height_at = [&](double value) { return bottom - kHeight * std::clamp(value / top, -0.05, 1.0); };
-  canvas.words(kLeft, head - 16, 15, "start", kInk, panel.title);
+  const double step = line_axis_step(top);
+  const auto height_at = [&](double value) { return bottom - kLinesHeight * std::clamp(value / top, -0.05, 1.0); };
+  canvas.words(kLinesLeft, head - 16, 15, "start", kLinesInk, panel.title);
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
   for (double at = 0; at <= top; at += step) {
-    canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#c8ccd1\" stroke-width=\"0.7\"/>", kLeft, height_at(at),
+    canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#c8ccd1\" stroke-width=\"0.7\"/>", kLinesLeft, height_at(at),
                kField);
-    canvas.words(kLeft - 8, height_at(at) + 4, 12, "end", kInk, fmt::format("{:.{}f}", at, decimals));
+    canvas.words(kLinesLeft - 8, height_at(at) + 4, 12, "end", kLinesInk, fmt::format("{:.{}f}", at, decimals));
   }
   const double wide = kField / static_cast<double>(std::max<std::size_t>(1, panel.places.size()));
-  const auto place_at = [&](std::size_t place) { return kLeft + wide * (static_cast<double>(place) + 0.5); };
+  const auto place_at = [&](std::size_t place) { return kLinesLeft + wide * (static_cast<double>(place) + 0.5); };
   for (std::size_t place = 0; place < panel.places.size(); ++place) {
-    canvas.words(place_at(place), bottom + 20, 12, "middle", kInk, panel.places[place]);
+    canvas.words(place_at(place), bottom + 20, 12, "middle", kLinesInk, panel.places[place]);
   }
   std::vector<double> ends;
   for (std::size_t r = 0; r < panel.rows.size(); ++r) {
@@ -139,9 +139,9 @@ void draw(Canvas& canvas, const ErrorPanel& panel, double y) {
   for (std::size_t r = 0; r < panel.rows.size(); ++r) {
     const Style style = style_of(r);
     canvas.put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}h18\" stroke=\"{}\" fill=\"none\" stroke-width=\"1\"{}/>",
-               kLeft + kField - 4, ends[r], kLeft + kField + 12, places[r], style.colour,
+               kLinesLeft + kField - 4, ends[r], kLinesLeft + kField + 12, places[r], style.colour,
                *style.dash == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dash));
-    canvas.words(kLeft + kField + 34, places[r] + 4, 12, "start", style.colour, panel.rows[r].name);
+    canvas.words(kLinesLeft + kField + 34, places[r] + 4, 12, "start", style.colour, panel.rows[r].name);
   }
 }
 
@@ -150,11 +150,11 @@ void draw(Canvas& canvas, const ErrorPanel& panel, double y) {
 std::string error_plot(const std::vector<ErrorPanel>& panels) {
   double height = 10;
   for (const ErrorPanel& panel : panels) height += height_of(panel);
-  Canvas canvas;
+  LineCanvas canvas;
   canvas.put(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
       "font-family=\"sans-serif\">",
-      kLeft + kField + kNames, height);
+      kLinesLeft + kField + kLinesNames, height);
   canvas.put("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");
   double y = 0;
   for (const ErrorPanel& panel : panels) {

@@ -13,7 +13,7 @@ namespace signweave::fbx {
 namespace {
 
 /// Below this a bone's length counts as constant, metres.
-constexpr float kStill = 1e-6f;
+constexpr float kNoDrift = 1e-6f;
 
 /// One vector per frame, or one for all.
 struct Samples {
@@ -177,8 +177,9 @@ class MotionMaker {
 
   Joint joint_of(std::size_t index, JointFrames& frames) {
     const Eigen::Vector3f first = frames.translations.front();
-    const bool still = std::all_of(frames.translations.begin(), frames.translations.end(),
-                                   [&](const auto& place) { return (place - first).cwiseAbs().maxCoeff() <= kStill; });
+    const bool still = std::all_of(frames.translations.begin(), frames.translations.end(), [&](const auto& place) {
+      return (place - first).cwiseAbs().maxCoeff() <= kNoDrift;
+    });
     if (still) frames.translations = {first};
     return {.name = from_.scene.nodes[from_.bones[index]].name,
             .parent = parent_of(index),

@@ -12,15 +12,15 @@ namespace signweave {
 namespace {
 
 // Pixels.
-constexpr double kLeft = 66;       // the axis and its numbers
-constexpr double kRight = 118;     // what the mean and the band are
-constexpr double kWidth = 1000;    // of the bars' field
-constexpr double kHeight = 240;    // likewise
-constexpr double kTitle = 40;      // above a row
-constexpr double kFoot = 34;       // below a row without labels
-constexpr double kKey = 34;        // the key, at the top
-constexpr double kWidestBar = 40;  // with its gap
-constexpr double kLabelStep = 13;  // a bar with its gap must have so much for a label
+constexpr double kBarsLeft = 66;     // the axis and its numbers
+constexpr double kRight = 118;       // what the mean and the band are
+constexpr double kWidth = 1000;      // of the bars' field
+constexpr double kBarsHeight = 240;  // likewise
+constexpr double kBarsTitle = 40;    // above a row
+constexpr double kBarsFoot = 34;     // below a row without labels
+constexpr double kKey = 34;          // the key, at the top
+constexpr double kWidestBar = 40;    // with its gap
+constexpr double kLabelStep = 13;    // a bar with its gap must have so much for a label
 constexpr double kLabelSize = 11;
 constexpr double kLongestLabel = 150;
 constexpr double kGap = 0.22;  // of a bar's step
@@ -29,10 +29,10 @@ constexpr const char* kRetraction = "#1f4e79";
 constexpr const char* kPreparation = "#f0a94a";
 constexpr const char* kBetween = "#ffffff";
 constexpr const char* kBand = "#d9dbde";
-constexpr const char* kInk = "#202226";
+constexpr const char* kBarsInk = "#202226";
 
 /// A round step of the axis that makes about five of them.
-double axis_step(double top) {
+double bar_axis_step(double top) {
   for (double step = 1;; step *= 10) {
     for (const double factor : {1.0, 2.0, 5.0}) {
       if (top / (step * factor) <= 6) return step * factor;
@@ -74,11 +74,11 @@ std::vector<Row> rows_of(const std::vector<TransitionPanel>& panels) {
 }
 
 double height_of(const Row& row) {
-  return kTitle + kHeight + kFoot + 0.87 * row.labels;  // they hang at 60°
+  return kBarsTitle + kBarsHeight + kBarsFoot + 0.87 * row.labels;  // they hang at 60°
 }
 
 /// Draws into `out`.
-struct Canvas {
+struct BarCanvas {
   std::string& out;
   template <typename... Arguments>
   void put(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
@@ -93,12 +93,12 @@ struct Canvas {
   }
   void text(double x, double y, double size, const char* anchor, std::string_view what, const char* more = "") {
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>", x, y, size,
-        anchor, kInk, more, svg_text(what));
+        anchor, kBarsInk, more, svg_text(what));
   }
 };
 
-void draw_key(Canvas& canvas, bool inferred) {
-  double x = kLeft;
+void draw_key(BarCanvas& canvas, bool inferred) {
+  double x = kBarsLeft;
   const auto entry = [&](const char* fill, const char* edge, std::string_view what) {
     canvas.put("<rect x=\"{:.1f}\" y=\"10\" width=\"14\" height=\"14\" fill=\"{}\" stroke=\"{}\"/>", x, fill, edge);
     canvas.text(x + 20, 22, 13, "start", what);
@@ -106,11 +106,11 @@ void draw_key(Canvas& canvas, bool inferred) {
   };
   entry(kRetraction, kRetraction, "retraction");
   entry(kPreparation, kPreparation, "preparation");
-  if (inferred) entry(kBetween, kInk, "gap between signs, parts unknown");
+  if (inferred) entry(kBetween, kBarsInk, "gap between signs, parts unknown");
   entry(kBand, kBand, "mean ± 1 SD");
 }
 
-void draw_bar(Canvas& canvas, const TransitionBar& bar, double x, double width, double bottom, double scale) {
+void draw_bar(BarCanvas& canvas, const TransitionBar& bar, double x, double width, double bottom, double scale) {
   canvas.put("<g><title>{}: {:.0f} ms ({:.0f} + {:.0f}) at {:.0f} ms</title>", svg_text(label_of(bar)), bar.whole,
              bar.retraction, bar.preparation, bar.begin);
   const double whole = bar.whole * scale;
@@ -122,38 +122,38 @@ void draw_bar(Canvas& canvas, const TransitionBar& bar, double x, double width, 
     canvas.put(
         "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" "
         "stroke-width=\"0.6\"/>",
-        x, bottom - retraction - between, width, between, kBetween, kInk);
+        x, bottom - retraction - between, width, between, kBetween, kBarsInk);
   }
   canvas.box(x, bottom - whole, width, preparation, kPreparation);
   canvas.put("</g>");
 }
 
-void draw_row(Canvas& canvas, const Row& row, double y, double top, double step) {
+void draw_row(BarCanvas& canvas, const Row& row, double y, double top, double step) {
   const TransitionPanel& panel = *row.panel;
-  const double scale = kHeight / top;
-  const double head = y + kTitle;
-  const double bottom = head + kHeight;
+  const double scale = kBarsHeight / top;
+  const double head = y + kBarsTitle;
+  const double bottom = head + kBarsHeight;
   const std::string part =
       row.end - row.begin == panel.bars.size() ? std::string() : fmt::format(", {} to {}", row.begin + 1, row.end);
-  canvas.text(kLeft, head - 14, 15, "start",
+  canvas.text(kBarsLeft, head - 14, 15, "start",
               fmt::format("{}: {} transition{}{}, mean {:.0f} ms, SD {:.0f} ms", panel.title, panel.bars.size(),
                           panel.bars.size() == 1 ? "" : "s", part, panel.mean, panel.deviation),
               " font-weight=\"bold\"");
   const double band_top = std::min(top, panel.mean + panel.deviation);
   const double band_low = std::max(0.0, panel.mean - panel.deviation);
-  canvas.box(kLeft, bottom - band_top * scale, kWidth, (band_top - band_low) * scale, kBand);
+  canvas.box(kBarsLeft, bottom - band_top * scale, kWidth, (band_top - band_low) * scale, kBand);
   for (double at = 0; at <= top * 1.0001; at += step) {
     const double line = bottom - at * scale;
-    canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#b4b8bd\" stroke-width=\"0.6\"/>", kLeft, line, kWidth);
-    canvas.text(kLeft - 8, line + 4, 12, "end", fmt::format("{:.0f}", at));
+    canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#b4b8bd\" stroke-width=\"0.6\"/>", kBarsLeft, line, kWidth);
+    canvas.text(kBarsLeft - 8, line + 4, 12, "end", fmt::format("{:.0f}", at));
   }
   canvas.put(
       "<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" font-size=\"12\" text-anchor=\"middle\" "
       "fill=\"{}\">ms</text>",
-      kLeft - 48, head + kHeight / 2, kInk);
+      kBarsLeft - 48, head + kBarsHeight / 2, kBarsInk);
   const double wide = step_of(row);
   for (std::size_t i = row.begin; i < row.end; ++i) {
-    const double x = kLeft + wide * (static_cast<double>(i - row.begin) + kGap / 2);
+    const double x = kBarsLeft + wide * (static_cast<double>(i - row.begin) + kGap / 2);
     draw_bar(canvas, panel.bars[i], x, wide * (1 - kGap), bottom, scale);
     if (row.labels > 0) {
       const std::string label = label_of(panel.bars[i]);
@@ -162,26 +162,26 @@ void draw_row(Canvas& canvas, const Row& row, double y, double top, double step)
       canvas.put(
           "<text transform=\"translate({:.1f} {:.1f}) rotate(-60)\" font-size=\"{}\" text-anchor=\"end\" "
           "fill=\"{}\"{}>{}</text>",
-          at, bottom + 12, kLabelSize, kInk,
+          at, bottom + 12, kLabelSize, kBarsInk,
           long_one ? fmt::format(" textLength=\"{:.0f}\" lengthAdjust=\"spacingAndGlyphs\"", kLongestLabel) : "",
           svg_text(label));
     }
   }
   const double mean = bottom - panel.mean * scale;
   // Over the bars, edged in white, so that it is seen on every ground.
-  canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#ffffff\" stroke-width=\"4\"/>", kLeft, mean, kWidth);
-  canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#000000\" stroke-width=\"2.2\"/>", kLeft, mean, kWidth);
-  canvas.text(kLeft + kWidth + 6, mean + 4, 12, "start", fmt::format("mean {:.0f}", panel.mean));
+  canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#ffffff\" stroke-width=\"4\"/>", kBarsLeft, mean, kWidth);
+  canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#000000\" stroke-width=\"2.2\"/>", kBarsLeft, mean, kWidth);
+  canvas.text(kBarsLeft + kWidth + 6, mean + 4, 12, "start", fmt::format("mean {:.0f}", panel.mean));
   if ((band_top - panel.mean) * scale > 16) {
-    canvas.text(kLeft + kWidth + 6, bottom - band_top * scale + 4, 12, "start",
+    canvas.text(kBarsLeft + kWidth + 6, bottom - band_top * scale + 4, 12, "start",
                 fmt::format("+1 SD {:.0f}", panel.mean + panel.deviation));
   }
   if ((panel.mean - band_low) * scale > 16) {
-    canvas.text(kLeft + kWidth + 6, bottom - band_low * scale + 4, 12, "start",
+    canvas.text(kBarsLeft + kWidth + 6, bottom - band_low * scale + 4, 12, "start",
                 fmt::format("−1 SD {:.0f}", panel.mean - panel.deviation));
   }
-  canvas.put("<path d=\"M{:.1f} {:.1f}v{:.1f}h{:.1f}\" fill=\"none\" stroke=\"{}\"/>", kLeft, head, kHeight, kWidth,
-             kInk);
+  canvas.put("<path d=\"M{:.1f} {:.1f}v{:.1f}h{:.1f}\" fill=\"none\" stroke=\"{}\"/>", kBarsLeft, head, kBarsHeight,
+             kWidth, kBarsInk);
 }
 
 }  // namespace
@@ -196,12 +196,12 @@ std::string transition_plot(const std::vector<TransitionPanel>& panels) {
     inferred = inferred || panel.inferred;
     for (const TransitionBar& bar : panel.bars) top = std::max(top, bar.whole);
   }
-  const double step = axis_step(top);
+  const double step = bar_axis_step(top);
   top = step * std::ceil(top / step);
   for (const Row& row : rows) height += height_of(row);
-  const double width = kLeft + kWidth + kRight;
+  const double width = kBarsLeft + kWidth + kRight;
   std::string out;
-  Canvas canvas{out};
+  BarCanvas canvas{out};
   canvas.put(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
       "font-family=\"sans-serif\">",

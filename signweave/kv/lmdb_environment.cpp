@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLargestMap = std::size_t{1} << 40;
 constexpr std::size_t kSmallestMap = std::size_t{1} << 28;
 constexpr unsigned kMostReaders = 1024;
-constexpr mode_t kFileMode = 0664;
+constexpr mode_t kLmdbFileMode = 0664;
 
-bool refused(int code) {
+bool write_refused(int code) {
   return code == EACCES || code == EPERM || code == EROFS;
 }
 
@@ -46,8 +46,8 @@ LmdbEnvironment::LmdbEnvironment(fs::path folder, Access access) : folder_(std::
   int code = try_open(MDB_NOTLS);
   writable_ = code == MDB_SUCCESS;
   if (access == Access::read_only) {
-    if (refused(code)) code = try_open(MDB_NOTLS | MDB_RDONLY);
-    if (refused(code)) code = try_open(MDB_NOTLS | MDB_RDONLY | MDB_NOLOCK);
+    if (write_refused(code)) code = try_open(MDB_NOTLS | MDB_RDONLY);
+    if (write_refused(code)) code = try_open(MDB_NOTLS | MDB_RDONLY | MDB_NOLOCK);
   }
   if (code != MDB_SUCCESS) fail("opening the store", code);
   try {
@@ -74,7 +74,7 @@ int LmdbEnvironment::try_open(unsigned flags) {
     if (code != MDB_SUCCESS) return code;
     ::mdb_env_set_mapsize(env_, size);
     ::mdb_env_set_maxreaders(env_, kMostReaders);
-    code = ::mdb_env_open(env_, folder_.c_str(), flags, kFileMode);
+    code = ::mdb_env_open(env_, folder_.c_str(), flags, kLmdbFileMode);
     if (code == MDB_SUCCESS) return code;
     ::mdb_env_close(env_);
     env_ = nullptr;

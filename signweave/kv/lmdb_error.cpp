@@ -7,13 +7,13 @@ namespace signweave::kv {
 
 namespace {
 
-struct Meaning {
+struct LmdbMeaning {
   int code;
   ErrorCode kind;
   const char* text;
 };
 
-constexpr Meaning kMeanings[] = {
+constexpr LmdbMeaning kLmdbMeanings[] = {
     {MDB_MAP_FULL, ErrorCode::io,
      "the store has reached its largest size; raise the limit on virtual memory (ulimit -v)"},
     {MDB_READERS_FULL, ErrorCode::conflict, "more than 1024 readers at once; let some end and try again"},
@@ -31,9 +31,9 @@ constexpr Meaning kMeanings[] = {
 }  // namespace
 
 void fail_lmdb(const std::filesystem::path& folder, std::string_view doing, int code) {
-  const auto* const meaning =
-      std::find_if(std::begin(kMeanings), std::end(kMeanings), [&](const Meaning& m) { return m.code == code; });
-  if (meaning != std::end(kMeanings)) fail(folder, doing, {meaning->kind, meaning->text});
+  const auto* const meaning = std::find_if(std::begin(kLmdbMeanings), std::end(kLmdbMeanings),
+                                           [&](const LmdbMeaning& m) { return m.code == code; });
+  if (meaning != std::end(kLmdbMeanings)) fail(folder, doing, {meaning->kind, meaning->text});
   fail_system(folder, doing, code);
 }
 

@@ -24,17 +24,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFile = "data.tch";
+constexpr const char* kTokyoFile = "data.tch";
 constexpr const char* kLogFile = "data.tch.wal";
 // A bucket is a tree, so that more entries than buckets do little harm; the buckets take 8 bytes each from the first.
 constexpr std::uint32_t kBuckets = 131'071;
 constexpr std::uint8_t kAlignmentPower = 4;
 constexpr std::uint8_t kFreeBlocksPower = 12;
 // The map is only address space. Halved where the system refuses (ulimit -v).
-constexpr std::int64_t kLargestMap = std::int64_t{1} << 40;
-constexpr std::int64_t kSmallestMap = std::int64_t{1} << 28;
+constexpr std::int64_t kTokyoLargestMap = std::int64_t{1} << 40;
+constexpr std::int64_t kTokyoSmallestMap = std::int64_t{1} << 28;
 constexpr std::size_t kHeadSize = 256;
-constexpr std::uint64_t kBesideEntry = 64;  // a record's own head and padding
+constexpr std::uint64_t kTokyoEntryHead = 64;  // a record's own head and padding
 constexpr std::int32_t kLargestValue = std::numeric_limits<std::int32_t>::max() - (1 << 20);
 
 int size_of(ByteSpan bytes) {
@@ -70,19 +70,19 @@ std::uint64_t number_at(ByteSpan bytes, std::size_t at, std::size_t size, bool h
 /// Refuses what is no file of ours, and one shorter than its own head says. (With a change to undo, its size is not yet
 /// what its head says.)
 void check_head(const fs::path& folder) {
-  const fs::path path = folder / kFile;
+  const fs::path path = folder / kTokyoFile;
   Bytes head(kHeadSize);
   std::ifstream file(path, std::ios::binary);
   if (!file) fail_system(folder, "opening the store", errno);
   file.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
-  const std::uint64_t bytes = size_of_file(folder, kFile, "opening the store");
+  const std::uint64_t bytes = size_of_file(folder, kTokyoFile, "opening the store");
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorCode::corrupt, path.string() + ": " + what + "; restore it from a copy");
   };
   if (!file) refuse("the file is cut short (" + std::to_string(bytes) + " bytes)");
-  constexpr std::string_view kMagic = "ToKyO CaBiNeT";
+  constexpr std::string_view kTokyoMagic = "ToKyO CaBiNeT";
   const bool highest_first = number_at(head, 40, 8, true) == kBuckets;
-  if (text_of(head).substr(0, kMagic.size()) != kMagic || number_at(head, 32, 1, true) != TCDBTHASH ||
+  if (text_of(head).substr(0, kTokyoMagic.size()) != kTokyoMagic || number_at(head, 32, 1, true) != TCDBTHASH ||
       number_at(head, 34, 1, true) != kAlignmentPower || number_at(head, 36, 1, true) != HDBTLARGE ||
       number_at(head, 40, 8, highest_first) != kBuckets) {
     refuse("this is no file of Tokyo Cabinet as we make it");
@@ -174,7 +174,7 @@ class TokyoStore final : public PlainStore {
 
   void begin(std::size_t entries, std::uint64_t bytes) override {
     // Tokyo Cabinet writes through a map, and a page for which the disk has no room would kill the program (SIGBUS).
-    reserve(folder_, file_->fd, ::tchdbfsiz(file_), bytes + entries * kBesideEntry);
+    reserve(folder_, file_->fd, ::tchdbfsiz(file_), bytes + entries * kTokyoEntryHead);
     need(::tchdbtranbegin(file_), "beginning to write");
     changing_ = true;
   }
@@ -221,7 +221,7 @@ class TokyoStore final : public PlainStore {
 };
 
 void TokyoStore::open(Access access, bool make) {
-  const std::string path = (folder_ / kFile).string();
+  const std::string path = (folder_ / kTokyoFile).string();
   if (!make) {
     check_head(folder_);
     if (access == Access::read_write) mend_log(folder_);
@@ -232,12 +232,12 @@ void TokyoStore::open(Access access, bool make) {
   const int mode = access == Access::read_write ? HDBOWRITER | HDBOTSYNC | (make ? HDBOCREAT : 0) : HDBOREADER;
   // Tokyo Cabinet refuses to open a file twice in a process, which OpenStores sees to, and takes what the parent
   // process has open for that.
-  ::tcpathunlock(fs::canonical(folder_, error).append(kFile).c_str());
-  for (std::int64_t map = kLargestMap;; map /= 2) {
+  ::tcpathunlock(fs::canonical(folder_, error).append(kTokyoFile).c_str());
+  for (std::int64_t map = kTokyoLargestMap;; map /= 2) {
     ::tchdbsetxmsiz(file_, map);
     errno = 0;
     if (::tchdbopen(file_, path.c_str(), mode | HDBOLCKNB)) break;
-    if (::tchdbecode(file_) != TCEMMAP || errno != ENOMEM || map <= kSmallestMap) {
+    if (::tchdbecode(file_) != TCEMMAP || errno != ENOMEM || map <= kTokyoSmallestMap) {
       need(false, make ? "making the store" : "opening the store");
     }
   }
@@ -246,7 +246,7 @@ void TokyoStore::open(Access access, bool make) {
 
 constexpr PlainEngine kTokyo = {
     .name = "tokyo",
-    .file = kFile,
+    .file = kTokyoFile,
     .version = [] { return std::string(::tcversion); },
     .longest_key = 511,
     .largest_value = kLargestValue,

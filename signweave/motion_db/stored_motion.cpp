@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint8_t kVersion = 1;
 constexpr std::uint8_t kCompactVersion = 2;  ///< has a tolerance
 
-constexpr std::int64_t kMostFrames = std::numeric_limits<std::uint32_t>::max();
+constexpr std::int64_t kMostFramesStored = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kMostTracks = std::numeric_limits<std::uint16_t>::max();
 constexpr std::uint64_t kLargestValue = std::numeric_limits<std::uint32_t>::max();  // of LMDB
 
@@ -86,7 +86,7 @@ StoredMotion describe(const Motion& motion, AccessMode mode, std::uint64_t gener
   const Skeleton& skeleton = motion.skeleton();
   if (motion.frame_count() < 1) refuse(ErrorCode::bad_input, "it has no frames; store one that has");
   if (skeleton.joint_count() < 1) refuse(ErrorCode::bad_input, "its skeleton has no joints; store one that has");
-  if (motion.frame_count() > kMostFrames) refuse(ErrorCode::unsupported, "more than 2^32 - 1 frames; cut it");
+  if (motion.frame_count() > kMostFramesStored) refuse(ErrorCode::unsupported, "more than 2^32 - 1 frames; cut it");
   if (motion.tracks().size() > kMostTracks) refuse(ErrorCode::unsupported, "more than 65535 scalar tracks; drop some");
   if (!(tolerance >= 0) || !std::isfinite(tolerance)) refuse(ErrorCode::bad_input, "a tolerance must be 0 or a length");
   StoredMotion stored{.generation = generation,
@@ -152,7 +152,7 @@ StoredMotion decode(ByteReader& in) {
   if (stored.mode.kind > AccessMode::Kind::by_joint_and_frame) in.fail("an access mode that does not exist");
   if (by_frame != (stored.mode.frames_per_packet > 0)) in.fail("frames per packet that do not fit the access mode");
   if (stored.rate.numerator < 1 || stored.rate.denominator < 1) in.fail("no frame rate");
-  if (stored.frames < 1 || stored.frames > kMostFrames) in.fail("an impossible number of frames");
+  if (stored.frames < 1 || stored.frames > kMostFramesStored) in.fail("an impossible number of frames");
   if (stored.joints < 1 || stored.joints > 65'535) in.fail("an impossible number of joints");
   if (stored.translations > stored.joints) in.fail("more translations than joints");
   if (stored.tracks.size() > kMostTracks) in.fail("too many tracks");

@@ -10,7 +10,7 @@
 namespace signweave {
 namespace {
 
-constexpr unsigned kPhaseKinds = 5;
+constexpr unsigned kPhaseKindCount = 5;
 
 /// Annotations nest a few levels deep; a damaged document may hold a ring of parents.
 constexpr int kMostGenerations = 64;
@@ -47,11 +47,11 @@ std::vector<bool> recordings_called(const Condition& condition, const SegmentTab
 }
 
 unsigned phases_called(const Condition& condition) {
-  constexpr unsigned kAll = (1U << kPhaseKinds) - 1;
+  constexpr unsigned kAll = (1U << kPhaseKindCount) - 1;
   unsigned result = 0;
   if (const Regex* regex = std::get_if<Regex>(&condition.value)) {
     const std::unique_ptr<RE2> compiled = compile(*regex);
-    for (unsigned kind = 0; kind < kPhaseKinds; ++kind) {
+    for (unsigned kind = 0; kind < kPhaseKindCount; ++kind) {
       const std::string word(word_of(static_cast<PhaseKind>(kind)));
       if (RE2::FullMatch(word, *compiled)) result |= 1U << kind;
     }

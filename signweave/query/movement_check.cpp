@@ -15,16 +15,16 @@
 namespace signweave {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kUnbounded = std::numeric_limits<float>::infinity();
 
 /// The nearest float that is no more, or no less.
 float not_above(double value) noexcept {
   const auto near = static_cast<float>(value);
-  return static_cast<double>(near) > value ? std::nextafter(near, -kInfinity) : near;
+  return static_cast<double>(near) > value ? std::nextafter(near, -kUnbounded) : near;
 }
 float not_below(double value) noexcept {
   const auto near = static_cast<float>(value);
-  return static_cast<double>(near) < value ? std::nextafter(near, kInfinity) : near;
+  return static_cast<double>(near) < value ? std::nextafter(near, kUnbounded) : near;
 }
 
 HandMeasure measure_for(const Condition& condition) noexcept {
@@ -138,25 +138,25 @@ MovementCheck::Bounds MovementCheck::bounds(std::uint32_t recording) const {
   double value = amount.value;
   if (scaled_) {
     const auto width = static_cast<double>(movement_->shoulder_width(recording));
-    if (!(width > 0)) return {kInfinity, -kInfinity};
+    if (!(width > 0)) return {kUnbounded, -kUnbounded};
     value = amount.unit == Unit::metres ? value / width : value * width;
   }
   // The column's numbers are floats, the value is not: turned so that no number is taken for another.
   switch (condition_->compare) {
     case Compare::less:
-      return {-kInfinity, std::nextafter(not_below(value), -kInfinity)};
+      return {-kUnbounded, std::nextafter(not_below(value), -kUnbounded)};
     case Compare::less_equal:
-      return {-kInfinity, not_above(value)};
+      return {-kUnbounded, not_above(value)};
     case Compare::greater:
-      return {std::nextafter(not_above(value), kInfinity), kInfinity};
+      return {std::nextafter(not_above(value), kUnbounded), kUnbounded};
     case Compare::greater_equal:
-      return {not_below(value), kInfinity};
+      return {not_below(value), kUnbounded};
     case Compare::equal:
     case Compare::not_equal:
     case Compare::matches:
       break;
   }
-  return {kInfinity, -kInfinity};
+  return {kUnbounded, -kUnbounded};
 }
 
 bool MovementCheck::fits(float value) const {
@@ -206,7 +206,7 @@ bool MovementCheck::holds(const MovingRow& row, const Stretches& stretches) {
 
 /// A row may be asked about again and again, as a partner of others.
 float MovementCheck::series_of(const MovingRow& row, const Stretches& stretches) {
-  if (told_.size() <= row.row) told_.resize(row.row + 1, kInfinity);
+  if (told_.size() <= row.row) told_.resize(row.row + 1, kUnbounded);
   if (std::isinf(told_[row.row])) {
     told_[row.row] = series_over(condition_->movement, *movement_, row.recording, stretches());
   }
@@ -235,7 +235,7 @@ float MovementCheck::from_frames(const Way& way, std::uint32_t recording, std::s
   std::vector<double> weights;
   PointTrack points;
   PointTrack others;
-  float least = kInfinity;
+  float least = kUnbounded;
   float first = kNotKnown;
   float last = kNotKnown;
   bool known = true;
@@ -259,7 +259,7 @@ float MovementCheck::from_frames(const Way& way, std::uint32_t recording, std::s
               others.size() == points.size() ? least_distance(points, others, trace->shoulder_width) : kNotKnown;
           known = !std::isnan(near);
           if (!known) return;
-          if (least == kInfinity) first = apart(points.front(), others.front());
+          if (least == kUnbounded) first = apart(points.front(), others.front());
           last = apart(points.back(), others.back());
           least = std::min(least, near);
         });
@@ -324,9 +324,9 @@ std::size_t append_blocks(std::span<const float> column, float low_bound, float 
 void MovementCheck::append_within(std::span<const float> column, Bounds bounds, RowId first, std::vector<RowId>& rows) {
   std::size_t i = 0;
 #if defined(__SSE2__)
-  const auto append = bounds.high == kInfinity   ? append_blocks<true, false>
-                      : bounds.low == -kInfinity ? append_blocks<false, true>
-                                                 : append_blocks<true, true>;
+  const auto append = bounds.high == kUnbounded   ? append_blocks<true, false>
+                      : bounds.low == -kUnbounded ? append_blocks<false, true>
+                                                  : append_blocks<true, true>;
   i = append(column, bounds.low, bounds.high, first, rows);
 #endif
   for (; i < column.size(); ++i) {

@@ -63,19 +63,6 @@ struct Allowed {
   std::string_view compares;
 };
 
-template <typename Values>
-std::vector<std::string> words_of(const Values& values) {
-  std::vector<std::string> result;
-  for (const auto value : values) result.emplace_back(word_of(value));
-  return result;
-}
-
-template <typename Values>
-auto value_of(const Values& values, std::string_view word) {
-  const auto at = std::find_if(values.begin(), values.end(), [&](auto value) { return word_of(value) == word; });
-  return at == values.end() ? std::nullopt : std::optional(*at);
-}
-
 Allowed allowed_for(ValueKind kind) {
   const std::vector<Unit> lengths = {Unit::shoulder_widths, Unit::metres, Unit::none};
   switch (kind) {
@@ -299,10 +286,10 @@ class MovementParser {
     if (text.starts_with('+')) text.remove_prefix(1);
     const std::size_t digits =
         std::min(text.find_first_not_of("0123456789.", text.starts_with('-') ? 1 : 0), text.size());
-    constexpr std::size_t kLongest = 40;
+    constexpr std::size_t kMostDigits = 40;
     double value = 0;
     const auto end = std::from_chars(text.data(), text.data() + digits, value, std::chars_format::fixed);
-    if (end.ec != std::errc() || end.ptr != text.data() + digits || digits > kLongest) {
+    if (end.ec != std::errc() || end.ptr != text.data() + digits || digits > kMostDigits) {
       in_.fail(token.begin, fmt::format("'{}' is no number; {}", printable(token.text), what_to_write(allowed)));
     }
     std::string word(text.substr(digits));

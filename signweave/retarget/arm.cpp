@@ -1,6 +1,7 @@
 #include "signweave/retarget/arm.h"
 
-#include "signweave/retarget/joint_at.h"
+#include "signweave/retarget/angles.h"
+#include "signweave/rig/joint_at.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,19 +24,6 @@ constexpr float kPlaneFrom = 8 * std::numbers::pi_v<float> / 180;
 constexpr float kPlaneTo = 30 * std::numbers::pi_v<float> / 180;
 /// No arm is quite straight: past this share of its length a bend would jump.
 constexpr float kReach = 0.9998f;
-
-float smooth_step(float value, float from, float to) {
-  const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
-Vector3f across(const Vector3f& vector, const Vector3f& axis) {
-  return vector - vector.dot(axis) * axis;
-}
-
-float angle(const Vector3f& a, const Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 float share_of(std::size_t i, std::size_t count, float first, float last) {
   if (count < 2) return last;

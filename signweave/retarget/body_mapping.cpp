@@ -10,7 +10,7 @@
 #include "signweave/core/text.h"
 #include "signweave/features/hand_points.h"
 #include "signweave/retarget/body_match.h"
-#include "signweave/retarget/joint_at.h"
+#include "signweave/rig/joint_at.h"
 
 namespace signweave {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "signweave/motion/degree.h"
 #include "signweave/retarget/drives.h"
 
 namespace signweave {
@@ -13,7 +13,6 @@ using Eigen::AngleAxisf;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-constexpr float kDegree = std::numbers::pi_v<float> / 180;
 /// Of the arm's height above 35° below the horizontal, and of its turn forward past 25° from the side, what the collar
 /// bone takes; and how far it goes at most. (ours; about what is known of shoulders)
 constexpr float kLift = 0.25f;

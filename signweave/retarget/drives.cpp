@@ -1,6 +1,6 @@
 #include "signweave/retarget/drives.h"
 
-#include "signweave/retarget/joint_at.h"
+#include "signweave/rig/joint_at.h"
 
 #include <algorithm>
 #include <string_view>

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signweave/retarget/angles.h"
 #include "signweave/retarget/arm.h"
-#include "signweave/retarget/joint_at.h"
+#include "signweave/rig/joint_at.h"
 
 namespace signweave {
 namespace {
@@ -19,11 +20,6 @@ constexpr float kPinched = 0.018f;
 constexpr float kApart = 0.055f;
 /// Of what is missing, what the thumb does.
 constexpr float kThumbShare = 0.5f;
-
-float smooth_fall(float value, float from, float to) {
-  const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
-  return 1 - t * t * (3 - 2 * t);
-}
 
 }  // namespace
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signweave/retarget/angles.h"
+
 namespace signweave {
 namespace {
 
@@ -19,11 +21,6 @@ constexpr float kFingerRadius = 0.010f;
 constexpr float kWristRadius = 0.024f;
 /// How fast a pair of points counts less than the nearest pair, metres.
 constexpr float kBlur = 0.012f;
-
-float smooth_fall(float value, float from, float to) {
-  const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
-  return 1 - t * t * (3 - 2 * t);
-}
 
 /// A hand's points: the source's places, and the character's from its wrist.
 struct Points {

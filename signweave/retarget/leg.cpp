@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "signweave/retarget/angles.h"
 #include "signweave/retarget/arm.h"
 #include "signweave/retarget/drives.h"
-#include "signweave/retarget/joint_at.h"
+#include "signweave/rig/joint_at.h"
 
 namespace signweave {
 namespace {
@@ -15,12 +16,8 @@ using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
 /// A knee bent less than the first angle does not show its plane; above the second it does.
-constexpr float kPlaneFrom = 12 * std::numbers::pi_v<float> / 180;
-constexpr float kPlaneTo = 40 * std::numbers::pi_v<float> / 180;
-
-Vector3f across(const Vector3f& vector, const Vector3f& axis) {
-  return vector - vector.dot(axis) * axis;
-}
+constexpr float kLegPlaneFrom = 12 * std::numbers::pi_v<float> / 180;
+constexpr float kLegPlaneTo = 40 * std::numbers::pi_v<float> / 180;
 
 }  // namespace
 
@@ -70,7 +67,7 @@ void CharacterLeg::lay(const Skeleton& skeleton, const Vector3f& goal, ModelPose
   const Vector3f level = across(ahead, bones.upper);
   const Vector3f plane = -across(bones.lower, bones.upper);
   const float bent = std::atan2(plane.norm(), bones.upper.dot(bones.lower));
-  const float weight = std::clamp((bent - kPlaneFrom) / (kPlaneTo - kPlaneFrom), 0.0f, 1.0f);
+  const float weight = std::clamp((bent - kLegPlaneFrom) / (kLegPlaneTo - kLegPlaneFrom), 0.0f, 1.0f);
   Vector3f side = (1 - weight) * level.normalized();
   if (plane.norm() > 1e-4f) side += weight * plane.normalized();
   const Quaternionf thigh = axes_along(bones.upper, side) * axes_along(upper_axis_, upper_ahead_).conjugate();

@@ -1,6 +1,7 @@
 #include "signweave/retarget/retarget.h"
 
-#include "signweave/retarget/joint_at.h"
+#include "signweave/retarget/angles.h"
+#include "signweave/rig/joint_at.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,11 +28,6 @@ constexpr float kHeadTopOfJoint = 1.1f;  // chin to top, of joint to top
 constexpr float kHeadOfEyesToTop = 2;    // eyes are half way up a head
 constexpr float kEyesUp = 0.45f;
 constexpr float kEyesForward = 0.40f;
-
-float smooth_step(float value, float from, float to) {
-  const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
 
 float bone(const RigAxes& axes, const RigMap& rig, Part from, Part to) {
   return rig.has(from) && rig.has(to) ? (axes.place(to) - axes.place(from)).norm() : 0;

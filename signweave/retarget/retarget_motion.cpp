@@ -3,7 +3,7 @@
 
 #include "signweave/retarget/retarget.h"
 
-#include "signweave/retarget/joint_at.h"
+#include "signweave/rig/joint_at.h"
 
 namespace signweave {
 namespace {

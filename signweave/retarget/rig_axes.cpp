@@ -1,5 +1,8 @@
 #include "signweave/retarget/rig_axes.h"
 
+#include "signweave/motion/degree.h"
+#include "signweave/retarget/angles.h"
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -11,7 +14,6 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-constexpr float kDegree = std::numbers::pi_v<float> / 180;
 /// A trunk that stands nearly upright at rest is meant to stand upright: joints lie before and behind its middle.
 constexpr float kUpright = 15 * kDegree;
 /// An elbow that is bent so much at rest shows the plane in which it bends.
@@ -19,11 +21,7 @@ constexpr float kBent = 12 * kDegree;
 /// A collar bone that leaves the trunk so far from sideways lies in a space of its own.
 constexpr float kSideways = 60 * kDegree;
 
-float angle(const Vector3f& a, const Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-Vector3f across(const Vector3f& vector, const Vector3f& main) {
+Vector3f across_main(const Vector3f& vector, const Vector3f& main) {
   const Vector3f axis = main.normalized();
   return vector - vector.dot(axis) * axis;
 }
@@ -40,7 +38,7 @@ Vector3f snapped(const Vector3f& direction) {
 
 Quaternionf axes_along(const Vector3f& main, const Vector3f& side) noexcept {
   const Vector3f x = main.squaredNorm() > 1e-12f ? Vector3f(main.normalized()) : Vector3f(Vector3f::UnitX());
-  Vector3f y = across(side, x);
+  Vector3f y = across_main(side, x);
   if (!(y.squaredNorm() > 1e-10f)) y = x.unitOrthogonal();
   y.normalize();
   Eigen::Matrix3f columns;
@@ -99,13 +97,13 @@ void RigAxes::take_leg(Side side) {
   const Vector3f lower = place(foot) - place(shin);
   // Knees bend so that the shin goes back, and toes lie in front: they tell also where a leg has a space of its own.
   Vector3f forward = trunk_ * -Vector3f::UnitZ();
-  if (rig.has(toes) && across(place(toes) - place(foot), lower).norm() > 0.02f) {
-    forward = across(place(toes) - place(foot), up);
+  if (rig.has(toes) && across_main(place(toes) - place(foot), lower).norm() > 0.02f) {
+    forward = across_main(place(toes) - place(foot), up);
     at(foot) = axes_along(up, up.cross(forward));
     at(toes) = at(foot);
   }
   at(thigh) = axes_along(upper, forward);
-  at(shin) = axes_along(lower, turn_between(upper, lower) * across(forward, upper));
+  at(shin) = axes_along(lower, turn_between(upper, lower) * across_main(forward, upper));
 }
 
 void RigAxes::take_arm(Side side) {
@@ -134,20 +132,20 @@ void RigAxes::take_arm(Side side) {
   Vector3f thumb_side = Vector3f::Zero();
   if (count > 0) {
     along = (rig.has(knuckle(Finger::middle)) ? place(knuckle(Finger::middle)) : Vector3f(sum / count)) - place(wrist);
-    if (count > 1) thumb_side = across(*first - *last, along);
+    if (count > 1) thumb_side = across_main(*first - *last, along);
     if (count < 2 && rig.has(knuckle(Finger::thumb)))
-      thumb_side = across(place(knuckle(Finger::thumb)) - *first, along);
+      thumb_side = across_main(place(knuckle(Finger::thumb)) - *first, along);
   }
 
   // An elbow bends to the thumb's side of a straight arm whose palm looks down or to the thigh.
-  Vector3f bend = across(lower, upper);
+  Vector3f bend = across_main(lower, upper);
   if (angle(upper, lower) < kBent)
     bend = thumb_side.norm() > 1e-4f ? thumb_side : Vector3f(trunk_ * -Vector3f::UnitZ());
-  bend = across(bend, upper);
-  if (bend.norm() < 1e-3f) bend = across(trunk_ * Vector3f::UnitX(), upper);
+  bend = across_main(bend, upper);
+  if (bend.norm() < 1e-3f) bend = across_main(trunk_ * Vector3f::UnitX(), upper);
   bend.normalize();
   const Vector3f carried = turn_between(upper, lower) * bend;
-  if (thumb_side.norm() < 1e-4f) thumb_side = across(carried, along);
+  if (thumb_side.norm() < 1e-4f) thumb_side = across_main(carried, along);
   at(shoulder) = axes_along(upper, bend);
   at(elbow) = axes_along(lower, carried);
   at(wrist) = axes_along(along, thumb_side);

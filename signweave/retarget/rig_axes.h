@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "signweave/motion/kinematics.h"
+#include "signweave/motion/turn_between.h"
 #include "signweave/rig/rig_map.h"
 
 namespace signweave {
@@ -12,11 +13,6 @@ namespace signweave {
 /// The turn whose x axis is `main` and whose y axis is as near to `side` as a right angle to `main` lets it be. Where
 /// `side` lies along `main`, any right angle.
 Eigen::Quaternionf axes_along(const Eigen::Vector3f& main, const Eigen::Vector3f& side) noexcept;
-
-/// The smallest turn that takes one direction to another.
-inline Eigen::Quaternionf turn_between(const Eigen::Vector3f& from, const Eigen::Vector3f& to) noexcept {
-  return Eigen::Quaternionf::FromTwoVectors(from, to);
-}
 
 /// How a body's parts lie in the joints that play them: for each part axes with an anatomical meaning, in the joint's
 /// own space. Bodies of other bones and other rest poses agree in what they do where these axes agree in model space.

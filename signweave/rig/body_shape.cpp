@@ -1,13 +1,11 @@
 #include "signweave/rig/body_shape.h"
 
+#include "signweave/rig/joint_at.h"
+
 #include <algorithm>
 
 namespace signweave {
 namespace {
-
-std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// About the stature: the longest way through the body, from a hand to a foot, is a third longer.
 float size_of(const BodyShape& shape) {

@@ -1,16 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signweave/rig/joint_at.h"
 #include "signweave/rig/structure.h"
 
 namespace signweave {
 namespace {
 
 using Eigen::Vector3f;
-
-std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// The joints beneath a wrist to one end, those of several ends left out.
 struct Chain {

@@ -46,11 +46,11 @@ std::size_t fingers_at(const RigMap& map, Side side) {
 /// "no ring, little finger"; empty where all are there.
 std::string missing_fingers(const RigMap& map, Side side) {
   if (fingers_at(map, side) == 0) return "no fingers";
-  constexpr std::string_view kNames[] = {"thumb", "index", "middle", "ring", "little"};
+  constexpr std::string_view kFingerNames[] = {"thumb", "index", "middle", "ring", "little"};
   std::vector<std::string_view> missing;
   for (const Finger finger : kFingers) {
     if (map.has(finger_part(side, finger, FingerPoint::proximal))) continue;
-    missing.push_back(kNames[static_cast<std::size_t>(finger)]);
+    missing.push_back(kFingerNames[static_cast<std::size_t>(finger)]);
   }
   if (missing.empty()) return {};
   return fmt::format("no {}{}", fmt::join(missing, ", "), missing.back() == "thumb" ? "" : " finger");

@@ -1,5 +1,7 @@
 #include "signweave/rig/structure.h"
 
+#include "signweave/rig/joint_at.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,10 +10,6 @@ namespace signweave {
 namespace {
 
 using Eigen::Vector3f;
-
-std::size_t at(JointIndex joint) {
-  return static_cast<std::size_t>(joint);
-}
 
 /// Two branches of one joint that are alike: legs or arms.
 struct Pair {

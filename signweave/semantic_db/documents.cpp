@@ -7,6 +7,7 @@
 
 #include "signweave/kv/sealed.h"
 #include "signweave/semantic_db/document_cut.h"
+#include "signweave/semantic_db/keys.h"
 
 namespace signweave {
 
@@ -36,21 +37,6 @@ constexpr char kBucket = 'B';  // which piece has which id
 
 constexpr std::uint8_t kVersion = 1;
 constexpr std::size_t kIdsPerBucket = 64;
-
-Bytes key_of(char what, std::uint64_t generation) {
-  ByteWriter key;
-  key.number(what);
-  key.number(generation);
-  return key.take();
-}
-
-Bytes key_of(char what, std::uint64_t generation, std::size_t number) {
-  ByteWriter key;
-  key.number(what);
-  key.number(generation);
-  key.number(static_cast<std::uint32_t>(number));
-  return key.take();
-}
 
 /// A record and where it goes.
 struct Made {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "signweave/core/bytes.h"
@@ -13,6 +14,15 @@ inline Bytes key_of(char what, std::uint64_t generation) {
   ByteWriter key;
   key.number(what);
   key.number(generation);
+  return key.take();
+}
+
+/// Of one of several records of that letter.
+inline Bytes key_of(char what, std::uint64_t generation, std::size_t number) {
+  ByteWriter key;
+  key.number(what);
+  key.number(generation);
+  key.number(static_cast<std::uint32_t>(number));
   return key.take();
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "signweave/core/error.h"
+#include "signweave/motion/degree.h"
 #include "signweave/motion/kinematics.h"
 
 namespace signweave {
@@ -15,8 +16,6 @@ namespace {
 using Eigen::Matrix3f;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-constexpr float kDegree = std::numbers::pi_v<float> / 180;
 
 // Breaths a second, and how their pace and depth change over minutes: 12.5 to 15.5 in each minute. (ours)
 constexpr double kBreaths = 14.0 / 60;

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "signweave/features/hand_points.h"
+#include "signweave/motion/degree.h"
 #include "signweave/motion/kinematics.h"
 #include "signweave/rig/signer_space.h"
 
@@ -17,8 +18,6 @@ namespace {
 
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-constexpr float kDegree = std::numbers::pi_v<float> / 180;
 
 // What makes a frame less of a rest. Hands as high as the shoulders are worth kHigh each, these here 1. (ours)
 constexpr float kHigh = 3;

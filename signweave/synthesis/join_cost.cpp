@@ -7,7 +7,6 @@
 namespace signweave {
 namespace {
 
-constexpr std::size_t kLanes = JoinEnds::kLanes;
 constexpr std::size_t kHands = JoinPoint::kVelocity;  // values before it are places: left hand's three, right hand's
 
 /// What block_costs() is told besides the values.
@@ -28,10 +27,10 @@ using Lanes16 = float __attribute__((vector_size(64)));
 template <typename Lanes>
 [[gnu::always_inline]] inline void costs_by(const float* ends, const float* begin, const Weights& weights,
                                             float* out) noexcept {
-  for (std::size_t lane = 0; lane < kLanes; lane += sizeof(Lanes) / sizeof(float)) {
+  for (std::size_t lane = 0; lane < JoinEnds::kLanes; lane += sizeof(Lanes) / sizeof(float)) {
     Lanes at[kHands];
     for (std::size_t value = 0; value < kHands; ++value) {
-      std::memcpy(&at[value], ends + value * kLanes + lane, sizeof(Lanes));
+      std::memcpy(&at[value], ends + value * JoinEnds::kLanes + lane, sizeof(Lanes));
       at[value] -= begin[value];
     }
     const Lanes left = at[0] * at[0] + at[1] * at[1] + at[2] * at[2];
@@ -45,8 +44,8 @@ template <typename Lanes>
     for (std::size_t value = kHands; value < JoinPoint::kSize; value += 2) {
       Lanes one;
       Lanes next;
-      std::memcpy(&one, ends + value * kLanes + lane, sizeof(Lanes));
-      std::memcpy(&next, ends + (value + 1) * kLanes + lane, sizeof(Lanes));
+      std::memcpy(&one, ends + value * JoinEnds::kLanes + lane, sizeof(Lanes));
+      std::memcpy(&next, ends + (value + 1) * JoinEnds::kLanes + lane, sizeof(Lanes));
       one -= begin[value];
       next -= begin[value + 1];
       sum += one * one;
@@ -106,13 +105,14 @@ void JoinLanes::lay(const JoinEnds& ends, std::span<const std::uint32_t> order, 
   speed_ = terms[static_cast<std::size_t>(JoinTerm::speed)];
   const float way = static_cast<float>(std::max(scale.transition, kShortestJoin).count()) * scale.weights.speed_limit;
   per_way_ = 1.0f / (way * way);
-  blocks_ = (order.size() + kLanes - 1) / kLanes;
-  values_.resize(blocks_ * kLanes * JoinPoint::kSize);
-  for (std::size_t at = 0; at < blocks_ * kLanes; ++at) {
+  blocks_ = (order.size() + JoinEnds::kLanes - 1) / JoinEnds::kLanes;
+  values_.resize(blocks_ * JoinEnds::kLanes * JoinPoint::kSize);
+  for (std::size_t at = 0; at < blocks_ * JoinEnds::kLanes; ++at) {
     const JoinPoint& point = ends.end(order[std::min(at, order.size() - 1)]);
-    float* const lane = values_.data() + at / kLanes * kLanes * JoinPoint::kSize + at % kLanes;
+    float* const lane =
+        values_.data() + at / JoinEnds::kLanes * JoinEnds::kLanes * JoinPoint::kSize + at % JoinEnds::kLanes;
     for (std::size_t value = 0; value < JoinPoint::kSize; ++value)
-      lane[value * kLanes] = roots_[value] * point.values[value];
+      lane[value * JoinEnds::kLanes] = roots_[value] * point.values[value];
   }
 }
 
@@ -122,9 +122,9 @@ void JoinLanes::compare_with(const JoinPoint& begin) noexcept {
 
 float JoinLanes::costs(std::size_t block, std::span<const float, JoinEnds::kLanes> before, float to,
                        std::span<float, JoinEnds::kLanes> out) const noexcept {
-  block_costs(values_.data() + block * kLanes * JoinPoint::kSize, begin_.data(),
+  block_costs(values_.data() + block * JoinEnds::kLanes * JoinPoint::kSize, begin_.data(),
               {.before = before.data(), .to = to, .place = place_, .speed = speed_, .per_way = per_way_}, out.data());
-  std::array<float, kLanes / 2> least{};
+  std::array<float, JoinEnds::kLanes / 2> least{};
   for (std::size_t lane = 0; lane < least.size(); ++lane) least[lane] = std::min(out[lane], out[lane + least.size()]);
   for (std::size_t half = least.size() / 2; half > 0; half /= 2) {
     for (std::size_t lane = 0; lane < half; ++lane) least[lane] = std::min(least[lane], least[lane + half]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "signweave/motion/turn_between.h"
 #include "signweave/rig/signer_space.h"
 
 namespace signweave {
@@ -106,7 +107,7 @@ void BodyGuard::shift(const Arm& arm, const Eigen::Vector3f& by, MutablePoseView
   axis.normalize();
   const Eigen::Quaternionf bend(Eigen::AngleAxisf(angle - wanted, axis));
   const Eigen::Vector3f reached = upper + bend * fore;
-  const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(reached, goal);
+  const Eigen::Quaternionf turn = turn_between(reached, goal);
 
   const auto parent_rotation = [&](JointIndex joint) -> Eigen::Quaternionf {
     const JointIndex parent = skeleton_->joint(joint).parent;

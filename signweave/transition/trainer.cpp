@@ -23,7 +23,7 @@ constexpr double kErrorFloor = 0.01;
 /// The same for rotations, radians.
 constexpr double kAngleFloor = 0.02;
 /// How strongly numbers are held to 0, as a share of what they explain.
-constexpr double kRidge = 0.3;
+constexpr double kBendRidge = 0.3;
 
 /// Sums for how much of one thing goes on, or of two at once (least squares).
 struct Share {
@@ -88,7 +88,7 @@ void solve(const Sums& sums, TransitionModel& model) {
     normal.block((knot + 1) * kSize, knot * kSize, kSize, kSize) = sums.cross[at].transpose();
   }
   const double least = 1e-9 * normal.diagonal().mean() + 1e-12;
-  normal.diagonal() += kRidge * normal.diagonal() + Vector::Constant(normal.rows(), least);
+  normal.diagonal() += kBendRidge * normal.diagonal() + Vector::Constant(normal.rows(), least);
   const Vector bends = normal.ldlt().solve(right);
   for (Eigen::Index knot = 0; knot < knots; ++knot) {
     for (Eigen::Index i = 0; i < kSize; ++i) {

@@ -22,10 +22,6 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // of one document's answers
 
-const xmlChar* chars(const char* text) noexcept {
-  return reinterpret_cast<const xmlChar*>(text);
-}
-
 template <auto free>
 struct Free {
   template <class T>

@@ -6,10 +6,6 @@
 namespace signweave::xpath {
 namespace {
 
-const xmlChar* chars(const char* text) noexcept {
-  return reinterpret_cast<const xmlChar*>(text);
-}
-
 template <class Node>
 Node* made(Node* node) {
   if (node == nullptr) throw std::bad_alloc();

@@ -15,6 +15,11 @@ struct FreeTree {
 };
 using Tree = std::unique_ptr<xmlDoc, FreeTree>;
 
+/// A text as libxml2 takes it.
+inline const xmlChar* chars(const char* text) noexcept {
+  return reinterpret_cast<const xmlChar*>(text);
+}
+
 inline constexpr const char* kSchemaInstance = "http://www.w3.org/2001/XMLSchema-instance";
 
 /// Made node by node of what our own reader read, so that both see the same and libxml2's parser sees nothing: no

@@ -44,6 +44,9 @@ target_link_libraries(signweave_app_flags INTERFACE signweave_flags)
 if(SIGNWEAVE_SANITIZE)
   set(optimise_tests -O0)
   target_compile_options(signweave_app_flags INTERFACE -O0)
+else()
+  # Parameters, JSON, the command line and HTTP: half of their time of compiling is making code of templates, and -O1 takes a third off.
+  target_compile_options(signweave_app_flags INTERFACE $<$<CONFIG:Release>:-O1>)
 endif()
 add_library(signweave_test_flags INTERFACE)
 target_link_libraries(signweave_test_flags INTERFACE signweave_flags GTest::gmock GTest::gtest_main rapidcheck

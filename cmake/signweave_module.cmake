@@ -2,7 +2,7 @@
 #
 # One module of the library: the folder it is called from. The sources are its table of contents; its tests are found by
 # name (*_test.cpp), never listed. DEPENDS names the modules whose headers it may include; the test `layers` holds it to
-# that. LIBRARIES are third-party targets.
+# that. LIBRARIES are third-party targets. TEST_SOURCES are compiled into the test program beside the tests.
 define_property(GLOBAL PROPERTY SIGNWEAVE_LAYERS BRIEF_DOCS "rows 'module:dependency,dependency'")
 define_property(GLOBAL PROPERTY SIGNWEAVE_MODULES BRIEF_DOCS "library targets, lowest first")
 
@@ -40,7 +40,7 @@ function(signweave_batches target)
 endfunction()
 
 function(signweave_module name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES;TEST_SOURCES" ${ARGN})
   set(target signweave_${name})
   list(TRANSFORM arg_DEPENDS PREPEND signweave:: OUTPUT_VARIABLE depends)
   if(arg_SOURCES)
@@ -61,7 +61,7 @@ function(signweave_module name)
   string(REPLACE ";" "," row "${arg_DEPENDS}")
   set_property(GLOBAL APPEND PROPERTY SIGNWEAVE_LAYERS "${name}:${row}")
   set_property(GLOBAL APPEND PROPERTY SIGNWEAVE_MODULES ${target})
-  signweave_tests(${name} LIBRARIES signweave::${name})
+  signweave_tests(${name} LIBRARIES signweave::${name} SOURCES ${arg_TEST_SOURCES})
 endfunction()
 
 # signweave_tests(NAME [LABEL full] LIBRARIES …): one test program from every *_test.cpp of the folder it is called from. Its tests

@@ -79,8 +79,10 @@ Turned turned(const Vector3f& direction) {
 Vector3f look_at(const Glance& glance, const Vector3f& right, const Vector3f& left) {
   const Vector3f eyes(0, 1.59f, 0.09f);
   if (glance.gaze == Gaze::viewer) return Vector3f(glance.aside, glance.up, 2.2f).normalized();
-  // The hands as a whole, the one that does more above all; a little above the wrists.
-  const float share = left.y() > right.y() - 0.15f ? 0.35f : 0.0f;
+  // The hands as a whole, the one that does more above all; a little above the wrists. The left one counts more the
+  // nearer it comes to the right one's height: were it all or nothing, eyes would leap by 25° from frame to frame.
+  const float near = std::clamp((left.y() - right.y() + 0.20f) / 0.10f, 0.0f, 1.0f);
+  const float share = 0.35f * near * near * (3 - 2 * near);
   const Vector3f hands = right + share * (left - right) + Vector3f(0, 0.07f, 0.05f);
   return (hands - eyes).normalized();
 }

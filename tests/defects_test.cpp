@@ -50,7 +50,7 @@ Eigen::Quaternionf turn(float degrees, const Eigen::Vector3f& axis) {
 }
 
 TEST(Defects, TheDemoCorpusHasNone) {
-  for (const demo::Script& script : {demo::meteo(), demo::villes()}) {
+  for (const demo::Script& script : demo::corpus_scripts(44)) {
     const Motion motion = demo::make_recording(script, kRate, 1).motion;
     for (const Defect& defect : defects_of(motion)) ADD_FAILURE() << script.name << ": " << defect.text;
   }

@@ -84,7 +84,7 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
   if (!call.transition.empty() && call.remake.empty()) {
     throw Error(ErrorCode::bad_input, "--transition says how --remake makes what it cuts out: give both");
   }
-  const auto is_document = [](const std::string& path) { return fold_case(path).ends_with(".eaf"); };
+  const auto is_document = [](const std::string& path) { return ending_of(path) == ".eaf"; };
   if (info.motion && !std::ranges::all_of(outputs, is_document)) {
     if (part)
       made.frames = span.begin < span.end ? clamp(frames_of(span, info.clock), info.motion->frames) : FrameRange{};

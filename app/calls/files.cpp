@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <filesystem>
 
 #include "app/calls/json.h"
@@ -25,9 +26,6 @@ namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-constexpr const char* kFace = ".face.csv";
-constexpr const char* kRotations = ".rotations.csv";
 
 void write_text(const std::string& path, const std::string& text) {
   AtomicFile file(path);
@@ -64,15 +62,57 @@ json motion_json(const Motion& motion) {
           {"tracks", std::move(tracks)}};
 }
 
+/// A synthesis whole: what `describe` tells, every pose, and where each frame is from.
+std::string synthesis_json(const Synthesis& result) {
+  json document = describe(result);
+  json sources = json::array();
+  for (const FrameSource& source : result.sources) {
+    // Each output frame: its recording's stretch and frame, or the junction that made it.
+    if (source.stretch != FrameSource::kNone) {
+      sources.push_back({{"stretch", source.stretch}, {"frame", source.frame}});
+    } else {
+      sources.push_back({{"junction", source.junction}});
+    }
+  }
+  document["sources"] = std::move(sources);
+  document["declarations"] = declarations_json(result.declarations);
+  document["motion"] = motion_json(result.motion);
+  return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
+template <typename Heading, typename Row>
+std::string csv_text(const Motion& motion, const Heading& heading, const Row& row) {
+  std::string text = heading(motion.skeleton());
+  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) text += row(motion, frame);
+  return text;
+}
+
 std::string note_of(const std::vector<std::pair<std::string, std::string>>& declarations) {
   std::string note;
   for (const auto& [name, value] : declarations) note += (note.empty() ? "" : "; ") + value;
   return note;
 }
 
-/// Before the first file is written: that each has a folder to go to.
-void check_folders(const std::vector<std::string>& paths) {
+std::string ending_fault(std::string_view where, std::string_view ending,
+                         const std::vector<std::string_view>& endings) {
+  const std::string wrong =
+      ending.empty() ? "has no ending" : fmt::format("'{}' cannot be written here", printable(ending));
+  return fmt::format("{}: {}; use {}", printable(where), wrong, fmt::join(endings, " "));
+}
+
+/// What writes files of this ending. Throws where nothing does.
+FileWriter required_writer(std::string_view ending, std::string_view where) {
+  const FileWriter writer = writer_of(ending);
+  if (writer == FileWriter::none) {
+    throw Error(ErrorCode::bad_input, ending_fault(where, ending, writable_endings()));
+  }
+  return writer;
+}
+
+/// Before the first file is written: that each has a writer and a folder to go to.
+void check_outputs(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
+    required_writer(ending_of(path), path);
     const fs::path folder = fs::path(path).parent_path();
     std::error_code ignored;
     if (!folder.empty() && !fs::is_directory(folder, ignored)) {
@@ -161,16 +201,16 @@ std::string character_glb(const Outgoing& recording) {
 }
 
 /// Throws where what the ending asks for is not there.
-void require_parts(std::string_view ending, const Outgoing& recording, const std::string& where) {
-  if (ending == ".eaf") {
+void require_parts(FileWriter writer, const Outgoing& recording, const std::string& where) {
+  if (writer == FileWriter::eaf) {
     if (recording.document != nullptr) return;
     throw Error(ErrorCode::not_found, where + ": the recording has no annotation to write");
   }
   if (recording.motion == nullptr) throw Error(ErrorCode::not_found, where + ": the recording has no motion to write");
-  if (ending == kFace && recording.motion->tracks().empty()) {
+  if (writer == FileWriter::face_csv && recording.motion->tracks().empty()) {
     throw Error(ErrorCode::not_found, where + ": the motion has no scalar tracks to write");
   }
-  if (ending == ".gltf" && recording.character) {
+  if (writer == FileWriter::gltf && recording.character) {
     throw Error(ErrorCode::unsupported, where + ": a character is written as .glb, in one file with its pictures");
   }
 }
@@ -189,18 +229,10 @@ std::string ending_of(const std::string& path) {
   return format != nullptr ? std::string(format->ending) : fold_case(fs::path(path).extension().string());
 }
 
-std::string writable_endings() {
-  std::string list;
-  for (const FileFormat& format : file_formats()) {
-    if (format.writes) list += fmt::format("{}{}", list.empty() ? "" : " ", format.ending);
-  }
-  return list;
-}
-
-std::string check_output(const std::string& path) {
-  const FileFormat* format = file_format(path);
-  if (format != nullptr && format->writes) return {};
-  return fmt::format("'{}' ends in none of {}", printable(path), writable_endings());
+std::string check_ending(const std::string& path, const std::vector<std::string_view>& endings) {
+  const std::string ending = ending_of(path);
+  const bool known = std::find(endings.begin(), endings.end(), ending) != endings.end();
+  return known ? std::string() : ending_fault(path, ending, endings);
 }
 
 void check_signing_space(bool wanted, const std::vector<std::string>& paths) {
@@ -212,98 +244,107 @@ void check_signing_space(bool wanted, const std::vector<std::string>& paths) {
 std::string synthesis_text(std::string_view ending, const Synthesized& made, const SynthesisLook& look,
                            const std::string& motion_file) {
   const Synthesis& result = made.result;
-  if (ending == ".eaf") return eaf::write_text(annotation_of(result, motion_file));
-  if (ending == ".json") {
-    json document = describe(result);
-    json sources = json::array();
-    for (const FrameSource& source : result.sources) {
-      // Each output frame: its recording's stretch and frame, or the junction that made it.
-      if (source.stretch != FrameSource::kNone) {
-        sources.push_back({{"stretch", source.stretch}, {"frame", source.frame}});
-      } else {
-        sources.push_back({{"junction", source.junction}});
-      }
+  switch (required_writer(ending, ending)) {
+    case FileWriter::eaf:
+      return eaf::write_text(annotation_of(result, motion_file));
+    case FileWriter::json:
+      return synthesis_json(result);
+    case FileWriter::svg: {
+      ContactSheetOptions options = sheet_options(result, look.sheet.title);
+      options.signing_space = look.sheet.signing_space;
+      options.rig = map_rig(result.motion, look.sheet.rig);
+      return contact_sheet(result.motion, options);
     }
-    document["sources"] = std::move(sources);
-    document["declarations"] = declarations_json(result.declarations);
-    document["motion"] = motion_json(result.motion);
-    return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+    default:
+      return recording_text(ending, outgoing(made, look), std::string(ending));
   }
-  if (ending == ".svg") {
-    ContactSheetOptions options = sheet_options(result, look.sheet.title);
-    options.signing_space = look.sheet.signing_space;
-    options.rig = map_rig(result.motion, look.sheet.rig);
-    return contact_sheet(result.motion, options);
-  }
-  return recording_text(ending, outgoing(made, look), std::string(ending));
 }
 
 std::string recording_text(std::string_view ending, const Outgoing& recording, const std::string& where) {
-  require_parts(ending, recording, where);
-  if (ending == ".eaf") return eaf::write_text(*recording.document);
+  const FileWriter writer = required_writer(ending, where);
+  require_parts(writer, recording, where);
+  if (writer == FileWriter::eaf) return eaf::write_text(*recording.document);
   const Motion& motion = *recording.motion;
-  if (ending == ".bvh") return bvh::write_text(motion, layout_for(recording));
-  if (ending == ".glb" && recording.character) return character_glb(recording);
-  if (ending == ".glb" || ending == ".gltf") {
-    return gltf::to_bytes(motion, gltf_options(recording),
-                          ending == ".glb" ? gltf::Container::binary : gltf::Container::text);
+  switch (writer) {
+    case FileWriter::bvh:
+      return bvh::write_text(motion, layout_for(recording));
+    case FileWriter::glb:
+      if (recording.character) return character_glb(recording);
+      return gltf::to_bytes(motion, gltf_options(recording), gltf::Container::binary);
+    case FileWriter::gltf:
+      return gltf::to_bytes(motion, gltf_options(recording), gltf::Container::text);
+    case FileWriter::json: {
+      json document = motion_json(motion);
+      document["declarations"] = declarations_json(recording.declarations);
+      return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+    }
+    case FileWriter::positions_csv:
+      return csv_text(motion, positions_csv_heading, positions_csv_row);
+    case FileWriter::rotations_csv:
+      return csv_text(motion, rotations_csv_heading, rotations_csv_row);
+    case FileWriter::face_csv:
+      return face_csv::write_text(motion);
+    case FileWriter::svg: {
+      ContactSheetOptions options;
+      options.title = recording.title;
+      options.note = note_of(recording.declarations);
+      options.signing_space = recording.signing_space;
+      options.rig = map_rig(motion, recording.rig);
+      return contact_sheet(motion, options);
+    }
+    case FileWriter::eaf:
+    case FileWriter::none:
+      break;
   }
-  if (ending == kFace) return face_csv::write_text(motion);
-  if (ending == kRotations) {
-    std::string text = rotations_csv_heading(motion.skeleton());
-    for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) text += rotations_csv_row(motion, frame);
-    return text;
-  }
-  if (ending == ".csv") {
-    std::string text = positions_csv_heading(motion.skeleton());
-    for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) text += positions_csv_row(motion, frame);
-    return text;
-  }
-  if (ending == ".svg") {
-    ContactSheetOptions options;
-    options.title = recording.title;
-    options.note = note_of(recording.declarations);
-    options.signing_space = recording.signing_space;
-    options.rig = map_rig(motion, recording.rig);
-    return contact_sheet(motion, options);
-  }
-  json document = motion_json(motion);
-  document["declarations"] = declarations_json(recording.declarations);
-  return document.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+  assert(false);  // both were dealt with above
+  return {};
 }
 
 void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made, const SynthesisLook& look) {
   std::string motion_file;
-  check_folders(paths);
+  check_outputs(paths);
   for (const std::string& path : paths) {
     if (ending_of(path) == ".bvh") motion_file = fs::path(path).filename().string();
   }
   for (const std::string& path : paths) {
     const std::string ending = ending_of(path);
-    if (ending == ".eaf" || ending == ".json" || ending == ".svg") {
-      write_text(path, synthesis_text(ending, made, look, motion_file));
-    } else {
-      write_recording(path, outgoing(made, look));
+    switch (writer_of(ending)) {
+      case FileWriter::eaf:
+      case FileWriter::json:
+      case FileWriter::svg:
+        write_text(path, synthesis_text(ending, made, look, motion_file));
+        break;
+      default:
+        write_recording(path, outgoing(made, look));
     }
   }
 }
 
 void write_recording(const std::string& path, const Outgoing& recording) {
   const std::string ending = ending_of(path);
-  require_parts(ending, recording, path);
+  const FileWriter writer = required_writer(ending, path);
+  require_parts(writer, recording, path);
   // The long ones go to the file piece by piece.
-  if (ending == ".bvh") {
-    bvh::write(path, *recording.motion, layout_for(recording));
-  } else if (ending == ".glb" && recording.character) {
-    write_text(path, character_glb(recording));
-  } else if (ending == ".glb" || ending == ".gltf") {
-    gltf::write(path, *recording.motion, gltf_options(recording));
-  } else if (ending == ".csv") {
-    write_positions_csv(path, *recording.motion);
-  } else if (ending == kRotations) {
-    write_rotations_csv(path, *recording.motion);
-  } else {
-    write_text(path, recording_text(ending, recording, path));
+  switch (writer) {
+    case FileWriter::bvh:
+      bvh::write(path, *recording.motion, layout_for(recording));
+      break;
+    case FileWriter::glb:
+    case FileWriter::gltf:
+      if (recording.character) {
+        write_text(path, character_glb(recording));
+      } else {
+        gltf::write(path, *recording.motion, gltf_options(recording));
+      }
+      break;
+    case FileWriter::positions_csv:
+      write_positions_csv(path, *recording.motion);
+      break;
+    case FileWriter::rotations_csv:
+      write_rotations_csv(path, *recording.motion);
+      break;
+    default:
+      write_text(path, recording_text(ending, recording, path));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,14 +15,12 @@
 
 namespace signweave::calls {
 
-/// The endings that can be written, for help and errors: ".bvh .glb …".
-std::string writable_endings();
-
-/// ".bvh", ".face.csv", …: in small letters.
+/// ".bvh", ".face.csv", …: in small letters. Empty where a name has none.
 std::string ending_of(const std::string& path);
 
-/// Empty where `path` has an ending that can be written; else what is wrong with it.
-std::string check_output(const std::string& path);
+/// Empty where `path` has one of these endings (in small letters); else what is wrong with it, in one line: the file,
+/// its ending and what it may be.
+std::string check_ending(const std::string& path, const std::vector<std::string_view>& endings);
 
 /// The help of --signing-space.
 inline constexpr const char* kSigningSpaceHelp = "in .svg: the signer's heights and zones behind each figure";
@@ -43,6 +42,9 @@ struct SynthesisLook {
   SheetWishes sheet;                  ///< for .svg
   SharedCharacter character;          ///< whose joints it has; for .glb
 };
+
+// What follows writes by the table of file formats (signweave/formats/file_format.h) and throws Error{bad_input},
+// before anything is written, for an ending that has no writer there.
 
 /// Writes a synthesis to each path, by its ending. An annotation written beside a motion links it.
 void write_synthesis(const std::vector<std::string>& paths, const Synthesized& made, const SynthesisLook& look);

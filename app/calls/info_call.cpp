@@ -126,7 +126,7 @@ json json_of(const CheckResult& result) {
 std::vector<std::vector<std::string>> format_rows() {
   std::vector<std::vector<std::string>> rows = {{"ending", "reads", "writes", "holds", "is lost"}};
   for (const FileFormat& format : file_formats()) {
-    rows.push_back({std::string(format.ending), format.reads ? "yes" : "no", format.writes ? "yes" : "no",
+    rows.push_back({std::string(format.ending), format.reads ? "yes" : "no", format.writes() ? "yes" : "no",
                     std::string(format.holds), std::string(format.lost)});
   }
   return rows;
@@ -138,7 +138,7 @@ json formats_json() {
     list.push_back({{"ending", format.ending},
                     {"name", format.name},
                     {"reads", format.reads},
-                    {"writes", format.writes},
+                    {"writes", format.writes()},
                     {"holds", format.holds},
                     {"lost", format.lost}});
   }

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "app/calls/evaluate_call.h"
+#include "app/calls/files.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
@@ -103,10 +104,7 @@ Run evaluate(CLI::App& verb) {
         ->type_name("FILE.csv");
     verb.add_flag("--full", options->full, "every measure of every group and hand, with intervals");
     verb.add_option("--plot", options->plot, "draw the summary with intervals (.svg)")
-        ->check([](const std::string& path) {
-          return fold_case(path).ends_with(".svg") ? std::string()
-                                                   : fmt::format("{}: a plot is written as .svg", printable(path));
-        });
+        ->check([](const std::string& path) { return calls::check_ending(path, {".svg"}); });
   });
   bind(verb, options->reading);
   return [options](Io& io) { run_evaluate(*options, io); };

@@ -11,6 +11,7 @@
 #include <random>
 #include <thread>
 
+#include "app/calls/files.h"
 #include "app/calls/synthesis_call.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
@@ -148,7 +149,7 @@ json task_of(const RenderArguments& given, const std::string& database, const st
           {"height", size.height},
           {"rate", given.rate},
           {"view", given.view},
-          {"kind", fold_case(given.output).ends_with(".png") ? "png" : "webm"},
+          {"kind", calls::ending_of(given.output) == ".png" ? "png" : "webm"},
           {"at_ms", given.at.empty() ? json() : json(given.at)},
           {"put", put}};
 }
@@ -260,7 +261,7 @@ void check(const RenderArguments& given) {
     throw Error(ErrorCode::bad_input,
                 "--junction belongs to an UTTERANCE or to a change: a recording has none to make");
   }
-  if (!given.at.empty() && !fold_case(given.output).ends_with(".png")) {
+  if (!given.at.empty() && calls::ending_of(given.output) != ".png") {
     throw Error(ErrorCode::bad_input, "--at is for pictures: name them -o FILE.png");
   }
 }
@@ -322,10 +323,7 @@ Run render(CLI::App& verb) {
                   "FILE.webm, a film; FILE.png, the picture of each --at, or of every frame (FILE-00001.png …)")
       ->required()
       ->check([](const std::string& path) {
-        const std::string name = fold_case(path);
-        return name.ends_with(".webm") || name.ends_with(".png")
-                   ? std::string()
-                   : fmt::format("'{}' ends in neither .webm nor .png", printable(path));
+        return calls::check_ending(path, {".webm", ".png"});
       });
   verb.add_option("--at", options->at, "moment of a picture, ms from the first frame; may be given several times")
       ->allow_extra_args(false)

@@ -5,13 +5,13 @@
 #include <memory>
 #include <ostream>
 
+#include "app/calls/files.h"
 #include "app/calls/motion_reading.h"
 #include "app/calls/segment_call.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
-#include "signweave/core/text.h"
 #include "signweave/features/phase_proposals.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/formats/file_format.h"
@@ -91,9 +91,7 @@ Run segment(CLI::App& verb) {
   auto options = std::make_shared<SegmentArguments>();
   verb.add_option("MOTION", options->motion, "a motion file " + readable_endings(FileKind::motion))->required();
   verb.add_option("-o,--output", options->output, "annotation file to write (.eaf); without it phases are only counted")
-      ->check([](const std::string& path) {
-        return fold_case(path).ends_with(".eaf") ? std::string() : "'" + printable(path) + "' does not end in .eaf";
-      });
+      ->check([](const std::string& path) { return calls::check_ending(path, {".eaf"}); });
   verb.add_flag("--overwrite", options->overwrite, "take the place of an annotation file that is there already");
   verb.add_option("--rig", options->rig, "mapping file: a line 'part = joint' for each part that is not told right")
       ->type_name("FILE");

@@ -4,12 +4,12 @@
 #include <memory>
 #include <ostream>
 
+#include "app/calls/files.h"
 #include "app/calls/stats_call.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "signweave/core/atomic_file.h"
-#include "signweave/core/text.h"
 #include "signweave/database/database.h"
 
 namespace signweave::cli {
@@ -87,10 +87,7 @@ Run stats(CLI::App& verb) {
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call);
   verb.add_option("--plot", options->plot, "draw the transitions, split into retraction and preparation (.svg)")
-      ->check([](const std::string& path) {
-        return fold_case(path).ends_with(".svg") ? std::string()
-                                                 : fmt::format("{}: a plot is written as .svg", printable(path));
-      });
+      ->check([](const std::string& path) { return calls::check_ending(path, {".svg"}); });
   verb.add_option("--format", options->format, "of the answer")
       ->check(CLI::IsMember({"table", "json", "csv"}))
       ->capture_default_str();

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <ostream>
 
+#include "app/calls/files.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/selection_report.h"
+#include "signweave/formats/file_format.h"
 
 namespace signweave::cli {
 namespace {
@@ -66,10 +68,11 @@ void print_junctions(const Synthesized& made, Io& io) {
 }  // namespace
 
 void add_outputs(CLI::App& verb, std::vector<std::string>& outputs) {
-  verb.add_option("-o,--output", outputs, "file to write: " + writable_endings() + "; may be given several times")
+  verb.add_option("-o,--output", outputs,
+                  fmt::format("file to write: {}; may be given several times", fmt::join(writable_endings(), " ")))
       ->required()
       ->allow_extra_args(false)
-      ->check([](const std::string& path) { return check_output(path); });
+      ->check([](const std::string& path) { return check_ending(path, writable_endings()); });
 }
 
 void deliver(const calls::Exported& made, const std::vector<std::string>& outputs, Io& io) {

@@ -122,6 +122,10 @@ TEST(Api, SignsAReportOrAFile) {
   EXPECT_THAT(file("eaf").body, HasSubstr("<ANNOTATION_DOCUMENT"));
   EXPECT_THAT(file("svg").body, HasSubstr("placeholder shapes"));
   EXPECT_THAT(file("csv").body, StartsWith("frame,time_s,"));
+  EXPECT_THAT(file("rotations.csv").body, StartsWith("frame,time_s,Hips.tx,"));
+  EXPECT_THAT(fault_of(file("fbx")),
+              StartsWith("400 bad_input: format: 'fbx' is none of bvh, glb, gltf, eaf, json, csv, "
+                         "rotations.csv, face.csv, svg, frames"));
   EXPECT_EQ(json_in(file("json"))["motion"]["frames"], json_in(file("json"))["frames"]);
   EXPECT_EQ(header_of(file("glb"), "Content-Disposition"), "attachment; filename*=UTF-8''signing.glb");
   ApiRequest accepting{.method = "POST", .path = at({"sign"}), .content_type = "application/json"};
@@ -170,6 +174,11 @@ TEST(Api, ExportsARecordingOrAPartOfIt) {
   const ApiResponse part =
       reading().get(at({"recordings", "meteo", "motion"}), {{"from", "1000"}, {"to", "2000"}, {"format", "csv"}});
   EXPECT_EQ(std::count(part.body.begin(), part.body.end(), '\n'), 101);
+  for (const char* none : {"eaf", "fbx"}) {
+    EXPECT_THAT(
+        fault_of(reading().get(at({"recordings", "meteo", "motion"}), {{"format", none}})),
+        HasSubstr(std::string(none) + "' is none of bvh, glb, gltf, json, csv, rotations.csv, face.csv, svg, frames"));
+  }
   EXPECT_THAT(reading().get(at({"recordings", "meteo", "annotation"})).body, HasSubstr("<ANNOTATION_DOCUMENT"));
   EXPECT_THAT(fault_of(reading().get(at({"recordings", "meteo", "motion"}), {{"joints", "LeftHnad"}})),
               HasSubstr("did you mean LeftHand"));

@@ -6,17 +6,23 @@
 #include "app/server/frames_answer.h"
 #include "app/server/routes.h"
 #include "signweave/core/text.h"
+#include "signweave/formats/file_format.h"
 
 namespace signweave::server {
 
 namespace {
 
-std::vector<std::string> motion_formats() {
-  return {"bvh", "glb", "gltf", "json", "csv", "face.csv", "svg", "frames"};
-}
+/// Of every file that is written, and what only HTTP has.
 std::vector<std::string> synthesis_formats() {
-  std::vector<std::string> names = motion_formats();
-  names.emplace_back("eaf");
+  std::vector<std::string> names;
+  for (const std::string_view ending : writable_endings()) names.emplace_back(ending.substr(1));
+  names.emplace_back("frames");
+  return names;
+}
+/// The annotation of a recording has a route of its own.
+std::vector<std::string> motion_formats() {
+  std::vector<std::string> names = synthesis_formats();
+  std::erase(names, "eaf");
   return names;
 }
 constexpr const char* kSynthesisHelp =

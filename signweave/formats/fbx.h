@@ -31,13 +31,10 @@ struct File {
 
 /// Reads a file. Frame 0 is the beginning of the take. Throws Error{bad_input, "FILE:LINE: …"} (binary: "FILE: byte
 /// N: …") for what is no whole FBX file, and for what cannot be told exactly by turning bones: a stretched or mirrored
-/// node above other bones, animation in several layers; Error{unsupported} for versions before 7.1, and always where
-/// this build cannot; Error{not_found} for a take that is not there, or no file.
+/// node above other bones, animation in several layers; Error{unsupported} for versions before 7.1; Error{not_found}
+/// for a take that is not there, or no file.
 File read(const std::filesystem::path& path, const ReadOptions& options = {});
 /// The same from bytes; `name` stands for the file in errors.
 File read_bytes(const std::string& name, std::string_view bytes, const ReadOptions& options = {});
-
-/// Whether this build can (CMake option SIGNWEAVE_FBX).
-bool built_in();
 
 }  // namespace signweave::fbx

@@ -14,8 +14,6 @@ namespace {
 /// 54 hours: up to here a time in ticks is exact as a double.
 constexpr std::int64_t kMostTicks = std::int64_t{1} << 53;
 
-constexpr std::size_t kKeysAtOnce = 1'000'000;
-
 // Bits of KeyAttrFlags.
 constexpr std::int64_t kConstant = 0x2;
 constexpr std::int64_t kCubic = 0x8;
@@ -79,7 +77,7 @@ std::vector<KeyPart> parts_of(const Source& source, const Record& record, std::s
   return parts;
 }
 
-Curve checked_curve(const Source& source, const Record& record, Arrays& arrays) {
+Curve read_curve(const Source& source, const Record& record, Arrays& arrays) {
   const Record* times = record.child("KeyTime");
   const Record* values = record.child("KeyValueFloat");
   if (times == nullptr || values == nullptr) {
@@ -107,38 +105,10 @@ Curve checked_curve(const Source& source, const Record& record, Arrays& arrays) 
 Curves read_curves(const Source& source, const std::vector<const Record*>& records) {
   Arrays arrays(source);
   Curves curves;
-  std::vector<const Record*> order;
-  std::vector<Curve> checked;
-  std::size_t keys = 0;
-  const auto read_checked = [&] {
-    if (checked.empty()) return;
-    std::vector<Curve> read;
-    try {
-      read = read_by_assimp(document_of_curves(checked), checked.size());
-    } catch (const Error& error) {  // it knows no file
-      source.fail(order[0]->place, error.what());
-    }
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      if (read[i].ticks != checked[i].ticks || read[i].values != checked[i].values) {
-        source.fail(order[i]->place,
-                    "Assimp reads other keys than the file has; this build's Assimp cannot be trusted");
-      }
-      read[i].parts = std::move(checked[i].parts);
-      curves[order[i]] = std::move(read[i]);
-    }
-    order.clear();
-    checked.clear();
-    keys = 0;
-  };
   for (const Record* record : records) {
-    if (!curves.emplace(record, Curve()).second) continue;
-    order.push_back(record);
-    checked.push_back(checked_curve(source, *record, arrays));
-    keys += checked.back().ticks.size();
-    // Assimp takes a hundred bytes a key: not of all at once.
-    if (keys > kKeysAtOnce) read_checked();
+    const auto [at, fresh] = curves.try_emplace(record);
+    if (fresh) at->second = read_curve(source, *record, arrays);
   }
-  read_checked();
   return curves;
 }
 

@@ -177,8 +177,4 @@ File read_bytes(const std::string& name, std::string_view bytes, const ReadOptio
   return read(source, options);
 }
 
-bool built_in() {
-  return true;
-}
-
 }  // namespace signweave::fbx

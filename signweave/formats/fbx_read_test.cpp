@@ -314,9 +314,5 @@ TEST(FbxRead, ProgressGoesUpToOneAndMayCancel) {
   EXPECT_EQ(fault_of(test::text_of(two_bones()), {.take = "", .progress = cancel}), "stopped");
 }
 
-TEST(FbxRead, ThisBuildCan) {
-  EXPECT_TRUE(built_in());
-}
-
 }  // namespace
 }  // namespace signweave::fbx

@@ -22,9 +22,20 @@ TEST(FileFormats, HaveEachEndingOnceAndSayWhatTheyHold) {
   std::set<std::string_view> endings;
   for (const FileFormat& format : file_formats()) {
     EXPECT_TRUE(endings.insert(format.ending).second) << format.ending;
-    EXPECT_TRUE(format.reads || format.writes) << format.ending;
+    EXPECT_TRUE(format.reads || format.writes()) << format.ending;
     EXPECT_FALSE(format.name.empty() || format.holds.empty() || format.lost.empty() || format.media_type.empty());
     EXPECT_EQ(format.ending, file_format(std::string("x") + std::string(format.ending))->ending);
+  }
+}
+
+TEST(FileFormats, OfEachWriterAreOne) {
+  std::set<FileWriter> writers;
+  for (const std::string_view ending : writable_endings()) {
+    EXPECT_NE(writer_of(ending), FileWriter::none) << ending;
+    EXPECT_TRUE(writers.insert(writer_of(ending)).second) << ending;
+  }
+  for (const std::string_view ending : {".fbx", ".anvil", ".mp4", "bvh", ".BVH", ""}) {
+    EXPECT_EQ(writer_of(ending), FileWriter::none) << ending;
   }
 }
 

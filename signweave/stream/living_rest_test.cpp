@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "signweave/core/error.h"
+#include "signweave/core/test_allocations.h"
 #include "signweave/rig/test_rigs.h"
-#include "signweave/stream/test_allocations.h"
 
 namespace signweave {
 namespace {

@@ -7,8 +7,8 @@
 #include <atomic>
 #include <thread>
 
+#include "signweave/core/test_allocations.h"
 #include "signweave/database/test_signing.h"
-#include "signweave/stream/test_allocations.h"
 
 namespace signweave {
 namespace {

@@ -2,65 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "signweave/core/test_allocations.h"
 #include "signweave/transition/test_way.h"
-
-namespace {
-// Of the whole test program: what is allocated while a test looks.
-std::atomic<bool> counting = false;
-std::atomic<std::size_t> allocations = 0;
-std::atomic<std::size_t> bytes = 0;
-
-void* counted(std::size_t size) {
-  if (counting) {
-    ++allocations;
-    bytes += size;
-  }
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size);
-}
-void* operator new[](std::size_t size) {
-  return counted(size);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace signweave {
 namespace {
 
 using namespace testing_way;
-
-struct Counted {
-  std::size_t allocations;
-  std::size_t bytes;
-};
-template <class Call>
-Counted count(Call call) {
-  allocations = 0;
-  bytes = 0;
-  counting = true;
-  call();
-  counting = false;
-  return {allocations, bytes};
-}
 
 TEST(Allocation, TheSecondGapAllocatesNothing) {
   const Motion motion = lively(1.5);
@@ -75,8 +23,8 @@ TEST(Allocation, TheSecondGapAllocatesNothing) {
       method.fill({.gap = gap, .model = *model, .groups = set, .scratch = scratch}, {rotations, translations});
     };
     make({100, 120}, GroupSet::all());
-    EXPECT_EQ(count([&] { make({90, 189}, GroupSet::all()); }).allocations, 0u) << method.name;
-    EXPECT_EQ(count([&] { make({100, 101}, {JointGroup::left_arm}); }).allocations, 0u) << method.name;
+    EXPECT_EQ(allocations_in([&] { make({90, 189}, GroupSet::all()); }), 0u) << method.name;
+    EXPECT_EQ(allocations_in([&] { make({100, 101}, {JointGroup::left_arm}); }), 0u) << method.name;
   }
 }
 
@@ -91,7 +39,7 @@ TEST(Allocation, AMinuteAtTwoThousandHertzNeedsNoMoreThanATenthOfASecond) {
       GapScratch scratch;
       Gap gap = cut(motion, of, {1200, 1200});
       gap.count = frames;
-      return count([&] {
+      return allocated_in([&] {
                method.fill({.gap = gap, .model = *model, .groups = {JointGroup::left_arm}, .scratch = scratch},
                            {rotations, translations});
              })

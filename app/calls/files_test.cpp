@@ -1,0 +1,100 @@
+#include "app/calls/files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "signweave/core/atomic_file.h"
+#include "signweave/core/error.h"
+#include "signweave/database/test_signing.h"
+#include "signweave/formats/file_format.h"
+
+namespace signweave::calls {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+using testing_database::recording_of;
+using testing_database::TestFolder;
+namespace fs = std::filesystem;
+
+constexpr const char* kEndings = ".bvh .glb .gltf .eaf .json .csv .rotations.csv .face.csv .svg";
+
+/// A motion with a scalar track.
+Motion smiling() {
+  Motion motion = recording_of("one", 1, {"A", "B"}).motion->motion;
+  motion.add_track({"smile", std::vector<float>(static_cast<std::size_t>(motion.frame_count()), 0.5F)});
+  return motion;
+}
+
+/// What is thrown; empty where nothing is.
+std::string fault_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::bad_input) << error.what();
+    return error.what();
+  }
+  return "";
+}
+
+bool is_json(const std::string& text) {
+  return nlohmann::json::accept(text);
+}
+
+TEST(WrittenFiles, OfEveryEndingHaveAWriterOfTheirOwn) {
+  const Motion motion = smiling();
+  const AnnotationDocument document = recording_of("one", 1, {"A", "B"}).annotation->document;
+  const Outgoing outgoing{.motion = &motion, .document = &document, .title = "one"};
+  Synthesized made;
+  made.result.motion = motion;
+  const TestFolder folder;
+  for (const std::string_view ending : writable_endings()) {
+    const bool json = ending == ".json" || ending == ".gltf";
+    const std::string text = recording_text(ending, outgoing, "one");
+    EXPECT_EQ(is_json(text), json) << ending;
+    const std::string path = folder / ("one" + std::string(ending));
+    write_recording(path, outgoing);
+    EXPECT_EQ(read_file(path), text) << ending;
+    EXPECT_EQ(is_json(synthesis_text(ending, made, {}, "")), json) << ending;
+    write_synthesis({path}, made, {});
+    EXPECT_EQ(is_json(read_file(path)), json) << ending;
+  }
+}
+
+TEST(WrittenFiles, OfNoOtherEndingAreWritten) {
+  const Motion motion = smiling();
+  const Outgoing outgoing{.motion = &motion, .title = "one"};
+  Synthesized made;
+  made.result.motion = motion;
+  const TestFolder folder;
+  for (const std::string ending : {".fbx", ".amc", ".asf", ".anvil", ".mp4", ".frames", ".truth"}) {
+    const std::string wrong = "'" + ending + "' cannot be written here; use " + kEndings;
+    EXPECT_EQ(fault_of([&] { recording_text(ending, outgoing, "one"); }), "one: " + wrong);
+    EXPECT_THAT(fault_of([&] { synthesis_text(ending, made, {}, ""); }), HasSubstr(wrong));
+    const std::string path = folder / ("one" + ending);
+    EXPECT_EQ(fault_of([&] { write_recording(path, outgoing); }), path + ": " + wrong);
+    // Nothing else is written either.
+    const std::string good = folder / "good.bvh";
+    EXPECT_EQ(fault_of([&] { write_synthesis({good, path}, made, {}); }), path + ": " + wrong);
+    EXPECT_FALSE(fs::exists(path) || fs::exists(good)) << ending;
+  }
+  const std::string path = folder / "one";
+  EXPECT_EQ(fault_of([&] { write_recording(path, outgoing); }), path + ": has no ending; use " + kEndings);
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(CheckEnding, NamesTheFileItsEndingAndWhatItMayBe) {
+  EXPECT_EQ(check_ending("a/b.SVG", {".svg"}), "");
+  EXPECT_EQ(check_ending("a/b.png", {".svg"}), "a/b.png: '.png' cannot be written here; use .svg");
+  EXPECT_EQ(check_ending("film.avi", {".webm", ".png"}), "film.avi: '.avi' cannot be written here; use .webm .png");
+  EXPECT_EQ(check_ending("one.face.csv", {".csv"}), "one.face.csv: '.face.csv' cannot be written here; use .csv");
+  EXPECT_EQ(check_ending(".svg", {".svg"}), ".svg: has no ending; use .svg");
+  EXPECT_THAT(check_ending("b.\n", {".svg"}), StartsWith("b.\\"));
+}
+
+}  // namespace
+}  // namespace signweave::calls

@@ -1,8 +1,14 @@
 cmake_minimum_required(VERSION 3.25)
-# cmake -DROOT=… -DVERSION=1.2.3 -P check_version.cmake
-# Fails unless the version is stated exactly once: in CMakeLists.txt. Changelogs, lock files of npm and the data of tests may
-# name versions of their own.
-string(REPLACE "." "\\." pattern ${VERSION})
+# cmake -DROOT=… -P check_version.cmake
+# Fails unless the version that project() states in CMakeLists.txt is stated there only. Changelogs, lock files of npm and the data
+# of tests may name versions of their own.
+get_filename_component(ROOT ${ROOT} ABSOLUTE)
+file(STRINGS ${ROOT}/CMakeLists.txt project REGEX "^project\\([a-z]+ VERSION [0-9.]+")
+if(NOT project MATCHES "VERSION ([0-9.]+)")
+  message(FATAL_ERROR "version: project() in ${ROOT}/CMakeLists.txt states none")
+endif()
+set(version ${CMAKE_MATCH_1})
+string(REPLACE "." "\\." pattern ${version})
 set(pattern "(^|[^0-9.])${pattern}($|[^0-9.])")
 file(GLOB files RELATIVE ${ROOT} ${ROOT}/*.md ${ROOT}/CMakeLists.txt ${ROOT}/CMakePresets.json ${ROOT}/NOTICE ${ROOT}/cmake/*
      ${ROOT}/scripts/* ${ROOT}/.ci/* ${ROOT}/.github/workflows/* ${ROOT}/studio/package.json ${ROOT}/studio/index.html)
@@ -25,19 +31,15 @@ foreach(file IN LISTS files)
   set(number 0)
   foreach(line IN LISTS lines)
     math(EXPR number "${number} + 1")
-    if(line MATCHES "${pattern}")
+    if(line MATCHES "${pattern}" AND NOT (file STREQUAL "CMakeLists.txt" AND line MATCHES "^project\\("))
       list(APPEND places "${file}:${number}")
     endif()
   endforeach()
 endforeach()
 list(LENGTH files read)
-if(places MATCHES "^CMakeLists\\.txt:[0-9]+$")
-  message(STATUS "version: ${VERSION} is stated once, at ${places}; ${read} files read")
-  return()
-endif()
-list(FILTER places EXCLUDE REGEX "^CMakeLists\\.txt:")
 if(NOT places)
-  message(FATAL_ERROR "version: ${VERSION} must be stated once in CMakeLists.txt")
+  message(STATUS "version: ${version} is stated once; ${read} files read")
+  return()
 endif()
 list(TRANSFORM places APPEND ": states the version, which only project() in CMakeLists.txt may")
 list(JOIN places "\n  " text)

@@ -2,6 +2,7 @@ cmake_minimum_required(VERSION 3.25)
 # cmake -DROOT=… -DLAYERS=layers.txt -P check_layers.cmake
 # Fails on an #include of a signweave module that the including module does not name in its DEPENDS, and on a folder of
 # signweave/ that is no module.
+get_filename_component(ROOT ${ROOT} ABSOLUTE)
 file(STRINGS ${LAYERS} rows)
 set(faults "")
 set(checked 0)

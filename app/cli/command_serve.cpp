@@ -60,7 +60,7 @@ std::string read_token(const std::string& file) {
   std::string text(4'096, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
-  const std::string token(trimmed(text));
+  std::string token(trimmed(text));
   if (token.empty()) throw Error(ErrorCode::bad_input, fmt::format("{}: no token in this file", file));
   return token;
 }

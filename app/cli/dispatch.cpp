@@ -9,6 +9,7 @@
 #include "app/calls/listener.h"
 #include "app/cli/command.h"
 #include "signweave/core/text.h"
+#include "signweave/core/version.h"
 #include "signweave/database/database.h"
 #include "signweave/query/parse.h"
 
@@ -45,8 +46,6 @@ constexpr Command kCommands[] = {
      "signweave render corpus.db 'VANNES MATIN PLUIE' -o film.webm --studio site", render},
     {"formats", "the file formats, and what each can hold", "signweave formats", formats},
 };
-
-constexpr std::string_view kVersion = "0.1.0";
 
 /// One line for a wrong usage, with near matches for a verb or option that does not exist.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
@@ -127,7 +126,7 @@ void report_damage(const Database& database, Io& io) {
 
 int dispatch(const std::vector<std::string>& words, Io& io) {
   CLI::App app("signweave: a database of captured signing, found by meaning and movement, signed anew", "signweave");
-  app.set_version_flag("--version", std::string(kVersion));
+  app.set_version_flag("--version", std::string(version()));
   app.require_subcommand(1);
   Run chosen;
   for (const Command& command : kCommands) {

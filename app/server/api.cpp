@@ -127,7 +127,7 @@ ApiResponse guarded(const ApiState& state, const std::string& allowed, Make make
 
 }  // namespace
 
-Api::Api(ServedDatabases& databases, ApiLimits limits, std::filesystem::path scratch) {
+Api::Api(ServedDatabases& databases, ApiLimits limits, const std::filesystem::path& scratch) {
   auto* state = new State{{.databases = databases,
                            .limits = limits,
                            .scratch = scratch,

@@ -49,7 +49,7 @@ struct ApiLimits {
 class Api {
  public:
   /// `scratch`: a folder for uploads, which must exist; what is left there is removed at the end.
-  Api(ServedDatabases& databases, ApiLimits limits, std::filesystem::path scratch);
+  Api(ServedDatabases& databases, ApiLimits limits, const std::filesystem::path& scratch);
   /// Waits for a running import, or stops it where it can be.
   ~Api();
   Api(const Api&) = delete;

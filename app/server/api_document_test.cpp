@@ -10,6 +10,7 @@
 #include "app/server/routes.h"
 #include "app/server/test_api.h"
 #include "signweave/core/atomic_file.h"
+#include "signweave/core/version.h"
 
 namespace signweave::server {
 namespace {
@@ -132,6 +133,10 @@ TEST(ApiDocument, EveryRouteIsInTheDocumentAndInTheDocs) {
   }
   for (const auto& [path, item] : document()["paths"].items()) operations += item.size();
   EXPECT_EQ(operations, routes().size());
+}
+
+TEST(ApiDocument, StatesTheVersionOfTheProgram) {
+  EXPECT_EQ(document()["info"]["version"], std::string(version()));
 }
 
 TEST(ApiDocument, EveryFieldOfTheParametersIsInTheDocs) {

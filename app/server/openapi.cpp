@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/server/routes.h"
+#include "signweave/core/version.h"
 
 namespace signweave::server {
 namespace {
@@ -158,7 +159,7 @@ Json openapi_document() {
   Json document = {{"openapi", "3.1.0"},
                    {"info",
                     {{"title", "signweave"},
-                     {"version", "0.1.0"},
+                     {"version", std::string(version())},
                      {"description",
                       "A database of captured signing: find by meaning, sign anew. docs/http.md tells it by task. "
                       "Frames as they are "

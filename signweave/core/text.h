@@ -25,7 +25,7 @@ std::vector<std::string> near_matches(std::string_view wanted, std::span<const s
 /// "; did you mean A, B or C?", or nothing where there is no near match. For the end of an error's text.
 std::string did_you_mean(std::string_view wanted, std::span<const std::string> known);
 
-/// `text` as it may stand in a message of one line: control characters as \xNN, cut after 80 characters.
+/// `text` as it may stand in a message of one line: control characters as `\xNN`, cut after 80 characters.
 std::string printable(std::string_view text);
 
 /// Without the white space (ASCII) at both ends.

@@ -35,7 +35,7 @@ class TextReader {
   /// The next word as a finite number; `what` says what was expected ("an offset").
   double number(std::string_view what);
   /// The next word must be this one.
-  void expect(std::string_view word);
+  void expect(std::string_view expected);
 
   /// Numbers one after the other, as read by `plain_numbers`.
   struct NumberRun {

@@ -243,7 +243,7 @@ class Database {
   friend void check_slots(const Database& database, std::uint32_t first, CheckListener& listener);
   class WriterLock;
 
-  std::shared_ptr<const Contents> contents_of(const std::shared_ptr<const kv::ReadTransaction>& snapshot) const;
+  std::shared_ptr<const Contents> contents_of(const std::shared_ptr<const kv::ReadTransaction>& transaction) const;
   std::shared_ptr<const Segments> stored_segments(const std::shared_ptr<const kv::ReadTransaction>& snapshot) const;
   std::unique_ptr<Movement> movement_of(const std::shared_ptr<const kv::ReadTransaction>& snapshot,
                                         const std::shared_ptr<const Segments>& segments) const;

@@ -53,7 +53,7 @@ void Motion::reset(std::shared_ptr<const Skeleton> skeleton, FrameRate rate, std
 void Motion::append(PoseView pose) {
   assert(pose.rotations.size() == skeleton_->joint_count());
   assert(pose.translations.size() == skeleton_->translation_count());
-  const std::less<const Eigen::Quaternionf*> before;
+  const std::less<> before;
   if (!before(pose.rotations.data(), rotations_.data()) &&
       before(pose.rotations.data(), rotations_.data() + rotations_.size())) {
     const Pose own(pose);  // growing would move it away while it is being copied

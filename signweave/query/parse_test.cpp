@@ -12,7 +12,6 @@ namespace signweave {
 namespace {
 
 using testing::HasSubstr;
-using testing::MatchesRegex;
 
 TEST(Parse, WhatIsWellFormedReadsBackAsItself) {
   struct Row {

@@ -37,7 +37,7 @@ float twist_about(const Quaternionf& turn, const Vector3f& axis) noexcept {
   return std::remainder(angle, 2 * std::numbers::pi_v<float>);
 }
 
-TwoBones reach(TwoBones bones, float upper_length, float lower_length, const Vector3f& goal,
+TwoBones reach(const TwoBones& bones, float upper_length, float lower_length, const Vector3f& goal,
                const Vector3f& bend) noexcept {
   const float most = kReach * (upper_length + lower_length);
   const float least = 1.05f * std::abs(upper_length - lower_length) + 0.01f * most;

@@ -22,7 +22,7 @@ struct TwoBones {
 };
 /// Bends two bones so that they end at `goal` from the shoulder (metres), or as near as they reach; the elbow stays in
 /// the plane it is in. `bend` is the way to which a straight arm bends.
-TwoBones reach(TwoBones bones, float upper_length, float lower_length, const Eigen::Vector3f& goal,
+TwoBones reach(const TwoBones& bones, float upper_length, float lower_length, const Eigen::Vector3f& goal,
                const Eigen::Vector3f& bend) noexcept;
 
 /// One arm of a character. Turns the joints from the shoulder to the wrist, whole chains at once.

@@ -22,7 +22,7 @@ struct Drive {
   bool driven() const noexcept { return first != kNoJoint; }
   /// model_from_joint, of a driven joint.
   Eigen::Quaternionf turn(const ModelPose& source) const noexcept {
-    const Eigen::Quaternionf a = source.rotations[static_cast<std::size_t>(first)] * from_first;
+    Eigen::Quaternionf a = source.rotations[static_cast<std::size_t>(first)] * from_first;
     if (second == first) return a;
     return a.slerp(share, source.rotations[static_cast<std::size_t>(second)] * from_second);
   }

@@ -149,7 +149,7 @@ Retargeter::Retargeter(const Skeleton& source, const SignerModel& signer, const 
   to_model_space(*character.skeleton, Pose(*character.skeleton).view(), to_);
 }
 
-float Retargeter::lowest_ankle(const RigMap& rig, const ModelPose& pose) const noexcept {
+float Retargeter::lowest_ankle(const RigMap& rig, const ModelPose& pose) noexcept {
   float lowest = 1e9f;
   for (const Part part : {Part::left_foot, Part::right_foot}) {
     if (rig.has(part)) lowest = std::min(lowest, position_of(rig[part], pose).y());

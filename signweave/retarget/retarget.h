@@ -58,7 +58,7 @@ class Retargeter {
   void lay_legs() noexcept;
   void lay_arms() noexcept;
   void rest(MutablePoseView out) const noexcept;
-  float lowest_ankle(const RigMap& rig, const ModelPose& pose) const noexcept;
+  static float lowest_ankle(const RigMap& rig, const ModelPose& pose) noexcept;
 
   Skeleton source_;
   SignerModel signer_;

@@ -1,0 +1,1 @@
+const char* const version = "4.5.6";

@@ -10,10 +10,13 @@ const forget = () => page.evaluate(() => (localStorage.removeItem('signweave.stu
 /** What only who runs a study should look at is closed. */
 const forMaker = () => page.locator('summary', { hasText: 'For whoever runs the study' }).click()
 /** Until both signers of a trial are drawn. */
-const seen = (count = 2) => page.waitForFunction((n) => window.signweaveStage?.panes.length === n && window.signweaveStage.panes.every((pane) => pane.seen), count, { timeout: 60_000 })
+const seen = (count = 2) =>
+  page.waitForFunction((n) => window.signweaveStage?.panes.length === n && window.signweaveStage.panes.every((pane) => pane.seen), count, { timeout: 60_000 })
 /** The parts of a file that Wilson's table and CSV are made of: fields may be quoted. */
 function parsed(text) {
-  const rows = [...text.matchAll(/((?:"(?:[^"]|"")*"|[^",\r\n]*)(?:,(?:"(?:[^"]|"")*"|[^",\r\n]*))*)\r\n/g)].map(([, line]) => [...line.matchAll(/(?:^|,)("(?:[^"]|"")*"|[^",]*)/g)].map(([, field]) => field.replace(/^"|"$/g, '').replaceAll('""', '"')))
+  const rows = [...text.matchAll(/((?:"(?:[^"]|"")*"|[^",\r\n]*)(?:,(?:"(?:[^"]|"")*"|[^",\r\n]*))*)\r\n/g)].map(([, line]) =>
+    [...line.matchAll(/(?:^|,)("(?:[^"]|"")*"|[^",]*)/g)].map(([, field]) => field.replace(/^"|"$/g, '').replaceAll('""', '"')),
+  )
   return rows.slice(1).map((row) => Object.fromEntries(row.map((field, i) => [rows[0][i], field])))
 }
 async function saved(name) {
@@ -43,16 +46,23 @@ async function begin(fluency = 'Deaf signer') {
 }
 /** A dialog tells only later that it was closed. */
 const closed = () => page.waitForFunction(() => !document.querySelector('dialog'))
-const answered = (count) => page.waitForFunction((n) => JSON.parse(localStorage.getItem('signweave.study.demo')).sessions.reduce((sum, { answers }) => sum + answers.length, 0) === n, count)
+const answered = (count) =>
+  page.waitForFunction(
+    (n) => JSON.parse(localStorage.getItem('signweave.study.demo')).sessions.reduce((sum, { answers }) => sum + answers.length, 0) === n,
+    count,
+  )
 
 test('a viewer takes part by keyboard alone, a reload goes on with the same trial, and the votes are saved', async () => {
-  await setUp({ trials: 4, more: async () => {
-    await page.getByLabel('with the capture twice').fill('1')
-    await page.getByLabel('Which looks more natural').check()
-    await page.getByLabel('Seed').fill('5')
-    await page.locator('summary').click()
-    await page.getByLabel('Question: natural, English').fill('Which do you like?')
-  } })
+  await setUp({
+    trials: 4,
+    more: async () => {
+      await page.getByLabel('with the capture twice').fill('1')
+      await page.getByLabel('Which looks more natural').check()
+      await page.getByLabel('Seed').fill('5')
+      await page.locator('summary').click()
+      await page.getByLabel('Question: natural, English').fill('Which do you like?')
+    },
+  })
   const { items, settings } = await kept()
   assert.deepEqual(items.map(({ method }) => method).toSorted(), ['', 'hermite', 'hermite', 'sine', 'sine'])
   assert.equal(new Set(items.map(({ from, recording }) => `${recording} ${from}`)).size, 5)
@@ -75,7 +85,13 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   assert.equal(await page.locator('nav:visible').count(), 0)
   await page.keyboard.press('?')
   assert.equal(await page.getByRole('dialog').count(), 0)
-  assert.deepEqual(await page.locator('.title').allTextContents().then((all) => all.map((one) => one.trim())), ['A', 'B'])
+  assert.deepEqual(
+    await page
+      .locator('.title')
+      .allTextContents()
+      .then((all) => all.map((one) => one.trim())),
+    ['A', 'B'],
+  )
   await page.keyboard.press('1') // the first question
   await page.keyboard.press('Enter')
   await page.keyboard.press('ArrowRight') // the second
@@ -102,8 +118,14 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   // The others by mouse, with a comment.
   for (let n = 2; n <= 5; ++n) {
     await seen()
-    await page.locator('.choice').nth(n % 2).click()
-    await page.locator('.choice').nth(2 + (n % 2)).click()
+    await page
+      .locator('.choice')
+      .nth(n % 2)
+      .click()
+    await page
+      .locator('.choice')
+      .nth(2 + (n % 2))
+      .click()
     await button('2').click()
     await page.getByRole('textbox', { name: 'What did you see' }).fill(n === 3 ? 'He said "no", or\nso' : '')
     for (let i = 0; i < 4 && (await kept()).sessions[0].answers.length < n; ++i) await page.locator('button.next').click()
@@ -113,11 +135,17 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   await button('Finish').click()
 
   await forMaker()
-  const study = await kept(), rows = parsed(await saved('Votes as CSV'))
+  const study = await kept(),
+    rows = parsed(await saved('Votes as CSV'))
   assert.equal(rows.length, 10)
   for (const [i, row] of rows.entries()) {
-    const { item, side } = study.sessions[0].trials[Math.floor(i / 2)], answer = study.sessions[0].answers[Math.floor(i / 2)], { method, recording, from } = study.items[item]
-    assert.deepEqual([row.study_seed, row.participant, row.fluency, row.recording, Number(row.from_ms), row.method], ['5', 'P01', 'deaf', recording, from, method || 'captured'])
+    const { item, side } = study.sessions[0].trials[Math.floor(i / 2)],
+      answer = study.sessions[0].answers[Math.floor(i / 2)],
+      { method, recording, from } = study.items[item]
+    assert.deepEqual(
+      [row.study_seed, row.participant, row.fluency, row.recording, Number(row.from_ms), row.method],
+      ['5', 'P01', 'deaf', recording, from, method || 'captured'],
+    )
     const choice = answer[row.question]
     assert.equal(row.answer, choice === 'left' ? 'A' : 'B')
     assert.equal(row.correct, method ? String(Number(choice === side)) : '')
@@ -148,25 +176,42 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 0)
   free()
   await seen()
-  const { items, sessions: [{ trials }] } = await kept()
-  const { side } = trials[0], { from, to, begin: start } = items[trials[0].item]
+  const {
+    items,
+    sessions: [{ trials }],
+  } = await kept()
+  const { side } = trials[0],
+    { from, to, begin: start } = items[trials[0].item]
   // In the order of the sides: over a study as often the one as the other.
-  assert.deepEqual(calls.slice(0, 2).map(({ remake }) => Boolean(remake)), side === 'left' ? [false, true] : [true, false])
+  assert.deepEqual(
+    calls.slice(0, 2).map(({ remake }) => Boolean(remake)),
+    side === 'left' ? [false, true] : [true, false],
+  )
   assert.equal(trials.filter((one) => one.side === 'left').length, 4)
   const said = await page.evaluate(() => document.documentElement.outerHTML + location.href + document.title)
   for (const word of ['hermite', 'remake', 'meteo', 'villes', 'capture', 'original', 'Recorded', 'Made ']) assert.ok(!said.includes(word), `${word} is told`)
 
   // The two are alike but for the gap, seen through one camera, and go in step.
-  const apart = await page.evaluate(([low, high]) => {
-    const { panes } = window.signweaveStage, [a, b] = panes
-    const far = Array.from({ length: a.store.length }, (_, frame) => {
-      let most = 0
-      for (const hand of [0, 1]) for (const axis of [0, 1, 2]) most = Math.max(most, Math.abs(a.store.hand(frame, hand, axis) - b.store.hand(frame, hand, axis)))
-      return most
-    })
-    const inside = (frame) => frame / a.store.rate > low && frame / a.store.rate < high
-    return { lengths: [a.store.length, b.store.length], inside: Math.max(...far.filter((_, i) => inside(i))), outside: Math.max(...far.filter((_, i) => !inside(i))), cameras: a.cameras[0] === b.cameras[0] }
-  }, [(from - start) / 1000 - 0.011, (to - start) / 1000 + 0.011])
+  const apart = await page.evaluate(
+    ([low, high]) => {
+      const { panes } = window.signweaveStage,
+        [a, b] = panes
+      const far = Array.from({ length: a.store.length }, (_, frame) => {
+        let most = 0
+        for (const hand of [0, 1])
+          for (const axis of [0, 1, 2]) most = Math.max(most, Math.abs(a.store.hand(frame, hand, axis) - b.store.hand(frame, hand, axis)))
+        return most
+      })
+      const inside = (frame) => frame / a.store.rate > low && frame / a.store.rate < high
+      return {
+        lengths: [a.store.length, b.store.length],
+        inside: Math.max(...far.filter((_, i) => inside(i))),
+        outside: Math.max(...far.filter((_, i) => !inside(i))),
+        cameras: a.cameras[0] === b.cameras[0],
+      }
+    },
+    [(from - start) / 1000 - 0.011, (to - start) / 1000 + 0.011],
+  )
   assert.equal(apart.lengths[0], apart.lengths[1])
   assert.ok(apart.inside > 0.005, `made and captured are ${apart.inside} m apart`)
   assert.ok(apart.outside < 1e-4, `${apart.outside} m apart where nothing was made`)
@@ -176,7 +221,13 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   await page.keyboard.press('Space')
   assert.equal((await transport(page)).playing, false)
   // No views, no speed, no other signer; the signer cannot be turned.
-  assert.equal(await page.locator('.tools:visible, input[type=range]:visible, select:visible').filter({ hasNot: page.locator('option', { hasText: 'demo' }) }).count(), 0)
+  assert.equal(
+    await page
+      .locator('.tools:visible, input[type=range]:visible, select:visible')
+      .filter({ hasNot: page.locator('option', { hasText: 'demo' }) })
+      .count(),
+    0,
+  )
   await page.mouse.move(200, 300)
   await page.mouse.down()
   await page.mouse.move(300, 300)
@@ -197,14 +248,21 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   await answered(1)
   await seen()
   while (calls.length < 6) await page.waitForTimeout(50)
-  assert.deepEqual(calls.slice(2, 4).map(({ remake }) => Boolean(remake)), trials[1].side === 'left' ? [false, true] : [true, false])
+  assert.deepEqual(
+    calls.slice(2, 4).map(({ remake }) => Boolean(remake)),
+    trials[1].side === 'left' ? [false, true] : [true, false],
+  )
 })
 
 test('viewers follow each other, what came out is shown on purpose, and deleting is asked for', async () => {
-  await setUp({ methods: ['hermite'], trials: 1, more: async () => {
-    await page.getByLabel('A comment').uncheck()
-    await page.getByLabel('A rating').uncheck()
-  } })
+  await setUp({
+    methods: ['hermite'],
+    trials: 1,
+    more: async () => {
+      await page.getByLabel('A comment').uncheck()
+      await page.getByLabel('A rating').uncheck()
+    },
+  })
   for (const [n, fluency] of ['Deaf signer', 'Learner'].entries()) {
     await begin(fluency)
     await seen()
@@ -294,7 +352,13 @@ test('a study in two tabs keeps the votes of both, and shows what the other did'
     await votes(other, 2)
     await seen()
     await votes(page, 3)
-    assert.deepEqual((await kept()).sessions.map(({ participant, answers }) => [participant, answers.length]), [['P01', 2], ['P02', 1]])
+    assert.deepEqual(
+      (await kept()).sessions.map(({ participant, answers }) => [participant, answers.length]),
+      [
+        ['P01', 2],
+        ['P02', 1],
+      ],
+    )
     // Deleted in one it is gone in the other.
     await button('Finish').click()
     await forMaker()
@@ -321,13 +385,25 @@ test('a kept study that cannot be shown stays until it is deleted, and can be sa
   assert.equal(await kept(), null)
 })
 
-for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
-  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+for (const [theme, language] of [
+  ['dark', 'en'],
+  ['light', 'fr'],
+]) {
+  for (const size of [
+    { width: 1280, height: 720 },
+    { width: 390, height: 844 },
+  ]) {
     test(`an accessibility checker finds nothing in a study, ${theme}, ${language}, ${size.width} wide`, async () => {
       const found = []
       const look = async (name) => {
         found.push(...(await axeFaults(page)).map((fault) => `${name}: ${fault}`))
-        assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth), `${name} is wider than the screen`)
+        assert.ok(
+          await page.evaluate(
+            () =>
+              document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth,
+          ),
+          `${name} is wider than the screen`,
+        )
       }
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
       await visit('#/demo/compare', { size })

@@ -22,7 +22,7 @@ test('signs glosses that are typed and completed, by keyboard alone', async () =
   await shown('VANNES')
   await pause()
   await page.keyboard.type('main')
-  assert.deepEqual((await options.locator('span:first-child').allTextContents()), ['DEMAIN'])
+  assert.deepEqual(await options.locator('span:first-child').allTextContents(), ['DEMAIN'])
   await page.keyboard.press('Escape')
   assert.equal(await options.count(), 0)
   for (let i = 0; i < 4; ++i) await page.keyboard.press('Backspace')
@@ -64,7 +64,8 @@ test('moves signs by mouse and by keyboard, takes them out, and takes every step
   assert.equal(await page.locator('aside h2').textContent(), 'BONJOUR')
   await page.keyboard.press('Alt+ArrowLeft')
   assert.equal(await field().inputValue(), 'MATIN BONJOUR PLUIE')
-  const isLeft = () => page.evaluate(() => document.activeElement.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft', altKey: true, bubbles: true, cancelable: true })))
+  const isLeft = () =>
+    page.evaluate(() => document.activeElement.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft', altKey: true, bubbles: true, cancelable: true })))
   await page.locator('.junction').first().focus()
   assert.equal(await isLeft(), false) // the browser does not go back
   await page.locator('.card').nth(1).focus()
@@ -122,7 +123,9 @@ test('goes from junction to junction, and repeats what lies around each', async 
   assert.match(await page.locator('aside h2').textContent(), /Junction 1: VANNES – MATIN/)
   const junctions = await page.evaluate(async () => {
     const body = JSON.stringify({ utterance: 'VANNES MATIN PLUIE' })
-    const { junctions, frames_per_second: rate } = await (await fetch('api/databases/demo/sign', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body })).json()
+    const { junctions, frames_per_second: rate } = await (
+      await fetch('api/databases/demo/sign', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body })
+    ).json()
     return junctions.map(({ frames, method }) => ({ begin: frames.begin / rate, end: frames.end / rate, method }))
   })
   near(first.begin, junctions[0].begin - 0.4)
@@ -146,20 +149,27 @@ test('compares two methods in step: the same signs, other transitions', async ()
   await page.getByRole('combobox', { name: 'With' }).selectOption('sine')
   await page.waitForFunction(() => window.signweaveStage.panes.length === 2 && window.signweaveStage.panes.every(({ store }) => store.arrived >= store.length))
   await pause()
-  assert.deepEqual((await page.locator('.title').allTextContents()).map((one) => one.trim()), ['As composed', 'sine'])
+  assert.deepEqual(
+    (await page.locator('.title').allTextContents()).map((one) => one.trim()),
+    ['As composed', 'sine'],
+  )
   const { loop } = await transport(page)
-  const apart = await page.evaluate(({ begin, end }) => {
-    const [one, other] = window.signweaveStage.panes.map(({ store }) => store)
-    const at = (store, frame) => [0, 1, 2].map((axis) => store.hand(frame, 1, axis))
-    let inside = 0, outside = 0
-    for (let frame = 0; frame < one.length; ++frame) {
-      const far = Math.hypot(...at(one, frame).map((value, k) => value - at(other, frame)[k]))
-      const time = frame / one.rate
-      if (time > begin - 0.02 && time < end + 0.02) inside = Math.max(inside, far)
-      else outside = Math.max(outside, far)
-    }
-    return { inside, outside, same: one.length === other.length, time: window.signweaveStage.panes[1].timeOf(1.5) }
-  }, { begin: loop.begin + 0.4, end: loop.end - 0.4 })
+  const apart = await page.evaluate(
+    ({ begin, end }) => {
+      const [one, other] = window.signweaveStage.panes.map(({ store }) => store)
+      const at = (store, frame) => [0, 1, 2].map((axis) => store.hand(frame, 1, axis))
+      let inside = 0,
+        outside = 0
+      for (let frame = 0; frame < one.length; ++frame) {
+        const far = Math.hypot(...at(one, frame).map((value, k) => value - at(other, frame)[k]))
+        const time = frame / one.rate
+        if (time > begin - 0.02 && time < end + 0.02) inside = Math.max(inside, far)
+        else outside = Math.max(outside, far)
+      }
+      return { inside, outside, same: one.length === other.length, time: window.signweaveStage.panes[1].timeOf(1.5) }
+    },
+    { begin: loop.begin + 0.4, end: loop.end - 0.4 },
+  )
   assert.ok(apart.same && apart.inside > 0.02 && apart.outside < 1e-4, JSON.stringify(apart))
   near(apart.time, 1.5, 0.02)
   await button('sine for all').click()
@@ -218,11 +228,12 @@ test('saves a project and opens it again by button and by drop; what is none is 
   await page.locator('input[type=file]').setInputFiles({ name: file.name, mimeType: 'application/json', buffer: file.bytes })
   await shown('VANNES MATIN#2 , "LE MANS"')
   await page.waitForFunction(() => /tempo=1.5/.test(location.hash))
-  const drop = (text) => page.evaluate((content) => {
-    const files = new DataTransfer()
-    files.items.add(new File([content], 'x.signweave.json'))
-    document.querySelector('.compose').dispatchEvent(new DragEvent('drop', { bubbles: true, cancelable: true, dataTransfer: files }))
-  }, text)
+  const drop = (text) =>
+    page.evaluate((content) => {
+      const files = new DataTransfer()
+      files.items.add(new File([content], 'x.signweave.json'))
+      document.querySelector('.compose').dispatchEvent(new DragEvent('drop', { bubbles: true, cancelable: true, dataTransfer: files }))
+    }, text)
   await drop(JSON.stringify({ ...JSON.parse(file.bytes), colour: 'red' }))
   await page.getByText('a field that this studio does not know: colour').waitFor()
   assert.deepEqual(await cards(), ['VANNES', 'MATIN#2', 'LE MANS'])
@@ -260,7 +271,10 @@ test('opens the paper’s scenarios, the original beside them, and starts from a
   const text = await field().inputValue()
   assert.ok(text.includes(kScenario1) && text.endsWith('"LE MANS" BROUILLARD#1'), text)
   assert.equal((await cards()).length, 36)
-  assert.deepEqual((await page.locator('.title').allTextContents()).map((one) => one.trim().slice(0, 14)), ['Recorded meteo', 'Made BONJOUR#1'])
+  assert.deepEqual(
+    (await page.locator('.title').allTextContents()).map((one) => one.trim().slice(0, 14)),
+    ['Recorded meteo', 'Made BONJOUR#1'],
+  )
   assert.equal(await page.locator('.junction:not(.kept)').count(), 8)
   const steps = await page.evaluate(() => [5, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
   near(steps[0], 6.2, 0.05) // what was made begins with the first sign
@@ -280,8 +294,13 @@ test('opens the paper’s scenarios, the original beside them, and starts from a
 test('downloads motion and annotation', async () => {
   await compose('VANNES MATIN')
   const get = (name) => saved(() => pick('Download', name))
-  const bvh = await get(/^BVH/), glb = await get(/^GLB/), eaf = await get(/^EAF/)
-  assert.deepEqual([bvh, glb, eaf].map(({ name }) => name), ['VANNES_MATIN.bvh', 'VANNES_MATIN.glb', 'VANNES_MATIN.eaf'])
+  const bvh = await get(/^BVH/),
+    glb = await get(/^GLB/),
+    eaf = await get(/^EAF/)
+  assert.deepEqual(
+    [bvh, glb, eaf].map(({ name }) => name),
+    ['VANNES_MATIN.bvh', 'VANNES_MATIN.glb', 'VANNES_MATIN.eaf'],
+  )
   assert.match(String(bvh.bytes.subarray(0, 9)), /HIERARCHY/)
   assert.match(String(glb.bytes.subarray(0, 4)), /glTF/)
   assert.match(String(eaf.bytes), /placeholder shapes, not LSF[^]*learned \d+ ms: VANNES -&gt; MATIN/)
@@ -302,7 +321,10 @@ test('makes a film in the page, every picture of it with what the recordings dec
   assert.equal(webm.blocks.length, Math.floor(seconds * 30 + 1e-6) + 1)
   const pictures = await decoded(page, webm, webm.codec === 'V_VP9' ? 'vp09.00.21.08' : 'vp8')
   assert.deepEqual([...new Set(pictures.map(({ width, height }) => `${width} ${height}`))], ['640 360'])
-  assert.ok(pictures.every(({ caption }) => caption > 300), `${pictures.map(({ caption }) => caption)}`)
+  assert.ok(
+    pictures.every(({ caption }) => caption > 300),
+    `${pictures.map(({ caption }) => caption)}`,
+  )
   assert.equal(await page.locator('dialog').count(), 0)
   assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 1)
 })
@@ -315,8 +337,14 @@ test('says where the browser can make no film', async () => {
   await page.keyboard.press('Escape')
 })
 
-for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
-  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+for (const [theme, language] of [
+  ['dark', 'en'],
+  ['light', 'fr'],
+]) {
+  for (const size of [
+    { width: 1280, height: 720 },
+    { width: 390, height: 844 },
+  ]) {
     test(`an accessibility checker finds nothing where one composes, ${theme}, ${language}, ${size.width} wide`, async () => {
       if (!page) await visit('')
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])

@@ -34,7 +34,7 @@ test('keeps what was done last: where the page is left at once, and where someth
   await page.locator('.card').click()
   await button('Duplicate').waitFor()
   await page.evaluate(() => {
-    [...document.querySelectorAll('aside button')].find(({ textContent }) => textContent === 'Duplicate').click()
+    ;[...document.querySelectorAll('aside button')].find(({ textContent }) => textContent === 'Duplicate').click()
     location.hash = '#/demo'
   })
   await page.locator('tbody').first().waitFor()
@@ -101,7 +101,8 @@ test('signs live: each word at once, and tells what cannot be', async () => {
 })
 
 test('loses no word where the stream breaks', async () => {
-  let gone = () => {}, whole = true
+  let gone = () => {},
+    whole = true
   await visit('')
   await page.routeWebSocket(/stream/, (socket) => {
     if (!whole) return socket.close({ code: 1001 })

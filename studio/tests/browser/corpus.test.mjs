@@ -2,18 +2,17 @@
 import assert from 'node:assert/strict'
 import { copyFileSync, existsSync, mkdirSync, readdirSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import {
-  annotation, asBefore, begin, button, choose, faultsOf, files, kThanks, kWays, look, row, settled, store, stored, storedOne,
-} from './corpus_tools.mjs'
+import { annotation, asBefore, begin, button, choose, faultsOf, files, kThanks, kWays, look, row, settled, store, stored, storedOne } from './corpus_tools.mjs'
 import { withServer } from './server.mjs'
 import { address, context, folder, page, test, visit } from './suite.mjs'
 
 /** Drops files on the page, made there. */
-const drop = (list) => page.evaluate((all) => {
-  const transfer = new DataTransfer()
-  for (const [name, text] of all) transfer.items.add(new File([text], name))
-  document.querySelector('main').dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }))
-}, list)
+const drop = (list) =>
+  page.evaluate((all) => {
+    const transfer = new DataTransfer()
+    for (const [name, text] of all) transfer.items.add(new File([text], name))
+    document.querySelector('main').dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }))
+  }, list)
 /** Drags files and folders of the disk over the page and drops them there, as from a desktop. */
 const dropFromDisk = async (paths) => {
   const mouse = await context.newCDPSession(page)
@@ -45,7 +44,10 @@ test('takes files that are dropped and folders, and says at once what cannot be 
   await page.locator('input[webkitdirectory]').setInputFiles(days)
   await page.getByText('Files of the same name lie in several folders').waitFor()
   await button('Put their folders’ names in front').click()
-  assert.deepEqual((await names()).map((name) => name.replace(/.*\//, '')), ['days_one_same.bvh', 'days_one_same.eaf', 'days_two_same.bvh', 'days_two_same.eaf'])
+  assert.deepEqual(
+    (await names()).map((name) => name.replace(/.*\//, '')),
+    ['days_one_same.bvh', 'days_one_same.eaf', 'days_two_same.bvh', 'days_two_same.eaf'],
+  )
 })
 
 test('takes a folder that is dropped, with all that is in it', async () => {
@@ -93,7 +95,11 @@ test('sends with a progress in bytes, and again only what failed', async () => {
   const speed = (uploadThroughput) => line.send('Network.emulateNetworkConditions', { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput })
   await speed(200_000)
   await button('Send the rest').click()
-  await page.waitForFunction(() => /second\.bvh\s*motion\s*927 kB\s*[1-9]\d? %/.test(document.querySelector('.list').textContent) && /Sending: 1\.\d MB of 1\.9 MB/.test(document.querySelector('.acts').textContent))
+  await page.waitForFunction(
+    () =>
+      /second\.bvh\s*motion\s*927 kB\s*[1-9]\d? %/.test(document.querySelector('.list').textContent) &&
+      /Sending: 1\.\d MB of 1\.9 MB/.test(document.querySelector('.acts').textContent),
+  )
   await button('Cancel').click()
   await button('Send the rest').waitFor()
   await speed(-1)
@@ -115,7 +121,17 @@ test('reports what was guessed, and stores what was corrected', async () => {
   assert.match(await page.locator('article').textContent(), /broken\.bvh:2: expected '\{'/)
   await row('plain').click()
   const article = page.locator('article')
-  for (const fact of [/Frames\s*800/, /Frames a second\s*100/, /Vertical axis\s*Y/, /Unit, m\s*0\.01/, /Mirrored\s*no/, /sign tier 'Gloss' guessed/, /frozen joint · 3 frames 171 to 287, RightHandRing3/, /Names as MotionBuilder has them/, /synthetic motion: placeholder shapes/]) {
+  for (const fact of [
+    /Frames\s*800/,
+    /Frames a second\s*100/,
+    /Vertical axis\s*Y/,
+    /Unit, m\s*0\.01/,
+    /Mirrored\s*no/,
+    /sign tier 'Gloss' guessed/,
+    /frozen joint · 3 frames 171 to 287, RightHandRing3/,
+    /Names as MotionBuilder has them/,
+    /synthetic motion: placeholder shapes/,
+  ]) {
     assert.match(await article.textContent(), fact)
   }
   // One recording: who signs, what a tier is, which joint is what; all: the unit.
@@ -140,10 +156,19 @@ test('reports what was guessed, and stores what was corrected', async () => {
   assert.match(await article.textContent(), /Signs\s*36/)
   await page.getByRole('button', { name: /^Import 2$/ }).click()
   await page.getByText('Stored: 2').waitFor({ timeout: 60_000 })
-  assert.deepEqual((await stored()).map(({ name, signer }) => [name, signer]), [['other', 'synthetic'], ['plain', 'Zoé']])
+  assert.deepEqual(
+    (await stored()).map(({ name, signer }) => [name, signer]),
+    [
+      ['other', 'synthetic'],
+      ['plain', 'Zoé'],
+    ],
+  )
   const plain = await storedOne('plain')
   assert.equal(plain.rig.parts.jaw, undefined)
-  assert.ok(plain.defects.some(({ kind }) => kind === 'scale'), 'it is not twice as tall')
+  assert.ok(
+    plain.defects.some(({ kind }) => kind === 'scale'),
+    'it is not twice as tall',
+  )
   await row('other').click()
   await page.getByRole('link', { name: 'Open' }).click()
   await page.waitForFunction(() => /recording\/other/.test(location.hash))
@@ -155,7 +180,10 @@ test('reports what was guessed, and stores what was corrected', async () => {
 test('takes a table of pairs and a mapping file, as a person wrote them', async () => {
   await begin()
   await choose([...files('day1', { seconds: 2 }), ...files('notes', { motion: false })])
-  await drop([['pairs.csv', 'motion,annotation,signer\nfar/day1.bvh,eaf\\notes.eaf,Ada\ngone.bvh,\n'], ['map.rig', '# none\njaw =\npelvis = nope\n']])
+  await drop([
+    ['pairs.csv', 'motion,annotation,signer\nfar/day1.bvh,eaf\\notes.eaf,Ada\ngone.bvh,\n'],
+    ['map.rig', '# none\njaw =\npelvis = nope\n'],
+  ])
   await page.getByText('Table of pairs, line 3: “gone.bvh” was not chosen.').waitFor()
   await look()
   await row('day1').click()
@@ -219,7 +247,8 @@ test('says what becomes of a recording that is known, and pairs files as it is t
 /** Holds calls whose address fits until told to let them go on. */
 async function held(what) {
   let go
-  const gone = new Promise((resolve) => (go = resolve)), came = page.waitForRequest(what)
+  const gone = new Promise((resolve) => (go = resolve)),
+    came = page.waitForRequest(what)
   await page.route(what, async (route) => (await gone, route.continue()), { times: 1 })
   return { came, go }
 }
@@ -246,7 +275,8 @@ test('loses no correction, whether it is made meanwhile, wrong, or the server is
   await button('Send and look').click()
   await page.getByText('Not looked at yet: “Look again” goes on.').waitFor()
   await look()
-  const article = page.locator('article'), importing = page.locator('.foot .primary')
+  const article = page.locator('article'),
+    importing = page.locator('.foot .primary')
   // While the one is looked at again, the other is mirrored.
   const first = await held(/\/inspect$/)
   await row('one').click()
@@ -363,7 +393,10 @@ test('finds recordings, sorts them, and opens the player where something is wron
   await page.getByLabel('Signer', { exact: true }).selectOption('*')
   await page.getByRole('button', { name: 'Name', exact: false }).first().focus()
   await page.keyboard.press('Enter')
-  assert.deepEqual(await shown(), (await stored()).map(({ name }) => name).toSorted((a, b) => b.localeCompare(a)))
+  assert.deepEqual(
+    await shown(),
+    (await stored()).map(({ name }) => name).toSorted((a, b) => b.localeCompare(a)),
+  )
   assert.equal(await page.locator('th[aria-sort=descending]').count(), 1)
   await page.getByRole('button', { name: 'Details of plain' }).click()
   await page.getByRole('link', { name: 'frames 333 to 521' }).click()
@@ -383,10 +416,16 @@ test('changes how recordings are stored, and removes only what is confirmed', as
   await page.getByText('Stored anew: 1 of 1').waitFor({ timeout: 60_000 })
   await button('Close').click()
   await page.locator('tr', { hasText: 'plain' }).getByText('by_joint_and_frame:50').waitFor()
-  assert.deepEqual((await stored()).filter(({ access_mode: mode }) => mode === 'by_joint_and_frame:50').map(({ name }) => name), ['plain'])
+  assert.deepEqual(
+    (await stored()).filter(({ access_mode: mode }) => mode === 'by_joint_and_frame:50').map(({ name }) => name),
+    ['plain'],
+  )
   await page.getByRole('button', { name: 'Details of other' }).click()
   const before = (await stored()).length
-  for (const [answer, after] of [['Cancel', before], ['Remove', before - 1]]) {
+  for (const [answer, after] of [
+    ['Cancel', before],
+    ['Remove', before - 1],
+  ]) {
     await page.getByRole('button', { name: 'Remove other' }).click()
     assert.match(await page.getByRole('dialog').textContent(), /Remove from mine\?\s*other/)
     await page.getByRole('dialog').getByRole('button', { name: answer }).click()
@@ -399,7 +438,11 @@ test('changes how recordings are stored, and removes only what is confirmed', as
 test('cancels a change of storage while it goes, and says what was done', async () => {
   // Pieces of a single frame take seconds.
   const kPieces = 'by_joint_and_frame:1'
-  for (const [name, seconds] of [['brief', 1], ['long', 50]]) await store(name, { seconds })
+  for (const [name, seconds] of [
+    ['brief', 1],
+    ['long', 50],
+  ])
+    await store(name, { seconds })
   const modes = async () => Object.fromEntries((await stored()).map(({ name, access_mode: mode }) => [name, mode]))
   const before = await modes()
   await visit('#/mine')
@@ -430,8 +473,11 @@ test('shows thousands of recordings without drawing them', async () => {
   // What the server would answer for so many: none is made here.
   await visit('')
   await page.route(/\/api\/databases\/demo$/, async (route) => {
-    const answer = await (await route.fetch()).json(), [one] = answer.recordings
-    await route.fulfill({ json: { ...answer, recordings: Array.from({ length: 20_000 }, (_, k) => ({ ...one, name: `take ${k + 1}`, signer: `signer ${k % 7}`, defects: k % 5 })) } })
+    const answer = await (await route.fetch()).json(),
+      [one] = answer.recordings
+    await route.fulfill({
+      json: { ...answer, recordings: Array.from({ length: 20_000 }, (_, k) => ({ ...one, name: `take ${k + 1}`, signer: `signer ${k % 7}`, defects: k % 5 })) },
+    })
   })
   await page.evaluate(() => (location.hash = '#/mine'))
   await page.waitForFunction(() => /plain/.test(document.querySelector('tbody')?.textContent))

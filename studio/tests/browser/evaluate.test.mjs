@@ -12,12 +12,17 @@ const result = () => page.waitForSelector('#result-title', { timeout: 120_000 })
 /** What a button gives to be saved. */
 async function saved(press) {
   const [download] = await Promise.all([page.waitForEvent('download'), press()])
-  const name = download.suggestedFilename(), text = readFileSync(await download.path(), 'utf8')
+  const name = download.suggestedFilename(),
+    text = readFileSync(await download.path(), 'utf8')
   // Tables begin with the mark by which Excel knows UTF-8.
   assert.equal(text.startsWith('\ufeff'), name.endsWith('.csv'))
   return { name, text: text.replace('\ufeff', '') }
 }
-const rows = (text) => text.trimEnd().split('\r\n').map((line) => line.split(','))
+const rows = (text) =>
+  text
+    .trimEnd()
+    .split('\r\n')
+    .map((line) => line.split(','))
 /** The methods of a table, from above. */
 const methods = (table) => page.locator(`[aria-labelledby=${table}] tbody th button`).allTextContents()
 
@@ -52,8 +57,13 @@ test('evaluates a method, goes on while one looks at something else, and keeps t
   // Sorted by a column, up and down.
   const sort = page.getByRole('button', { name: 'Sort by 170 ms' })
   await sort.click()
-  const figures = Object.entries(group('given', '170 ms').hands.moving).map(([method, { wrist }]) => [method, wrist.over_slerp.value]).sort((a, b) => a[1] - b[1])
-  assert.deepEqual(await methods('by-group'), figures.map(([method]) => method))
+  const figures = Object.entries(group('given', '170 ms').hands.moving)
+    .map(([method, { wrist }]) => [method, wrist.over_slerp.value])
+    .sort((a, b) => a[1] - b[1])
+  assert.deepEqual(
+    await methods('by-group'),
+    figures.map(([method]) => method),
+  )
   await sort.click()
   assert.deepEqual(await methods('by-group'), figures.map(([method]) => method).reverse())
   assert.equal(await page.locator('[aria-labelledby=by-group] th[aria-sort=descending]').innerText(), '170 ms ▼')
@@ -69,7 +79,8 @@ test('evaluates a method, goes on while one looks at something else, and keeps t
   assert.equal(csv.name, 'evaluation_demo_replaced_left_abs_ln_peak_speed_ratio.csv')
   const table = rows(csv.text)
   assert.deepEqual(table[0].slice(0, 5), ['task', 'hand', 'measure', 'method', 'same gloss'])
-  const hermite = table.find((row) => row[3] === 'hermite'), at = table[0].indexOf('other sign')
+  const hermite = table.find((row) => row[3] === 'hermite'),
+    at = table[0].indexOf('other sign')
   assert.equal(Number(hermite[at]), group('replaced', 'other sign').hands.left.hermite.abs_ln_peak_speed_ratio.value)
   assert.deepEqual(hermite.slice(0, 3), ['replaced', 'left', 'abs_ln_peak_speed_ratio'])
 
@@ -83,12 +94,21 @@ test('draws what the tables hold, and gives the drawings away', async () => {
   await page.evaluate(() => (location.hash = '#/demo/evaluate?task=given&measure=wrist&log=0'))
   await page.waitForFunction(() => document.querySelectorAll('.plot svg').length === 2)
   await page.waitForFunction(() => document.querySelector('.plot svg').textContent.includes('Wrist, mm'))
-  const lines = page.locator('.plot svg').first(), dots = page.locator('.plot svg').nth(1)
+  const lines = page.locator('.plot svg').first(),
+    dots = page.locator('.plot svg').nth(1)
   assert.match(await lines.getAttribute('aria-label'), /^Wrist, mm of each method by length of the gap/)
-  assert.deepEqual(await dots.locator('g > text').allTextContents().then((all) => all.map((one) => one.replace('★ ', ''))), ['hermite', 'slerp', 'nearest', 'ceiling'])
+  assert.deepEqual(
+    await dots
+      .locator('g > text')
+      .allTextContents()
+      .then((all) => all.map((one) => one.replace('★ ', ''))),
+    ['hermite', 'slerp', 'nearest', 'ceiling'],
+  )
   // A greater error is farther to the right, as the table has it.
   const places = await dots.locator('g > circle').evaluateAll((all) => all.map((one) => Number(one.getAttribute('cx'))))
-  const values = (await page.locator('[aria-labelledby=by-group] tbody td:nth-child(2) > span').allTextContents()).map((text) => Number(/[\d.]+$/.exec(text)[0]))
+  const values = (await page.locator('[aria-labelledby=by-group] tbody td:nth-child(2) > span').allTextContents()).map((text) =>
+    Number(/[\d.]+$/.exec(text)[0]),
+  )
   const order = (list) => list.map((_, i) => i).sort((a, b) => list[a] - list[b])
   assert.deepEqual(order(places), order(values))
   // What is chosen in the table stands out in the drawings.
@@ -139,7 +159,10 @@ test('follows its job through a break of the network, is cancelled there, and ou
 })
 
 test('opens what the command line wrote, and says what is none', async () => {
-  const made = execFileSync(join(kBin, 'signweave'), ['evaluate', join(folder, 'corpus/meteo.bvh'), '--method', 'gap', '--json'], { stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1e9 })
+  const made = execFileSync(join(kBin, 'signweave'), ['evaluate', join(folder, 'corpus/meteo.bvh'), '--method', 'gap', '--json'], {
+    stdio: ['ignore', 'pipe', 'ignore'],
+    maxBuffer: 1e9,
+  })
   const file = join(folder, 'command_line.json')
   writeFileSync(file, made)
   await visit('#/demo/evaluate')
@@ -149,7 +172,10 @@ test('opens what the command line wrote, and says what is none', async () => {
   }
   await choose(join(folder, 'corpus/meteo.eaf'))
   assert.match(await page.getByRole('alert').textContent(), /This is no evaluation/)
-  for (const odd of [{ tasks: [], spans: [], recordings: 0 }, { ...JSON.parse(made), spans: [null] }]) {
+  for (const odd of [
+    { tasks: [], spans: [], recordings: 0 },
+    { ...JSON.parse(made), spans: [null] },
+  ]) {
     writeFileSync(join(folder, 'odd.json'), JSON.stringify(odd))
     await choose(join(folder, 'odd.json'))
     assert.match(await page.getByRole('alert').textContent(), /This is no evaluation/)
@@ -163,8 +189,14 @@ test('opens what the command line wrote, and says what is none', async () => {
   assert.equal(await page.locator('details img').count(), 0)
 })
 
-for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
-  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+for (const [theme, language] of [
+  ['dark', 'en'],
+  ['light', 'fr'],
+]) {
+  for (const size of [
+    { width: 1280, height: 720 },
+    { width: 390, height: 844 },
+  ]) {
     test(`an accessibility checker finds nothing in an evaluation, ${theme}, ${language}, ${size.width} wide`, async () => {
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
       await visit('#/demo/evaluate', { size })
@@ -174,7 +206,15 @@ for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
       await result()
       for (const summary of await page.locator('summary').all()) await summary.click()
       assert.deepEqual(await axeFaults(page), [])
-      assert.ok(await page.evaluate(() => document.scrollingElement.scrollHeight <= innerHeight && document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth), 'wider than the screen')
+      assert.ok(
+        await page.evaluate(
+          () =>
+            document.scrollingElement.scrollHeight <= innerHeight &&
+            document.scrollingElement.scrollWidth <= innerWidth &&
+            document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth,
+        ),
+        'wider than the screen',
+      )
       await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
     })
   }

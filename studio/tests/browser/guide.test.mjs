@@ -8,7 +8,8 @@ import { page, test, visit } from './suite.mjs'
 import { opened } from './waits.mjs'
 
 const panel = () => page.getByRole('region', { name: 'Guide' })
-const says = (text) => page.waitForFunction((wanted) => document.querySelector('[aria-label=Guide] .words')?.textContent.includes(wanted), text, { timeout: 20_000 })
+const says = (text) =>
+  page.waitForFunction((wanted) => document.querySelector('[aria-label=Guide] .words')?.textContent.includes(wanted), text, { timeout: 20_000 })
 const go = (hash) => page.evaluate((to) => (location.hash = to), hash)
 const forget = () => page.evaluate(() => localStorage.removeItem('signweave.guide'))
 
@@ -23,7 +24,9 @@ test('goes along the demo: notices what was done, is left and taken up again', a
   await says('2/10 Play it slowly')
   assert.match(await panel().textContent(), /Done: Open a recording/)
   // Nothing lies over what is worked on.
-  const below = await page.evaluate(() => document.querySelector('[aria-label=Guide]').getBoundingClientRect().bottom <= document.querySelector('main').getBoundingClientRect().top + 0.5)
+  const below = await page.evaluate(
+    () => document.querySelector('[aria-label=Guide]').getBoundingClientRect().bottom <= document.querySelector('main').getBoundingClientRect().top + 0.5,
+  )
   assert.ok(below)
   for (const key of ['<', '<', '<', 'Space']) await page.keyboard.press(key)
   await says('3/10 Select a sign')
@@ -56,10 +59,16 @@ test('goes along the demo: notices what was done, is left and taken up again', a
   await says('7/10 Take another token')
   await go('#/demo/compose?utterance=MATIN+PLUIE+VANNES')
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen)
-  await page.getByRole('button', { name: /^MATIN/ }).first().click()
+  await page
+    .getByRole('button', { name: /^MATIN/ })
+    .first()
+    .click()
   await page.getByRole('button', { name: /^#1 meteo/ }).click()
   await says('8/10 Change a transition')
-  await page.getByRole('button', { name: /junction/i }).first().click()
+  await page
+    .getByRole('button', { name: /junction/i })
+    .first()
+    .click()
   await page.getByLabel('Transition').first().selectOption('overlap')
   await says('9/10 Download or share')
   await page.waitForFunction(() => /junctions/.test(location.hash))
@@ -71,7 +80,10 @@ test('goes along the demo: notices what was done, is left and taken up again', a
   await button('None').click()
   await page.getByRole('button', { name: 'Evaluate', exact: true }).click()
   await says('That was all.')
-  await page.getByRole('button', { name: 'Cancel' }).click().catch(() => {}) // where it still runs
+  await page
+    .getByRole('button', { name: 'Cancel' })
+    .click()
+    .catch(() => {}) // where it still runs
   await button('Leave the guide').click()
 })
 
@@ -94,7 +106,8 @@ test('goes the path of a folder of EAF and BVH, from an empty database to a file
   await page.getByRole('button', { name: /^Begin\s*I have a folder/ }).click()
   await page.waitForFunction(() => location.hash === '#/mine/import')
   await says('1/10 Bring your files')
-  const { paths, first, gloss, count } = folderOf(), real = first === 'ISL Thanks'
+  const { paths, first, gloss, count } = folderOf(),
+    real = first === 'ISL Thanks'
   await page.locator('input[type=file]:not([webkitdirectory])').setInputFiles(paths)
   await button('Send and look').click()
   await says('2/10 Check the report')
@@ -144,8 +157,14 @@ test('goes the path of a folder of EAF and BVH, from an empty database to a file
   await empty()
 })
 
-for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
-  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+for (const [theme, language] of [
+  ['dark', 'en'],
+  ['light', 'fr'],
+]) {
+  for (const size of [
+    { width: 1280, height: 720 },
+    { width: 390, height: 844 },
+  ]) {
     test(`an accessibility checker finds nothing in the guide, ${theme}, ${language}, ${size.width} wide`, async () => {
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
       await visit('#/demo/guide', { size })

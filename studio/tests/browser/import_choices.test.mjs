@@ -118,8 +118,12 @@ test('takes one file out before the import, without sending or looking at the ot
   await page.getByRole('button', { name: /^Import 2$/ }).click()
   await page.getByText('Stored: 2').waitFor({ timeout: 60_000 })
   assert.deepEqual(back.toSorted(), ['first.bvh', 'second.eaf', 'third.bvh', 'third.eaf'])
-  assert.deepEqual(sent.filter((name) => name !== 'pairs.csv'), [])
-  const first = await storedOne('first'), second = await storedOne('second')
+  assert.deepEqual(
+    sent.filter((name) => name !== 'pairs.csv'),
+    [],
+  )
+  const first = await storedOne('first'),
+    second = await storedOne('second')
   assert.deepEqual([first.motion_file || '', first.annotation_file, second.motion_file, second.annotation_file || ''], ['', 'first.eaf', 'second.bvh', ''])
   assert.ok((await stored()).every(({ name }) => name !== 'third'))
 })
@@ -136,6 +140,9 @@ test('stores checked phases of a recording whose name has a folder in it', async
   await button('Store in the database').click()
   await page.getByText('annotation replaced').waitFor({ timeout: 60_000 })
   assert.match(await annotation(name), /Phase RH \(checked\)/)
-  assert.deepEqual((await stored()).map((one) => one.name), before)
+  assert.deepEqual(
+    (await stored()).map((one) => one.name),
+    before,
+  )
   await empty()
 })

@@ -11,12 +11,16 @@ import { address, context, folder, page, test, visit } from './suite.mjs'
 const kSmall = { width: 960, height: 600 }
 const draft = () => page.evaluate(() => JSON.parse(localStorage.getItem('signweave.review.mine/plain') ?? 'null')?.review.phases)
 const progress = () => page.locator('.progress strong').textContent()
-const press = async (...keys) => { for (const key of keys) await page.keyboard.press(key) }
+const press = async (...keys) => {
+  for (const key of keys) await page.keyboard.press(key)
+}
 /** Until the page of a recording's phases has drawn the signer. */
 async function bench() {
   await page.waitForFunction(() => document.querySelector('.bench[data-ready]') && window.signweaveStage?.panes[0]?.seen, null, { timeout: 60_000 })
   // What keys and buttons do is asked here, not how it is drawn, which takes software long.
-  await page.evaluate(() => { if (window.signweaveStage) window.signweaveStage.touch = () => {} })
+  await page.evaluate(() => {
+    if (window.signweaveStage) window.signweaveStage.touch = () => {}
+  })
 }
 const near = (value, wanted) => assert.ok(Math.abs(value - wanted) < 1e-3, `${value} is not ${wanted}`)
 const all = ({ right, left }) => [...right, ...left].toSorted((a, b) => a.begin - b.begin || (a.hand === 'right' ? -1 : 1))
@@ -34,11 +38,18 @@ test('reviews proposed phases by keyboard', async () => {
   const spanOf = async () => (({ loop }) => [loop.begin, loop.end].map((seconds) => Math.round(1000 * seconds)))(await transport(page))
   assert.deepEqual(await spanOf(), [proposed[0].begin, proposed[0].end])
   await press('Space')
-  await page.waitForFunction(([from, to]) => window.signweaveStage.transport.playing && window.signweaveStage.transport.time > from / 1000 && window.signweaveStage.transport.time < to / 1000, [proposed[0].begin, proposed[0].end])
+  await page.waitForFunction(
+    ([from, to]) =>
+      window.signweaveStage.transport.playing && window.signweaveStage.transport.time > from / 1000 && window.signweaveStage.transport.time < to / 1000,
+    [proposed[0].begin, proposed[0].end],
+  )
   await press('Space', 'Enter', 'Delete')
   assert.equal(await progress(), `2 of ${count} decided`)
   let now = all(await draft())
-  assert.deepEqual(now.slice(0, 3).map(({ state }) => state), ['accepted', 'rejected', 'open'])
+  assert.deepEqual(
+    now.slice(0, 3).map(({ state }) => state),
+    ['accepted', 'rejected', 'open'],
+  )
   // A border by a frame and by ten; the picture is there.
   const [, , third] = now
   await press('w', 'Shift+P')
@@ -77,7 +88,8 @@ test('reviews phases by mouse and buttons', async () => {
   await button('All').click()
   const lane = await page.getByRole('slider', { name: 'Time' }).boundingBox()
   const { duration } = await transport(page)
-  const x = (ms) => lane.x + (ms / 1000 / duration) * lane.width, kRight = lane.y + 24 + 12
+  const x = (ms) => lane.x + (ms / 1000 / duration) * lane.width,
+    kRight = lane.y + 24 + 12
   const { right } = await draft()
   const one = right.reduce((longest, phase) => (phase.end - phase.begin > longest.end - longest.begin ? phase : longest))
   await page.mouse.click(x((one.begin + one.end) / 2), kRight)
@@ -110,11 +122,15 @@ test('writes nothing over a review that another window goes on with', async () =
   const mine = await draft()
   const other = await context.newPage()
   await other.goto(`${address}/api/formats`)
-  const theirs = (label) => other.evaluate(([key, kind]) => {
-    const one = JSON.parse(localStorage.getItem(key))
-    one.review.phases.right[0].kind = kind
-    localStorage.setItem(key, JSON.stringify({ ...one, revision: kind }))
-  }, ['signweave.review.mine/plain', label])
+  const theirs = (label) =>
+    other.evaluate(
+      ([key, kind]) => {
+        const one = JSON.parse(localStorage.getItem(key))
+        one.review.phases.right[0].kind = kind
+        localStorage.setItem(key, JSON.stringify({ ...one, revision: kind }))
+      },
+      ['signweave.review.mine/plain', label],
+    )
   const kind = async () => (await draft()).right[0].kind
   await theirs('theirs')
   await page.getByText('This review was changed in another window').waitFor()
@@ -148,7 +164,10 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   const { right, left } = await draft()
   const unseen = [...right, ...left].filter((one) => one.unseen).length
   assert.ok(unseen > 0)
-  const wanted = { 'Phase RH (checked)': right.filter(({ state }) => state === 'accepted'), 'Phase LH (checked)': left.filter(({ state }) => state === 'accepted') }
+  const wanted = {
+    'Phase RH (checked)': right.filter(({ state }) => state === 'accepted'),
+    'Phase LH (checked)': left.filter(({ state }) => state === 'accepted'),
+  }
   await button('Save…').click()
   await page.getByLabel('Who checked them').fill('Zoé <b>')
   const coming = page.waitForEvent('download')
@@ -158,14 +177,24 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   // The program reads it, and every line that was there is there but one, the last annotation's number.
   const info = execFileSync(kSignweave, ['info', eaf], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] })
   for (const [tier, phases] of Object.entries(wanted)) assert.match(info, new RegExp(`${tier.replace(/[()]/g, '\\$&')} +checked phase +${phases.length}\\b`))
-  const written = readFileSync(eaf, 'utf8'), lines = new Set(written.split('\n'))
-  assert.deepEqual(before.split('\n').filter((line) => !lines.has(line)).map((line) => line.trim().split('"')[1]), ['lastUsedAnnotationId'])
+  const written = readFileSync(eaf, 'utf8'),
+    lines = new Set(written.split('\n'))
+  assert.deepEqual(
+    before
+      .split('\n')
+      .filter((line) => !lines.has(line))
+      .map((line) => line.trim().split('"')[1]),
+    ['lastUsedAnnotationId'],
+  )
   assert.match(written, /ANNOTATOR="signweave, partly checked by Zoé &lt;b&gt;"/)
   assert.match(written, new RegExp(`phases checked by Zoé &lt;b&gt;, ${unseen} accepted all at once without being looked at<`))
   await page.getByText(`${unseen} were accepted all at once`).waitFor()
   const database = join(folder, 'checked', 'round.db')
   execFileSync(kSignweave, ['create', database], { stdio: 'ignore' })
-  assert.match(execFileSync(kSignweave, ['import', database, eaf, '--phase-tier', 'Phase RH (checked)'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }), /plain: added.*36 signs/)
+  assert.match(
+    execFileSync(kSignweave, ['import', database, eaf, '--phase-tier', 'Phase RH (checked)'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }),
+    /plain: added.*36 signs/,
+  )
   // In the database: what signs' phases are taken from is asked first. Somebody else has stored another annotation meanwhile: it is told, and stays.
   const colleague = (gloss) => store('plain', { motion: false, change: (text) => text.replace('>METEO<', `>${gloss}<`) })
   await colleague('COLLEAGUE')
@@ -179,10 +208,14 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   assert.match(await annotation('plain'), />AGAIN</)
   // Nor is one replaced that came at the last moment, when the import was on its way.
   const again = page.waitForResponse('**/uploads/*/inspect')
-  await page.route('**/uploads/*/import', async (route) => {
-    await colleague('LAST')
-    await route.continue()
-  }, { times: 1 })
+  await page.route(
+    '**/uploads/*/import',
+    async (route) => {
+      await colleague('LAST')
+      await route.continue()
+    },
+    { times: 1 },
+  )
   await button('Store in the database').click()
   await again
   await page.getByLabel('the checked phases: Phase RH (checked)').check()
@@ -209,7 +242,10 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   assert.equal(await progress(), `${decided} of ${decided} decided`)
   assert.match(await page.locator('.progress').textContent(), new RegExp(`of these unseen: ${unseen}\\b`))
   await press('ArrowDown', 'Delete', 'z')
-  assert.deepEqual(all(await draft()).map(({ begin, end, kind }) => [begin, end, kind]), all({ right: wanted['Phase RH (checked)'], left: wanted['Phase LH (checked)'] }).map(({ begin, end, kind }) => [begin, end, kind]))
+  assert.deepEqual(
+    all(await draft()).map(({ begin, end, kind }) => [begin, end, kind]),
+    all({ right: wanted['Phase RH (checked)'], left: wanted['Phase LH (checked)'] }).map(({ begin, end, kind }) => [begin, end, kind]),
+  )
 })
 
 for (const { name, size, set } of kWays) {

@@ -8,12 +8,19 @@ test('says of a search that was stopped that there may be more', async () => {
   await page.evaluate(() => {
     const real = window.fetch
     // Two answers come, and then no more until it is given up.
-    window.fetch = (where, init) => !String(where).endsWith('/query') ? real(where, init) : Promise.resolve(new Response(new ReadableStream({
-      start(stream) {
-        stream.enqueue(new TextEncoder().encode('recording,tier,name,begin ms,end ms\nmeteo,Gloss,A,0,100\nmeteo,Gloss,B,100,200\n'))
-        init.signal.addEventListener('abort', () => stream.error(init.signal.reason))
-      },
-    })))
+    window.fetch = (where, init) =>
+      !String(where).endsWith('/query')
+        ? real(where, init)
+        : Promise.resolve(
+            new Response(
+              new ReadableStream({
+                start(stream) {
+                  stream.enqueue(new TextEncoder().encode('recording,tier,name,begin ms,end ms\nmeteo,Gloss,A,0,100\nmeteo,Gloss,B,100,200\n'))
+                  init.signal.addEventListener('abort', () => stream.error(init.signal.reason))
+                },
+              }),
+            ),
+          )
   })
   await field().fill(kAll)
   await page.keyboard.press('Enter')
@@ -42,7 +49,10 @@ test('chooses answers by key and mouse, saves them in every format, and signs th
   assert.equal(csv.name, 'answers.csv')
   assert.deepEqual([rows.length, rows[0]], [4, 'recording,tier,name,begin ms,end ms'])
   const json = JSON.parse((await saved(() => button('JSON').click())).bytes)
-  assert.deepEqual(json.map(({ name, begin_ms }) => `${name},${begin_ms}`), rows.slice(1).map((row) => row.split(',').slice(2, 4).join()))
+  assert.deepEqual(
+    json.map(({ name, begin_ms }) => `${name},${begin_ms}`),
+    rows.slice(1).map((row) => row.split(',').slice(2, 4).join()),
+  )
   const eaf = await saved(() => button('ELAN', {}).click())
   assert.equal(eaf.name, 'answers_eaf.zip')
   assert.equal(eaf.bytes.toString('latin1').match(/TIER_ID="query 1"/g).length, 2)
@@ -58,10 +68,17 @@ test('chooses answers by key and mouse, saves them in every format, and signs th
   await button('CSV').waitFor({ state: 'hidden' })
   await page.getByText('Sign these').click()
   const { u } = Object.fromEntries(new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]))
-  const pieces = rows.slice(1).map((row) => row.split(',')).map(([recording, , , begin, end]) => `"${recording}"@${begin}..${end}`)
+  const pieces = rows
+    .slice(1)
+    .map((row) => row.split(','))
+    .map(([recording, , , begin, end]) => `"${recording}"@${begin}..${end}`)
   assert.equal(u.split(' ').length, 3)
   assert.deepEqual(u.split(' ').toSorted(), pieces.toSorted())
-  const made = await fetch(`${address}/api/databases/demo/sign`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ utterance: u }) })
+  const made = await fetch(`${address}/api/databases/demo/sign`, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body: JSON.stringify({ utterance: u }),
+  })
   assert.equal(made.status, 200)
 })
 
@@ -113,7 +130,8 @@ test('gives up an export when the page is left', async () => {
   let downloads = 0
   page.on('download', () => ++downloads)
   await page.getByText('Export', { exact: true }).click()
-  const asking = page.waitForRequest(/format=bvh/), given = page.waitForEvent('requestfailed', (request) => /format=bvh/.test(request.url()))
+  const asking = page.waitForRequest(/format=bvh/),
+    given = page.waitForEvent('requestfailed', (request) => /format=bvh/.test(request.url()))
   await button('Motion, BVH').click()
   await asking
   await page.evaluate(() => (location.hash = '#/demo'))

@@ -123,13 +123,17 @@ test('scrubs, selects and zooms on the timeline by mouse', async () => {
 })
 
 /** How far a joint of a signer's body is at most from where the motion has it, in metres. */
-const apart = (pane = 0) => page.evaluate((index) => {
-  const { body, model } = window.signweaveStage.panes[index]
-  return Math.max(...body.joints.map((joint, j) => {
-    const e = joint.matrixWorld.elements, p = model.positions
-    return Math.hypot(e[12] - p[3 * j], e[13] - p[3 * j + 1], e[14] - p[3 * j + 2])
-  }))
-}, pane)
+const apart = (pane = 0) =>
+  page.evaluate((index) => {
+    const { body, model } = window.signweaveStage.panes[index]
+    return Math.max(
+      ...body.joints.map((joint, j) => {
+        const e = joint.matrixWorld.elements,
+          p = model.positions
+        return Math.hypot(e[12] - p[3 * j], e[13] - p[3 * j + 1], e[14] - p[3 * j + 2])
+      }),
+    )
+  }, pane)
 
 test('shows the first character, by the names of its joints, with the face that was captured', async () => {
   await visit('')
@@ -138,7 +142,11 @@ test('shows the first character, by the names of its joints, with the face that 
   await drawn(page)
   const { joints, weights, character } = await page.evaluate(() => {
     const { body, motion } = window.signweaveStage.panes[0]
-    return { joints: body.joints.filter(Boolean).length, weights: body.morphs.filter(({ influences, target }) => influences[target] !== 0).length, character: motion.character }
+    return {
+      joints: body.joints.filter(Boolean).length,
+      weights: body.morphs.filter(({ influences, target }) => influences[target] !== 0).length,
+      character: motion.character,
+    }
   })
   const { characters } = await (await fetch(`${address}/api/characters`)).json()
   assert.equal(character, characters[0].name)
@@ -163,7 +171,9 @@ test('lets the signer be chosen, keeps time and view, and remembers it', async (
   near(await azimuth(page), Math.PI / 2)
   await visit('#/demo/recording/meteo?at=2.2', { body: null })
   assert.equal(await page.evaluate(() => window.signweaveStage.panes[0].motion.character), 'woman')
-  const all = await who().locator('option').evaluateAll((options) => options.map(({ value }) => value))
+  const all = await who()
+    .locator('option')
+    .evaluateAll((options) => options.map(({ value }) => value))
   await page.keyboard.press('c')
   const next = all[(all.indexOf('woman') + 1) % all.length]
   await page.waitForFunction((name) => window.signweaveStage.panes[0] && (window.signweaveStage.panes[0].motion.character ?? 'drawn') === name, next)
@@ -177,7 +187,9 @@ test('shows both hands close up', async () => {
   const seen = await page.evaluate(() => {
     const { cameras, model, store } = window.signweaveStage.panes[0]
     return ['RightHandMiddle1', 'LeftHandMiddle1'].map((name, k) => {
-      const j = store.skeleton.joints.findIndex((joint) => joint.name === name), p = model.positions, { camera } = cameras[k]
+      const j = store.skeleton.joints.findIndex((joint) => joint.name === name),
+        p = model.positions,
+        { camera } = cameras[k]
       const at = camera.position.clone().set(p[3 * j], p[3 * j + 1], p[3 * j + 2])
       return { x: at.clone().project(camera).x, y: at.clone().project(camera).y, far: camera.position.distanceTo(at) }
     })
@@ -188,7 +200,9 @@ test('shows both hands close up', async () => {
 test('keeps the hands in the frame, at rest and in signing', async () => {
   await visit('#/demo/recording/meteo', { whole: true })
   const outside = await page.evaluate(async () => {
-    const stage = window.signweaveStage, [pane] = stage.panes, found = []
+    const stage = window.signweaveStage,
+      [pane] = stage.panes,
+      found = []
     const joints = pane.store.skeleton.joints.flatMap(({ name }, j) => (/Hand/.test(name) ? [j] : []))
     for (let time = 0; time < stage.transport.duration; time += 5.3) {
       stage.transport.seek(time)
@@ -198,9 +212,13 @@ test('keeps the hands in the frame, at rest and in signing', async () => {
         while (stage.pictures === from) await new Promise(requestAnimationFrame)
         if (pane.camera.settled) break
       }
-      const { camera } = pane.camera, p = pane.model.positions
+      const { camera } = pane.camera,
+        p = pane.model.positions
       for (const j of joints) {
-        const { x, y } = camera.position.clone().set(p[3 * j], p[3 * j + 1], p[3 * j + 2]).project(camera)
+        const { x, y } = camera.position
+          .clone()
+          .set(p[3 * j], p[3 * j + 1], p[3 * j + 2])
+          .project(camera)
         if (Math.abs(x) > 1 || Math.abs(y) > 1) found.push([time, j, x, y])
       }
     }
@@ -211,7 +229,10 @@ test('keeps the hands in the frame, at rest and in signing', async () => {
 
 test('shows an edited recording beside the original, sign by sign', async () => {
   await visit('#/demo/edit/meteo?replace=BRETAGNE%3DVANNES&replace=MATIN%232%3DLE%20MANS', { body: 'woman' })
-  assert.deepEqual((await page.locator('.title').allTextContents()).map((text) => text.trim()), ['Recorded meteo', 'Made meteo'])
+  assert.deepEqual(
+    (await page.locator('.title').allTextContents()).map((text) => text.trim()),
+    ['Recorded meteo', 'Made meteo'],
+  )
   const steps = await page.evaluate(() => [5, 29.3, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
   near(steps[0], 5, 1e-6)
   assert.ok(Math.abs(steps[2] - 40) > 0.05, 'the original goes on by time')
@@ -359,13 +380,26 @@ test('helps, and gives the focus back', async () => {
   assert.equal(await page.evaluate(() => document.activeElement.getAttribute('aria-label')), 'Help')
 })
 
-for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
-  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+for (const [theme, language] of [
+  ['dark', 'en'],
+  ['light', 'fr'],
+]) {
+  for (const size of [
+    { width: 1280, height: 720 },
+    { width: 390, height: 844 },
+  ]) {
     test(`an accessibility checker finds nothing, ${theme}, ${language}, ${size.width} wide`, async () => {
       if (!page) await visit('')
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
       const found = []
-      for (const hash of ['#/demo', '#/demo/recording/meteo', '#/demo/recording/villes', '#/demo/edit/meteo?replace=BRETAGNE%3DVANNES', '#/demo/sign/VANNES', '#/demo/recording/nobody']) {
+      for (const hash of [
+        '#/demo',
+        '#/demo/recording/meteo',
+        '#/demo/recording/villes',
+        '#/demo/edit/meteo?replace=BRETAGNE%3DVANNES',
+        '#/demo/sign/VANNES',
+        '#/demo/recording/nobody',
+      ]) {
         await visit(hash, { size })
         if (hash === '#/demo/recording/meteo') await page.keyboard.press('g')
         found.push(...(await axeFaults(page)).map((fault) => `${hash}: ${fault}`))

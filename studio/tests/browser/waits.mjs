@@ -4,21 +4,36 @@ export async function opened(page, hash, whole = false) {
     await page.waitForFunction(() => document.querySelector('main table, main form, main [data-ready], [role=alert]'), null, { timeout: 30000 })
     return
   }
-  await page.waitForFunction((all) => {
-    if (document.querySelector('[role=alert]')) return true
-    const panes = window.signweaveStage?.panes ?? []
-    return document.querySelector('.player')?.dataset.annotated === 'true' && panes.length > 0 && panes.every(({ seen, body, motion, store }) => seen && (!motion.character || body.morphs) && (all ? store.arrived >= store.length : store.arrived > 0))
-  }, whole && !/pace=live/.test(hash), { timeout: 90000 })
+  await page.waitForFunction(
+    (all) => {
+      if (document.querySelector('[role=alert]')) return true
+      const panes = window.signweaveStage?.panes ?? []
+      return (
+        document.querySelector('.player')?.dataset.annotated === 'true' &&
+        panes.length > 0 &&
+        panes.every(({ seen, body, motion, store }) => seen && (!motion.character || body.morphs) && (all ? store.arrived >= store.length : store.arrived > 0))
+      )
+    },
+    whole && !/pace=live/.test(hash),
+    { timeout: 90000 },
+  )
 }
 
-/** Until what was asked for is on the screen: the frames have come, the camera rests, and what does not play is drawn no more. However long one picture takes. */
+/**
+ * Until what was asked for is on the screen: the frames have come, the camera rests, and what does not play is drawn no more. However long one picture
+ * takes.
+ */
 export async function drawn(page) {
-  await page.waitForFunction(async () => {
-    const stage = window.signweaveStage
-    if (!stage || stage.transport.playing) return true
-    const from = stage.pictures
-    for (let i = 0; i < 3; ++i) await new Promise(requestAnimationFrame)
-    await new Promise((resolve) => setTimeout(resolve, 400))
-    return stage.still && stage.pictures === from
-  }, null, { timeout: 90_000 })
+  await page.waitForFunction(
+    async () => {
+      const stage = window.signweaveStage
+      if (!stage || stage.transport.playing) return true
+      const from = stage.pictures
+      for (let i = 0; i < 3; ++i) await new Promise(requestAnimationFrame)
+      await new Promise((resolve) => setTimeout(resolve, 400))
+      return stage.still && stage.pictures === from
+    },
+    null,
+    { timeout: 90_000 },
+  )
 }

@@ -27,6 +27,8 @@ export async function withBrowser(work, options = {}) {
     viewport: { width: 1280, height: 720 },
     ...options,
   })
+  // A busy machine that draws by software takes its time.
+  context.setDefaultTimeout(90_000)
   const unwatch = watchBrowser(context)
   try {
     return await work(context)

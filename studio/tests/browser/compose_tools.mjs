@@ -12,14 +12,10 @@ export const pause = () =>
 
 /** Until what was made of a text is on the screen. */
 export const shown = (text) =>
-  page.waitForFunction(
-    (wanted) => {
-      const { made, busy } = document.querySelector('.compose')?.dataset ?? {}
-      return busy === 'false' && made === wanted && window.signweaveStage?.panes.length > 0
-    },
-    text,
-    { timeout: 60_000 },
-  )
+  page.waitForFunction((wanted) => {
+    const { made, busy } = document.querySelector('.compose')?.dataset ?? {}
+    return busy === 'false' && made === wanted && window.signweaveStage?.panes.length > 0
+  }, text)
 /** Opens the page with an utterance, and stops the picture, which software draws slowly. */
 export async function compose(utterance, more = {}, options = {}) {
   await visit(`#/demo/compose?${new URLSearchParams({ utterance, ...more })}`, options)

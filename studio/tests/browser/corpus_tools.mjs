@@ -22,15 +22,13 @@ export async function begin() {
 export const choose = (list) => page.locator('input[type=file]:not([webkitdirectory])').setInputFiles(list)
 export async function look() {
   await page.getByRole('button', { name: /^(Send and look|Send the rest|Look again)$/ }).click()
-  await page.getByRole('heading', { name: 'What would be stored' }).waitFor({ timeout: 60_000 })
+  await page.getByRole('heading', { name: 'What would be stored' }).waitFor()
 }
 /** A recording in the report. */
 export const row = (name) => page.getByRole('row', { name: new RegExp(`Import ${name} `) })
 /** Until reports are as they were corrected. */
 export const settled = () =>
-  page.waitForFunction(() => !/looking again/.test(document.querySelector('main').textContent) && !document.querySelector('.acts progress'), null, {
-    timeout: 60_000,
-  })
+  page.waitForFunction(() => !/looking again/.test(document.querySelector('main').textContent) && !document.querySelector('.acts progress'))
 
 /** Files of a recording of the demo's first seconds, under another name; `change` may change the texts. */
 export function files(name, { seconds = 8, into = join(folder, 'files'), motion = true, change = (text) => text } = {}) {

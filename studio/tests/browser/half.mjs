@@ -6,4 +6,5 @@ for (const name of process.argv.slice(2)) {
   begin(name)
   await import(`./${name}.test.mjs`)
 }
+begin('pages')
 plainTest('no view threw anything', () => assert.deepEqual(faults, []))

@@ -74,3 +74,13 @@ export async function smallVideo(page) {
   })
   return Buffer.from(base64, 'base64')
 }
+
+/** Tells how many ms a page's main thread has computed so far, however long it waited for a processor. */
+export async function computedBy(page) {
+  const session = await page.context().newCDPSession(page)
+  await session.send('Performance.enable', { timeDomain: 'threadTicks' })
+  return async () => {
+    const { metrics } = await session.send('Performance.getMetrics')
+    return 1000 * metrics.find(({ name }) => name === 'ThreadTime').value
+  }
+}

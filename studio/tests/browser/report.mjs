@@ -4,7 +4,7 @@ import { inspect } from 'node:util'
 function faultOf({ cause, message }) {
   const fault = cause ?? message
   const text = fault instanceof Error ? (fault.stack ?? fault.message) : inspect(fault)
-  return text.replace(/^ +at .*\(?node:.*\n?/gm, '')
+  return text.replace(/^ +at .*\(?node:.*\n?/gm, '').trimEnd()
 }
 
 /** A reporter of node:test that sends each test to the process that started this one, and writes nothing. */

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict'
 import { answered, asked, button, field, kAll, list, run, saved, told } from './search_tools.mjs'
 import { address, page, test, visit } from './suite.mjs'
+import { until } from './waits.mjs'
 
 test('says of a search that was stopped that there may be more', async () => {
   await asked('gloss = "METEO"')
@@ -30,7 +31,7 @@ test('says of a search that was stopped that there may be more', async () => {
   await page.getByText('Export', { exact: true }).click()
   await page.getByLabel('the 2 that came before it was stopped; there may be more').waitFor()
   await button('What to ask for').click()
-  assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "METEO"')
+  await until(async () => assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "METEO"'))
 })
 
 test('chooses answers by key and mouse, saves them in every format, and signs them', async () => {
@@ -61,7 +62,9 @@ test('chooses answers by key and mouse, saves them in every format, and signs th
   assert.equal(bvh.bytes.toString('latin1').match(/HIERARCHY/g).length, 3)
   // The menu closes by key, and by a click elsewhere.
   await page.keyboard.press('Escape')
-  assert.equal(await page.evaluate(() => document.activeElement.matches('summary') && !document.activeElement.parentElement.open), true)
+  await until(async () =>
+    assert.equal(await page.evaluate(() => document.activeElement.matches('summary') && !document.activeElement.parentElement.open), true),
+  )
   await page.keyboard.press('Enter')
   await button('CSV').waitFor()
   await told().click()
@@ -96,15 +99,15 @@ test('keeps queries under names, and remembers what was asked', async () => {
   await page.keyboard.press('Enter')
   const file = await saved(() => button('Save as a file').click())
   await button('Delete all of VANNES').click()
-  assert.equal(await button('Delete all of VANNES').count(), 0)
+  await until(async () => assert.equal(await button('Delete all of VANNES').count(), 0))
   await button('Undo').click()
-  assert.equal(await button('Delete all of VANNES').count(), 1)
+  await until(async () => assert.equal(await button('Delete all of VANNES').count(), 1))
   await button('Delete all of VANNES').click()
   await page.locator('input[type=file]').setInputFiles({ name: file.name, mimeType: 'application/json', buffer: file.bytes })
   await page.getByText('1 queries in the file').waitFor()
   await page.locator('input[type=file]').setInputFiles({ name: 'x.json', mimeType: 'application/json', buffer: Buffer.from('{}') })
   await page.getByText('This is no file of queries.').waitFor()
-  assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "VANNES"')
+  await until(async () => assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "VANNES"'))
   await button('all of VANNES', {}).first().click()
   await answered(3)
   // A name that is taken: it is told before, and can be undone.
@@ -113,10 +116,10 @@ test('keeps queries under names, and remembers what was asked', async () => {
   await page.getByRole('textbox', { name: 'Name' }).fill('all of VANNES')
   await button('Replace all of VANNES').click()
   const kept = () => page.locator('section:has(#saved-title) code').allTextContents()
-  assert.deepEqual(await kept(), ['gloss = "METEO"'])
+  await until(async () => assert.deepEqual(await kept(), ['gloss = "METEO"']))
   await page.getByText('all of VANNES was replaced').waitFor()
   await button('Undo').click()
-  assert.deepEqual(await kept(), ['gloss = "VANNES"'])
+  await until(async () => assert.deepEqual(await kept(), ['gloss = "VANNES"']))
 })
 
 test('gives up an export when the page is left', async () => {

@@ -63,8 +63,8 @@ after(() => held?.end())
 
 export const test = testsWith(studio)
 export const mainTest = testsWith(studio, { main: true })
-/** A test that needs neither. */
-export const plainTest = testsWith(async () => {})
+/** A test that needs neither, and is always run. */
+export const plainTest = testsWith(async () => {}, { main: true })
 
 // Colours and language that a test chose are not those of the next.
 afterEach(() => page?.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language'))).catch(() => {}))

@@ -83,7 +83,7 @@ export const SHAPES = {
     if (context.part.inMouth) return new Float64Array(context.sum.length);
     const { marks } = context;
     const open = context.unit('jawOpen');
-    const lips = masked({ points: context.points, sum: open }, (x, y, z) => {
+    const lips = masked({ points: context.points, sum: open }, (x, y) => {
       const level = 1 - smoothstep(0.011, 0.03, Math.abs(y - marks.mouthHeight));
       const wide = 1 - smoothstep(0.028, 0.05, Math.abs(x));
       return -level * wide;

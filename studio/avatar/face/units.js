@@ -5,7 +5,10 @@
 // `turn`: joints turned by degrees about an axis of model space (x to the body's left, y up, z forward).
 // `shape`: a function of face/shapes.js, for what no target holds.
 
-/** @typedef {{ targets?: Record<string, number>, side?: 'left'|'right', turn?: Array<{ joint: string, axis: number[], degrees: number }>, shape?: string }} Unit */
+/**
+ * @typedef {{ targets?: Record<string, number>, side?: 'left'|'right', turn?: Array<{ joint: string, axis: number[], degrees: number }>, shape?: string
+ * }} Unit
+ */
 
 const X = [1, 0, 0];
 const Y = [0, 1, 0];
@@ -47,8 +50,11 @@ export const UNITS = {
   browInnerUp: { shape: 'browInnerUp', targets: { 'unit/eyebrows-left-inner-up': 0.35, 'unit/eyebrows-right-inner-up': 0.35 } },
   cheekPuff: {
     targets: {
-      'cheek/l-cheek-volume-inflate': 1.1, 'cheek/r-cheek-volume-inflate': 1.1,
-      'cheek/l-cheek-inner-inflate': 0.35, 'cheek/r-cheek-inner-inflate': 0.35, 'unit/mouth-elevation': 0.25,
+      'cheek/l-cheek-volume-inflate': 1.1,
+      'cheek/r-cheek-volume-inflate': 1.1,
+      'cheek/l-cheek-inner-inflate': 0.35,
+      'cheek/r-cheek-inner-inflate': 0.35,
+      'unit/mouth-elevation': 0.25,
     },
   },
   jawOpen: { targets: { 'unit/mouth-open': 0.7 } },

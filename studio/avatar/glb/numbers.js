@@ -17,8 +17,7 @@ const toUnsigned = (x) => Math.round(x * 65535);
 
 /** One way of storing for the whole file. @param {import('@gltf-transform/core').Document} document */
 export function numberStore(document, small, buffer) {
-  const make = (array, width, normalized = false) =>
-    document.createAccessor().setArray(array).setType(VEC[width]).setNormalized(normalized).setBuffer(buffer);
+  const make = (array, width, normalized = false) => document.createAccessor().setArray(array).setType(VEC[width]).setNormalized(normalized).setBuffer(buffer);
   const asFloat = (values, width) => make(Float32Array.from(values), width);
   const sparse = (values) => asFloat(values, 3).setSparse(moved(values) < values.length / 6);
   return {

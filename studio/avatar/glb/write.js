@@ -48,10 +48,7 @@ export async function writeGlb(character, { small, extras, materials }) {
   }
   if (small) {
     document.createExtension(KHRMeshQuantization).setRequired(true);
-    document
-      .createExtension(EXTMeshoptCompression)
-      .setRequired(true)
-      .setEncoderOptions({ method: EXTMeshoptCompression.EncoderMethod.QUANTIZE });
+    document.createExtension(EXTMeshoptCompression).setRequired(true).setEncoderOptions({ method: EXTMeshoptCompression.EncoderMethod.QUANTIZE });
   }
   const io = new NodeIO()
     .registerExtensions([EXTMeshoptCompression, EXTTextureWebP, KHRMeshQuantization, KHRTextureTransform])
@@ -66,9 +63,7 @@ function writeSkin(document, store, joints, { centre, half }) {
     return document.createNode(joint.name).setTranslation(joint.head.map((value, k) => value - from[k]));
   });
   joints.forEach((joint, j) => joint.parent >= 0 && nodes[joint.parent].addChild(nodes[j]));
-  const inverse = joints.flatMap(({ head }) => [
-    half, 0, 0, 0, 0, half, 0, 0, 0, 0, half, 0, ...head.map((value, k) => centre[k] - value), 1,
-  ]);
+  const inverse = joints.flatMap(({ head }) => [half, 0, 0, 0, 0, half, 0, 0, 0, 0, half, 0, ...head.map((value, k) => centre[k] - value), 1]);
   const skin = document.createSkin('signer').setSkeleton(nodes[0]).setInverseBindMatrices(store.float(inverse, 16));
   nodes.forEach((node) => skin.addJoint(node));
   return { skin, root: nodes[0] };
@@ -82,7 +77,13 @@ function writePart(document, store, part, { centre, half }) {
   const primitive = document
     .createPrimitive()
     .setIndices(store.indices(order.indices, order.count))
-    .setAttribute('POSITION', store.signed(byPoint(part.points, 3).map((value, i) => (value - centre[i % 3]) / half), 3))
+    .setAttribute(
+      'POSITION',
+      store.signed(
+        byPoint(part.points, 3).map((value, i) => (value - centre[i % 3]) / half),
+        3,
+      ),
+    )
     .setAttribute('NORMAL', store.normal(byPoint(rest, 3)))
     .setAttribute('TEXCOORD_0', store.uv(uvs))
     .setAttribute('JOINTS_0', store.joints(byPoint(part.skin.joints, 4)))

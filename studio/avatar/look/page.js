@@ -51,7 +51,7 @@ window.show = async (url) => {
 };
 
 /** Where the camera stands for a view: [looks at, from which direction, height of the picture in metres]. */
-function viewOf(name, picture) {
+function viewOf(name) {
   const [, eyeHeight, eyeDepth] = extras.eyes;
   const bust = new THREE.Vector3(0, eyeHeight - 0.22, 0.05);
   const face = new THREE.Vector3(0, eyeHeight - 0.045, eyeDepth - 0.06);
@@ -75,7 +75,7 @@ window.draw = (name, width, height) => {
     for (const [unit, index] of Object.entries(mesh.morphTargetDictionary ?? {})) mesh.morphTargetInfluences[index] = picture.face?.[unit] ?? 0;
   }
   scene.updateMatrixWorld(true);
-  const [target, direction, tall] = viewOf(picture.view ?? 'front', picture);
+  const [target, direction, tall] = viewOf(picture.view ?? 'front');
   const away = tall / 2 / Math.tan((camera.fov * Math.PI) / 360);
   camera.position.copy(target).add(new THREE.Vector3(...direction).normalize().multiplyScalar(away));
   camera.aspect = width / height;

@@ -25,7 +25,9 @@ export function extrasOf({ name, skeleton, parts, marks }) {
     bones: Object.fromEntries(joints.map((joint) => [joint.name, { head: joint.head, tail: joint.tail }])),
     faceUnits: {
       morphs: Object.fromEntries([...made].sort(([a], [b]) => (a < b ? -1 : 1))),
-      missing: Object.keys(UNITS).filter((unit) => !made.has(unit)).sort(),
+      missing: Object.keys(UNITS)
+        .filter((unit) => !made.has(unit))
+        .sort(),
     },
   });
 }

@@ -7,11 +7,46 @@ import { add, cross, dot, length, scale, sub, unit } from '../shape/normals.js';
  * wrist, whose flexion is measured from the rest pose. The upper ends stop short of where the skin would pass through itself.
  */
 export const FINGER_LIMITS = {
-  thumb: { flexion: [[-25, 40], [-10, 60], [-20, 80]], spread: [-60, 35] },
-  index: { flexion: [[-25, 92], [-2, 108], [-8, 78]], spread: [-18, 22] },
-  middle: { flexion: [[-25, 92], [-2, 110], [-8, 80]], spread: [-16, 16] },
-  ring: { flexion: [[-25, 92], [-2, 110], [-8, 80]], spread: [-20, 16] },
-  little: { flexion: [[-25, 95], [-2, 106], [-8, 78]], spread: [-28, 18] },
+  thumb: {
+    flexion: [
+      [-25, 40],
+      [-10, 60],
+      [-20, 80],
+    ],
+    spread: [-60, 35],
+  },
+  index: {
+    flexion: [
+      [-25, 92],
+      [-2, 108],
+      [-8, 78],
+    ],
+    spread: [-18, 22],
+  },
+  middle: {
+    flexion: [
+      [-25, 92],
+      [-2, 110],
+      [-8, 80],
+    ],
+    spread: [-16, 16],
+  },
+  ring: {
+    flexion: [
+      [-25, 92],
+      [-2, 110],
+      [-8, 80],
+    ],
+    spread: [-20, 16],
+  },
+  little: {
+    flexion: [
+      [-25, 95],
+      [-2, 106],
+      [-8, 78],
+    ],
+    spread: [-28, 18],
+  },
 };
 /** Limits in degrees of the other joints that hands hang on, from the rest pose or, for the elbow, from the straight arm. */
 export const ARM_LIMITS = {

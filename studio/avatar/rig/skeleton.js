@@ -20,7 +20,10 @@ export function buildSkeleton(rig, points) {
   const mean = (key) => {
     const vertices = rig.joints[key];
     if (!vertices) throw new Error(`${key}: no vertices for this joint`);
-    return scale(vertices.reduce((sum, vertex) => add(sum, at(points, vertex)), [0, 0, 0]), 1 / vertices.length);
+    return scale(
+      vertices.reduce((sum, vertex) => add(sum, at(points, vertex)), [0, 0, 0]),
+      1 / vertices.length,
+    );
   };
   const children = new Map();
   for (const [name, bone] of Object.entries(rig.bones)) {
@@ -73,7 +76,10 @@ export function carryWeights(stencil, weights) {
         sum.set(joint, (sum.get(joint) ?? 0) + share * stencil.values[i]);
       }
     }
-    const best = [...sum].filter(([, share]) => share > 0.004).sort((a, b) => b[1] - a[1] || a[0] - b[0]).slice(0, 4);
+    const best = [...sum]
+      .filter(([, share]) => share > 0.004)
+      .sort((a, b) => b[1] - a[1] || a[0] - b[0])
+      .slice(0, 4);
     const total = best.reduce((t, [, share]) => t + share, 0);
     best.forEach(([joint, share], k) => {
       joints[row * 4 + k] = joint;

@@ -12,11 +12,12 @@
 function body(sex, origins, muscle, weight) {
   const shape = {};
   for (const [origin, share] of Object.entries(origins)) shape[`macrodetails/${origin}-${sex}-young`] = share;
-  for (const [m, mShare] of Object.entries(muscle)) for (const [w, wShare] of Object.entries(weight)) {
-    const kind = `${sex}-young-${m}muscle-${w}weight`;
-    shape[`macrodetails/universal-${kind}`] = mShare * wShare;
-    shape[`macrodetails/proportions/${kind}-idealproportions`] = 0.7 * mShare * wShare;
-  }
+  for (const [m, mShare] of Object.entries(muscle))
+    for (const [w, wShare] of Object.entries(weight)) {
+      const kind = `${sex}-young-${m}muscle-${w}weight`;
+      shape[`macrodetails/universal-${kind}`] = mShare * wShare;
+      shape[`macrodetails/proportions/${kind}-idealproportions`] = 0.7 * mShare * wShare;
+    }
   return shape;
 }
 
@@ -45,10 +46,21 @@ export const PEOPLE = {
       'mouth/mouth-angles-up': 0.4,
     },
     assets: {
-      skin: 'womanSkin', eyes: 'eyesLight', hair: 'womanHair', hairImage: 'womanHairImage',
-      brows: 'womanBrows', browsImage: 'womanBrowsImage',
+      skin: 'womanSkin',
+      eyes: 'eyesLight',
+      hair: 'womanHair',
+      hairImage: 'womanHairImage',
+      brows: 'womanBrows',
+      browsImage: 'womanBrowsImage',
     },
-    tint: { skin: [0.86, 0.71, 0.64], iris: [1.0, 0.66, 0.4], hair: [0.75, 0.66, 0.6], brows: [0.9, 0.75, 0.62], top: [0.022, 0.03, 0.048], trousers: [0.018, 0.019, 0.022] },
+    tint: {
+      skin: [0.86, 0.71, 0.64],
+      iris: [1.0, 0.66, 0.4],
+      hair: [0.75, 0.66, 0.6],
+      brows: [0.9, 0.75, 0.62],
+      top: [0.022, 0.03, 0.048],
+      trousers: [0.018, 0.019, 0.022],
+    },
   },
   man: {
     origins: ORIGINS,
@@ -61,9 +73,20 @@ export const PEOPLE = {
       'nose/nose-scale-horiz-decr': 0.4,
     },
     assets: {
-      skin: 'manSkin', eyes: 'eyesBrown', hair: 'manHair', hairImage: 'manHairImage',
-      brows: 'manBrows', browsImage: 'manBrowsImage',
+      skin: 'manSkin',
+      eyes: 'eyesBrown',
+      hair: 'manHair',
+      hairImage: 'manHairImage',
+      brows: 'manBrows',
+      browsImage: 'manBrowsImage',
     },
-    tint: { skin: [0.8, 0.68, 0.62], iris: [1.25, 0.75, 0.45], hair: [0.8, 0.75, 0.7], brows: [0.8, 0.68, 0.58], top: [0.024, 0.03, 0.04], trousers: [0.018, 0.019, 0.022] },
+    tint: {
+      skin: [0.8, 0.68, 0.62],
+      iris: [1.25, 0.75, 0.45],
+      hair: [0.8, 0.75, 0.7],
+      brows: [0.8, 0.68, 0.58],
+      top: [0.024, 0.03, 0.04],
+      trousers: [0.018, 0.019, 0.022],
+    },
   },
 };

@@ -10,10 +10,11 @@ export function stencilOf(lists) {
   const columns = new Int32Array(start[lists.length]);
   const values = new Float64Array(columns.length);
   let at = 0;
-  for (const list of lists) for (const [column, value] of list) {
-    columns[at] = column;
-    values[at++] = value;
-  }
+  for (const list of lists)
+    for (const [column, value] of list) {
+      columns[at] = column;
+      values[at++] = value;
+    }
   return { rows: lists.length, start, columns, values };
 }
 

@@ -12,7 +12,10 @@ export function bake(parts, valuesOf, width, size) {
     const values = valuesOf(part);
     const { corners, uvCorners, uvs } = part;
     for (let f = 0; f < corners.length; f += 4) {
-      for (const triangle of [[0, 1, 2], [0, 2, 3]]) {
+      for (const triangle of [
+        [0, 1, 2],
+        [0, 2, 3],
+      ]) {
         const points = triangle.map((k) => corners[f + k]);
         const at = triangle.map((k) => [uvs[uvCorners[f + k] * 2] * size - 0.5, (1 - uvs[uvCorners[f + k] * 2 + 1]) * size - 0.5]);
         paint(image, filled, size, at, points, values, width);

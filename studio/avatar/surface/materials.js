@@ -37,13 +37,19 @@ export function materialsOf(character) {
     repeat(skin.getNormalTextureInfo(), 26);
     const hair = make('hair', 0.5)
       .setBaseColorTexture(await texture('hair', open(person.assets.hairImage), { alpha: true }))
-      .setBaseColorFactor([...person.tint.hair, 1]).setAlphaMode('MASK').setAlphaCutoff(0.5).setDoubleSided(true);
+      .setBaseColorFactor([...person.tint.hair, 1])
+      .setAlphaMode('MASK')
+      .setAlphaCutoff(0.5)
+      .setDoubleSided(true);
     const brows = make('brows', 0.8)
       .setBaseColorTexture(await texture('brows', open(person.assets.browsImage), { alpha: true }))
-      .setBaseColorFactor([...person.tint.brows, 1]).setAlphaMode('BLEND').setDoubleSided(true);
+      .setBaseColorFactor([...person.tint.brows, 1])
+      .setAlphaMode('BLEND')
+      .setDoubleSided(true);
     const lashes = make('lashes', 0.8)
       .setBaseColorTexture(await texture('lashes', open('lashesImage'), { alpha: true }))
-      .setAlphaMode('BLEND').setDoubleSided(true);
+      .setAlphaMode('BLEND')
+      .setDoubleSided(true);
     const eyes = make('eyes', 0.1).setBaseColorTexture(await texture('eyes', await eyeImage(person.assets.eyes, person.tint.iris)));
     const teeth = make('teeth', 0.25).setBaseColorTexture(await texture('teeth', await teethImage()));
     const tongue = make('tongue', 0.4)
@@ -53,7 +59,11 @@ export function materialsOf(character) {
     const knit = await texture('knit', relief(256, knitRelief(256, 32), 1.6), { quality: 80 });
     const folds = await texture('cloth folds', open('suitNormal').removeAlpha());
     const cloth = (name, normal) =>
-      make(name, 0.92).setBaseColorTexture(shade).setNormalTexture(normal).setBaseColorFactor([...person.tint[name], 1]).setDoubleSided(true);
+      make(name, 0.92)
+        .setBaseColorTexture(shade)
+        .setNormalTexture(normal)
+        .setBaseColorFactor([...person.tint[name], 1])
+        .setDoubleSided(true);
     const top = cloth('top', knit).setNormalScale(0.45);
     repeat(top.getNormalTextureInfo(), 26);
     const shoes = make('shoes', 0.6).setBaseColorFactor([0.02, 0.02, 0.02, 1]);

@@ -15,7 +15,10 @@ export async function skinImages(character) {
   const parts = character.parts.filter((part) => part.name === 'head' || part.name === 'hands');
   const values = bake(parts, (part) => pointValues(part, character), 3, SIZE);
   const { data } = await sharp(assetPath(character.person.assets.skin))
-    .removeAlpha().resize(SIZE, SIZE, { kernel: 'lanczos3' }).raw().toBuffer({ resolveWithObject: true });
+    .removeAlpha()
+    .resize(SIZE, SIZE, { kernel: 'lanczos3' })
+    .raw()
+    .toBuffer({ resolveWithObject: true });
   const roughness = Buffer.alloc(SIZE * SIZE * 3);
   const tone = character.person.tint.skin;
   const toLight = Float64Array.from({ length: 256 }, (_, value) => (value / 255) ** 2.2);

@@ -54,7 +54,19 @@ for (const name of ['woman', 'man']) {
         for (let finger = 1; finger <= 5; ++finger) {
           for (let k = 1; k <= 3; ++k) assert.ok(names.includes(`finger${finger}_${k}_${side}`));
         }
-        const others = ['clavicle', 'shoulder01', 'upperarm01', 'upperarm02', 'lowerarm01', 'lowerarm02', 'wrist', 'eye', 'orbicularis03', 'orbicularis04', 'foot'];
+        const others = [
+          'clavicle',
+          'shoulder01',
+          'upperarm01',
+          'upperarm02',
+          'lowerarm01',
+          'lowerarm02',
+          'wrist',
+          'eye',
+          'orbicularis03',
+          'orbicularis04',
+          'foot',
+        ];
         for (const other of others) assert.ok(names.includes(`${other}_${side}`), other);
       }
       for (const middle of ['root', 'spine05', 'spine01', 'neck01', 'head', 'jaw', 'tongue04']) assert.ok(names.includes(middle), middle);
@@ -142,7 +154,10 @@ for (const name of ['woman', 'man']) {
 
     test('what is told of the hands is true of the joints', () => {
       const place = new Map(joints().map((joint) => [joint.getName(), joint.getWorldTranslation()]));
-      for (const [side, suffix, sign] of [['left', 'L', 1], ['right', 'R', -1]]) {
+      for (const [side, suffix, sign] of [
+        ['left', 'L', 1],
+        ['right', 'R', -1],
+      ]) {
         const hand = extras.hands[side];
         assert.ok(hand.palmNormal[0] * sign < -0.5, 'the palms face the body');
         assert.ok(Math.abs(Math.hypot(...hand.palmNormal) - 1) < 1e-4);

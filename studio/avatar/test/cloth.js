@@ -14,12 +14,14 @@ export function clothOf({ points, primitive }) {
     outside(point) {
       let best = CELL ** 2;
       let nearest = -1;
-      for (const dx of [-1, 0, 1]) for (const dy of [-1, 0, 1]) for (const dz of [-1, 0, 1]) {
-        for (const i of cells.get(key(point, dx, dy, dz)) ?? []) {
-          const d = points[i].reduce((sum, value, k) => sum + (value - point[k]) ** 2, 0);
-          if (d < best) [best, nearest] = [d, i];
-        }
-      }
+      for (const dx of [-1, 0, 1])
+        for (const dy of [-1, 0, 1])
+          for (const dz of [-1, 0, 1]) {
+            for (const i of cells.get(key(point, dx, dy, dz)) ?? []) {
+              const d = points[i].reduce((sum, value, k) => sum + (value - point[k]) ** 2, 0);
+              if (d < best) [best, nearest] = [d, i];
+            }
+          }
       if (nearest < 0 || border.has(nearest)) return -1;
       return normals.getElement(nearest, []).reduce((sum, value, k) => sum + value * (point[k] - points[nearest][k]), 0);
     },

@@ -45,7 +45,10 @@ export const FACE = {
   cheekPuff: row('head', 'cheek', FORWARD, 0.001),
   tongueOut: row('tongue', 'tongueTip', FORWARD, 0.01),
 };
-for (const [name, side] of [['Left', LEFT], ['Right', RIGHT]]) {
+for (const [name, side] of [
+  ['Left', LEFT],
+  ['Right', RIGHT],
+]) {
   const sided = (part, where, way, least) => row(part, where, way, least, side);
   FACE[`browDown${name}`] = sided('brows', 'innerBrow', DOWN, 0.0015);
   FACE[`browOuterUp${name}`] = sided('brows', 'outerBrow', UP, 0.004);

@@ -14,12 +14,19 @@ export async function readGlb(bytes) {
 
 /** A part's points in metres at rest, and what each face unit adds to them. */
 export function partOf(document, name) {
-  const node = document.getRoot().listNodes().find((each) => each.getName() === name && each.getMesh());
+  const node = document
+    .getRoot()
+    .listNodes()
+    .find((each) => each.getName() === name && each.getMesh());
   if (!node) throw new Error(`${name}: no such part`);
   const primitive = node.getMesh().listPrimitives()[0];
   const inverse = node.getSkin().getInverseBindMatrices().getElement(0, []);
   const scale = inverse[0];
-  const origin = node.getSkin().listJoints()[0].getWorldTranslation().map((value, k) => value + inverse[12 + k]);
+  const origin = node
+    .getSkin()
+    .listJoints()[0]
+    .getWorldTranslation()
+    .map((value, k) => value + inverse[12 + k]);
   const position = primitive.getAttribute('POSITION');
   const count = position.getCount();
   const points = Array.from({ length: count }, (_, i) => position.getElement(i, []).map((value, k) => value * scale + origin[k]));
@@ -27,7 +34,10 @@ export function partOf(document, name) {
   primitive.listTargets().forEach((target, t) => {
     const moves = target.getAttribute('POSITION');
     const unit = node.getMesh().getExtras().targetNames[t];
-    units.set(unit, Array.from({ length: count }, (_, i) => moves.getElement(i, []).map((value) => value * scale)));
+    units.set(
+      unit,
+      Array.from({ length: count }, (_, i) => moves.getElement(i, []).map((value) => value * scale)),
+    );
   });
   return { points, units, primitive };
 }

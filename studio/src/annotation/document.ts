@@ -1,6 +1,8 @@
 /** What ELAN holds, as the timeline draws it. Times are annotation time in ms. */
 export interface Annotation {
-  readonly begin: number; readonly end: number; readonly label: string
+  readonly begin: number
+  readonly end: number
+  readonly label: string
   /** Of one that somebody decides about: it is drawn so. */
   readonly state?: 'open' | 'accepted' | 'unseen' | 'rejected'
   /** The one that keys and buttons are about. */
@@ -15,11 +17,14 @@ export interface Tier {
   /** In the order of time; those of a tier never overlap. */
   readonly annotations: readonly Annotation[]
 }
-export interface AnnotationDocument { readonly tiers: readonly Tier[] }
+export interface AnnotationDocument {
+  readonly tiers: readonly Tier[]
+}
 
 /** The annotation of a tier at a time, by binary search; −1 where there is none. */
 export function indexAt(tier: Tier, ms: number): number {
-  let low = 0, high = tier.annotations.length
+  let low = 0,
+    high = tier.annotations.length
   while (low < high) {
     const middle = (low + high) >> 1
     if (tier.annotations[middle].end <= ms) low = middle + 1

@@ -1,8 +1,19 @@
 import { StudioFault } from '../api/fault'
 import type { Annotation, AnnotationDocument, Tier } from './document'
 
-interface Raw { id: string; tier: number; begin?: number; end?: number; parent?: string; previous?: string; label: string }
-interface Span { begin: number; end: number }
+interface Raw {
+  id: string
+  tier: number
+  begin?: number
+  end?: number
+  parent?: string
+  previous?: string
+  label: string
+}
+interface Span {
+  begin: number
+  end: number
+}
 
 /**
  * Reads an EAF. Annotations that take their time from their parent share it evenly where a parent has several, in their
@@ -18,7 +29,9 @@ export function readEaf(text: string): AnnotationDocument {
   const parents = new Map(elements.map((tier, t) => [names[t], tier.getAttribute('PARENT_REF') ?? undefined]))
   const raw = new Map<string, Raw>()
   const byTier = elements.map((tier, t) => {
-    const list = childrenOf(tier, 'ANNOTATION').flatMap((one) => childrenOf(one)).map((one) => rawOf(one, t, slots))
+    const list = childrenOf(tier, 'ANNOTATION')
+      .flatMap((one) => childrenOf(one))
+      .map((one) => rawOf(one, t, slots))
     for (const one of list) raw.set(one.id, one)
     return list
   })
@@ -73,8 +86,13 @@ function rawOf(element: Element, tier: number, slots: ReadonlyMap<string, number
   const value = (name: string) => element.getAttribute(name) ?? undefined
   const label = childrenOf(element, 'ANNOTATION_VALUE')[0]?.textContent?.trim() ?? ''
   return {
-    id: value('ANNOTATION_ID') ?? '', tier, label, parent: value('ANNOTATION_REF'), previous: value('PREVIOUS_ANNOTATION'),
-    begin: slots.get(value('TIME_SLOT_REF1') ?? ''), end: slots.get(value('TIME_SLOT_REF2') ?? ''),
+    id: value('ANNOTATION_ID') ?? '',
+    tier,
+    label,
+    parent: value('ANNOTATION_REF'),
+    previous: value('PREVIOUS_ANNOTATION'),
+    begin: slots.get(value('TIME_SLOT_REF1') ?? ''),
+    end: slots.get(value('TIME_SLOT_REF2') ?? ''),
   }
 }
 

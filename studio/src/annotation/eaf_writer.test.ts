@@ -15,12 +15,25 @@ const kEaf = `<?xml version="1.0" encoding="UTF-8"?>
 
 it('goes on counting where the document stopped, and writes down where it stopped itself', () => {
   const writer = new EafWriter(kEaf)
-  writer.add({ name: 'A', type: 'x', annotations: [{ begin: 600, end: 700, label: 'a < b' }, { begin: 100, end: 200, label: '' }] })
+  writer.add({
+    name: 'A',
+    type: 'x',
+    annotations: [
+      { begin: 600, end: 700, label: 'a < b' },
+      { begin: 100, end: 200, label: '' },
+    ],
+  })
   writer.add({ name: 'B', type: 'mine', annotations: [] })
   const text = writer.written()
   expect([...text.matchAll(/ANNOTATION_ID="(a\d+)"/g)].map(([, id]) => id)).toEqual(['a145', 'a146'])
   expect(text).toContain('>146</PROPERTY>')
-  expect([...text.matchAll(/TIME_SLOT_ID="(ts\d+)" TIME_VALUE="(\d+)"/g)].map(([, id, time]) => `${id} ${time}`)).toEqual(['ts6 100', 'ts7 200', 'ts3 500', 'ts4 600', 'ts5 700'])
+  expect([...text.matchAll(/TIME_SLOT_ID="(ts\d+)" TIME_VALUE="(\d+)"/g)].map(([, id, time]) => `${id} ${time}`)).toEqual([
+    'ts6 100',
+    'ts7 200',
+    'ts3 500',
+    'ts4 600',
+    'ts5 700',
+  ])
   expect([...text.matchAll(/LINGUISTIC_TYPE_ID="([^"]+)"/g)].map(([, name]) => name)).toEqual(['g', 'mine', 'x', 'mine 2'])
   expect(text.split('\n').length).toBeGreaterThan(kEaf.split('\n').length + 10)
 })

@@ -3,7 +3,10 @@ import { edited, escaped, parseXml, type Edit, type Element } from './xml_text'
 
 /** A tier that stands on its own; `type` is a name that asks nothing of its tiers. */
 export interface NewTier {
-  readonly name: string; readonly type: string; readonly annotator?: string; readonly participant?: string
+  readonly name: string
+  readonly type: string
+  readonly annotator?: string
+  readonly participant?: string
   readonly annotations: readonly { readonly begin: number; readonly end: number; readonly label: string }[]
 }
 
@@ -15,8 +18,8 @@ export function eafRoot(text: string): Element {
 }
 
 /**
- * Writes tiers into an EAF. Its bytes stay as they are, but for tiers that are taken out, new tiers, time slots in the order of time, tier types and properties, and the number of the
- * last annotation. `text` and `root` belong together.
+ * Writes tiers into an EAF. Its bytes stay as they are, but for tiers that are taken out, new tiers, time slots in the order of time, tier types and
+ * properties, and the number of the last annotation. `text` and `root` belong together.
  */
 export class EafWriter {
   readonly tiers: readonly Element[]
@@ -34,13 +37,25 @@ export class EafWriter {
   private slot: number
   private annotation: number
 
-  constructor(private readonly text: string, private readonly root = eafRoot(text)) {
+  constructor(
+    private readonly text: string,
+    private readonly root = eafRoot(text),
+  ) {
     this.line = text.includes('\r\n') ? '\r\n' : '\n'
     this.tiers = root.children.filter(({ name }) => name === 'TIER')
     this.header = root.children.find(({ name }) => name === 'HEADER')
     this.order = root.children.find(({ name }) => name === 'TIME_ORDER')
-    this.slot = highest(this.slots().map(({ attributes }) => attributes.TIME_SLOT_ID), /^ts(\d+)$/)
-    this.annotation = Math.max(highest(this.annotations().map(({ attributes }) => attributes.ANNOTATION_ID), /^a(\d+)$/), Number(this.property('lastUsedAnnotationId')) || 0)
+    this.slot = highest(
+      this.slots().map(({ attributes }) => attributes.TIME_SLOT_ID),
+      /^ts(\d+)$/,
+    )
+    this.annotation = Math.max(
+      highest(
+        this.annotations().map(({ attributes }) => attributes.ANNOTATION_ID),
+        /^a(\d+)$/,
+      ),
+      Number(this.property('lastUsedAnnotationId')) || 0,
+    )
   }
 
   /** What a property of the document says, as it is written there; none where it has none. */
@@ -57,12 +72,22 @@ export class EafWriter {
   /** Adds a tier behind all others. */
   add({ name, type, annotator, participant, annotations }: NewTier): void {
     const made = annotations.map(({ begin, end, label }) => {
-      const one = this.slotAt(begin), two = this.slotAt(end)
-      return `${this.at(2)}<ANNOTATION>${this.at(3)}<ALIGNABLE_ANNOTATION ANNOTATION_ID="a${++this.annotation}" TIME_SLOT_REF1="${one}" TIME_SLOT_REF2="${two}">` +
+      const one = this.slotAt(begin),
+        two = this.slotAt(end)
+      return (
+        `${this.at(2)}<ANNOTATION>${this.at(3)}<ALIGNABLE_ANNOTATION ANNOTATION_ID="a${++this.annotation}" TIME_SLOT_REF1="${one}" TIME_SLOT_REF2="${two}">` +
         `${this.at(4)}<ANNOTATION_VALUE>${escaped(label)}</ANNOTATION_VALUE>${this.at(3)}</ALIGNABLE_ANNOTATION>${this.at(2)}</ANNOTATION>`
+      )
     })
-    const attributes = [['ANNOTATOR', annotator], ['LINGUISTIC_TYPE_REF', this.typeName(type)], ['PARTICIPANT', participant], ['TIER_ID', name]]
-    this.newTiers.push(`${this.at(1)}<TIER${attributes.flatMap(([key, value]) => (value ? ` ${key}="${escaped(value)}"` : [])).join('')}>${made.join('')}${this.at(1)}</TIER>`)
+    const attributes = [
+      ['ANNOTATOR', annotator],
+      ['LINGUISTIC_TYPE_REF', this.typeName(type)],
+      ['PARTICIPANT', participant],
+      ['TIER_ID', name],
+    ]
+    this.newTiers.push(
+      `${this.at(1)}<TIER${attributes.flatMap(([key, value]) => (value ? ` ${key}="${escaped(value)}"` : [])).join('')}>${made.join('')}${this.at(1)}</TIER>`,
+    )
   }
   /** Takes a tier out with the line that it stands on, and frees the slots that nobody else uses. */
   remove(tier: Element): void {
@@ -87,9 +112,12 @@ export class EafWriter {
       this.insert(place, this.newTiers.join(''))
       this.setProperty('lastUsedAnnotationId', String(this.annotation))
     }
-    const types = [...this.newTypes].map((name) => `${this.at(1)}<LINGUISTIC_TYPE GRAPHIC_REFERENCES="false" LINGUISTIC_TYPE_ID="${escaped(name)}" TIME_ALIGNABLE="true"/>`)
+    const types = [...this.newTypes].map(
+      (name) => `${this.at(1)}<LINGUISTIC_TYPE GRAPHIC_REFERENCES="false" LINGUISTIC_TYPE_ID="${escaped(name)}" TIME_ALIGNABLE="true"/>`,
+    )
     if (types.length > 0) this.insert(this.types().at(-1)?.end ?? place, types.join(''))
-    const { header, newProperties } = this, before = header?.children.at(-1)
+    const { header, newProperties } = this,
+      before = header?.children.at(-1)
     if (before) this.insert(before.end, newProperties.join(''))
     else if (header && newProperties.length > 0) this.openUp(header, newProperties.join(''), 1)
     return edited(this.text, this.edits)
@@ -131,7 +159,8 @@ export class EafWriter {
     if (this.newSlots.length === 0) return
     const fresh = [...this.newSlots].sort((a, b) => a.time - b.time)
     const text = ({ id, time }: { id: string; time: number }) => `${this.at(2)}<TIME_SLOT TIME_SLOT_ID="${id}" TIME_VALUE="${time}"/>`
-    let next = 0, latest = -Infinity
+    let next = 0,
+      latest = -Infinity
     for (const one of kept) {
       const time = Number(one.attributes.TIME_VALUE ?? NaN)
       if (!(time > latest)) continue

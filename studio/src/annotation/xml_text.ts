@@ -3,18 +3,28 @@ export interface Element {
   readonly name: string
   readonly attributes: Readonly<Record<string, string>>
   /** The whole element is text.slice(begin, end); its content text.slice(inner, innerEnd), the same place where it is written `<x/>`. */
-  readonly begin: number; readonly inner: number; readonly innerEnd: number; readonly end: number
+  readonly begin: number
+  readonly inner: number
+  readonly innerEnd: number
+  readonly end: number
   readonly children: readonly Element[]
 }
 
-const kName = /[^\s/>=]+/y, kSpace = /\s*/y
+const kName = /[^\s/>=]+/y,
+  kSpace = /\s*/y
 
 /**
  * The root element of a text, with all in it; none where tags do not match. Comments, CDATA and instructions are passed over; entities that a DOCTYPE makes
  * stay unread.
  */
 export function parseXml(text: string): Element | undefined {
-  interface Open { name: string; attributes: Record<string, string>; begin: number; inner: number; children: Element[] }
+  interface Open {
+    name: string
+    attributes: Record<string, string>
+    begin: number
+    inner: number
+    children: Element[]
+  }
   const open: Open[] = []
   let root: Element | undefined
   for (let at = text.indexOf('<'); at >= 0; at = text.indexOf('<', at)) {
@@ -25,7 +35,8 @@ export function parseXml(text: string): Element | undefined {
       continue
     }
     if (text[at + 1] === '/') {
-      const close = text.indexOf('>', at), top = open.pop()
+      const close = text.indexOf('>', at),
+        top = open.pop()
       if (close < 0 || !top || text.slice(at + 2, close).trim() !== top.name) return undefined
       const element: Element = { ...top, innerEnd: at, end: close + 1 }
       if (open.length > 0) open.at(-1)!.children.push(element)
@@ -49,7 +60,11 @@ export function parseXml(text: string): Element | undefined {
 
 /** The place behind a comment, CDATA, instruction or DOCTYPE that begins here; this place where none does; −1 where it does not end. */
 function skip(text: string, at: number): number {
-  for (const [begin, end] of [['<!--', '-->'], ['<![CDATA[', ']]>'], ['<?', '?>']]) {
+  for (const [begin, end] of [
+    ['<!--', '-->'],
+    ['<![CDATA[', ']]>'],
+    ['<?', '?>'],
+  ]) {
     if (!text.startsWith(begin, at)) continue
     const close = text.indexOf(end, at + begin.length)
     return close < 0 ? -1 : close + end.length
@@ -69,9 +84,10 @@ function startTag(text: string, at: number): { name: string; attributes: Record<
     pattern.lastIndex = from
     return pattern.exec(text)?.[0] ?? ''
   }
-  const name = take(kName, at + 1), attributes: Record<string, string> = {}
+  const name = take(kName, at + 1),
+    attributes: Record<string, string> = {}
   if (!name) return undefined
-  for (let i = at + 1 + name.length; ; ) {
+  for (let i = at + 1 + name.length; ;) {
     i += take(kSpace, i).length
     if (text.startsWith('/>', i)) return { name, attributes, end: i + 2, empty: true }
     if (text[i] === '>') return { name, attributes, end: i + 1, empty: false }
@@ -99,10 +115,15 @@ export function unescaped(text: string): string {
 export const escaped = (text: string) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;')
 
 /** A place of a text, and what takes its place. */
-export interface Edit { readonly begin: number; readonly end: number; readonly text: string }
+export interface Edit {
+  readonly begin: number
+  readonly end: number
+  readonly text: string
+}
 /** A text with edits that do not overlap; what is put in at one place stands in its order, before what is taken out there. */
 export function edited(text: string, edits: readonly Edit[]): string {
-  let result = '', at = 0
+  let result = '',
+    at = 0
   for (const { begin, end, text: put } of [...edits].sort((a, b) => a.begin - b.begin || a.end - b.end)) {
     result += text.slice(at, begin) + put
     at = end
@@ -116,8 +137,8 @@ export function decoded(bytes: ArrayBuffer): string {
   const [a, b, c, d] = head
   if ((a === 0xff && b === 0xfe) || (a === 0x3c && b === 0)) return new TextDecoder('utf-16le', { ignoreBOM: true }).decode(bytes)
   if ((a === 0xfe && b === 0xff) || (a === 0 && b === 0x3c && c === 0 && d !== 0)) return new TextDecoder('utf-16be', { ignoreBOM: true }).decode(bytes)
-  const declared = /^\ufeff?<\?xml[^>]*\sencoding\s*=\s*["']([\w.-]+)["']/.exec(new TextDecoder('latin1').decode(bytes.slice(0, 200)).replace('ï»¿', ''))?.[1]
-    ?? 'utf-8'
+  const declared =
+    /^\ufeff?<\?xml[^>]*\sencoding\s*=\s*["']([\w.-]+)["']/.exec(new TextDecoder('latin1').decode(bytes.slice(0, 200)).replace('ï»¿', ''))?.[1] ?? 'utf-8'
   try {
     return new TextDecoder(declared, { ignoreBOM: true }).decode(bytes)
   } catch {

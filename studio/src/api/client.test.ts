@@ -7,7 +7,9 @@ function answering(...answers: readonly ({ status?: number; body: object } | und
   let n = 0
   vi.stubGlobal('fetch', () => {
     const answer = answers[Math.min(n++, answers.length - 1)]
-    return answer ? Promise.resolve(new Response(JSON.stringify(answer.body), { status: answer.status ?? 200 })) : Promise.reject(new TypeError('Failed to fetch'))
+    return answer
+      ? Promise.resolve(new Response(JSON.stringify(answer.body), { status: answer.status ?? 200 }))
+      : Promise.reject(new TypeError('Failed to fetch'))
   })
 }
 beforeEach(() => void vi.useFakeTimers())
@@ -33,13 +35,29 @@ it('gives a job up where the server stays away, or says that there is none', asy
 })
 
 it('tells what recordings declare by the database that the call was about', async () => {
-  const api = new Api(), heard: unknown[] = []
+  const api = new Api(),
+    heard: unknown[] = []
   api.onDeclarations = (declarations, database) => heard.push([database, declarations])
   const said = { 'signweave:placeholder': 'shapes' }
-  vi.stubGlobal('fetch', (url: string) => Promise.resolve(new Response(JSON.stringify({ databases: [{ name: 'a', declarations: said }, { name: 'b', declarations: {} }], recordings: [] }),
-    { headers: /b%C3%A9|databases$/.test(url) ? { 'Signweave-Declarations': JSON.stringify(said) } : {} })))
+  vi.stubGlobal('fetch', (url: string) =>
+    Promise.resolve(
+      new Response(
+        JSON.stringify({
+          databases: [
+            { name: 'a', declarations: said },
+            { name: 'b', declarations: {} },
+          ],
+          recordings: [],
+        }),
+        { headers: /b%C3%A9|databases$/.test(url) ? { 'Signweave-Declarations': JSON.stringify(said) } : {} },
+      ),
+    ),
+  )
   await api.databases()
   await api.recordings('a')
   await api.recordings('bé')
-  expect(heard).toEqual([['a', said], ['bé', said]])
+  expect(heard).toEqual([
+    ['a', said],
+    ['bé', said],
+  ])
 })

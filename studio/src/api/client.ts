@@ -1,6 +1,21 @@
 import { readFrames, type FrameTaker } from '../motion/frames_body'
-import type { Declarations } from '../motion/source'
-import type { CharacterRow, DatabaseRow, ExplainedReport, JobBegun, JobState, MediaRow, NoticeRow, RecordingInfo, RecordingRow, SignAnswer, Statistics, TierLabels, TransitionRow, Vocabulary } from './answers'
+import type { Declarations } from '../motion/declarations'
+import type {
+  CharacterRow,
+  DatabaseRow,
+  ExplainedReport,
+  JobBegun,
+  JobState,
+  MediaRow,
+  NoticeRow,
+  RecordingInfo,
+  RecordingRow,
+  SignAnswer,
+  Statistics,
+  TierLabels,
+  TransitionRow,
+  Vocabulary,
+} from './answers'
 import { ApiError, StudioFault } from './fault'
 
 /** How long a server may be silent while a job is under way there, in ms. */
@@ -10,20 +25,41 @@ type Query = Readonly<Record<string, string | number | undefined>>
 
 /** Which piece of a recording, in ms of annotation time, and what is made anew in it. */
 export interface PieceWishes {
-  readonly from: number; readonly to: number; readonly character?: string
+  readonly from: number
+  readonly to: number
+  readonly character?: string
   /** `FROM..TO` in ms: captured frames that are cut out and made again by the method `transition`. */
-  readonly remake?: string; readonly transition?: string
+  readonly remake?: string
+  readonly transition?: string
 }
 
 /** Where the server's description of itself tells how transitions are made. */
 interface SignDescription {
-  readonly post: { readonly requestBody: { readonly content: { readonly 'application/json': { readonly schema: { readonly properties: {
-    readonly transition: { readonly description: string; readonly enum: readonly string[] } } } } } } }
+  readonly post: {
+    readonly requestBody: {
+      readonly content: {
+        readonly 'application/json': {
+          readonly schema: {
+            readonly properties: {
+              readonly transition: { readonly description: string; readonly enum: readonly string[] }
+            }
+          }
+        }
+      }
+    }
+  }
 }
 /** A call that was answered: `where` is its path and query, `body` its JSON where it had one. */
-export interface Answered { readonly method: string; readonly where: string; readonly body: string }
+export interface Answered {
+  readonly method: string
+  readonly where: string
+  readonly body: string
+}
 /** What is asked, and how many answers are wanted at most. */
-export interface QueryWishes { readonly text: string; readonly limit?: number }
+export interface QueryWishes {
+  readonly text: string
+  readonly limit?: number
+}
 
 /** The calls of docs/http.md that the studio makes. */
 export class Api {
@@ -33,7 +69,10 @@ export class Api {
   onAnswered?: (call: Answered) => void
 
   /** `base` is the address of `/api`, relative to the page; `token` goes with every call where the server asks for one. */
-  constructor(private readonly base = 'api', private readonly token = '') {}
+  constructor(
+    private readonly base = 'api',
+    private readonly token = '',
+  ) {}
 
   async databases(): Promise<readonly DatabaseRow[]> {
     const { databases } = await this.json<{ databases: DatabaseRow[] }>('databases')
@@ -71,8 +110,15 @@ export class Api {
     return (await this.post(path('databases', database, call), { ...body, format: 'eaf' })).text()
   }
   /** Frames of a recording, in ms of annotation time, in the joints of a character where one is named; ends when all have come. */
-  async motion(database: string, recording: string, from: number, to: number, character: string | undefined, taker: FrameTaker,
-               signal?: AbortSignal): Promise<void> {
+  async motion(
+    database: string,
+    recording: string,
+    from: number,
+    to: number,
+    character: string | undefined,
+    taker: FrameTaker,
+    signal?: AbortSignal,
+  ): Promise<void> {
     const where = path('databases', database, 'recordings', recording, 'motion')
     const response = await this.call(where + query({ format: 'frames', from, to, character }), { signal })
     await readFrames(response.body!, taker)
@@ -104,10 +150,22 @@ export class Api {
   async transitions(): Promise<readonly TransitionRow[]> {
     const { paths } = await this.json<{ paths: Record<string, SignDescription> }>('openapi.json')
     const { description, enum: names } = paths['/databases/{database}/sign'].post.requestBody.content['application/json'].schema.properties.transition
-    return names.map((name) => ({ name, description: description.split('\n').map((line) => line.trim()).find((line) => line.startsWith(`${name}: `))?.slice(name.length + 2) ?? '' }))
+    return names.map((name) => ({
+      name,
+      description:
+        description
+          .split('\n')
+          .map((line) => line.trim())
+          .find((line) => line.startsWith(`${name}: `))
+          ?.slice(name.length + 2) ?? '',
+    }))
   }
   /** What a query finds, as CSV while it comes: it may be a hundred thousand rows. */
-  async find(database: string, wishes: QueryWishes, signal?: AbortSignal): Promise<{ readonly csv: ReadableStream<Uint8Array>; readonly notices: readonly NoticeRow[] }> {
+  async find(
+    database: string,
+    wishes: QueryWishes,
+    signal?: AbortSignal,
+  ): Promise<{ readonly csv: ReadableStream<Uint8Array>; readonly notices: readonly NoticeRow[] }> {
     const response = await this.post(path('databases', database, 'query'), { ...wishes, format: 'csv' }, signal)
     return { csv: response.body!, notices: noticesOf(response.headers.get('Signweave-Notices')) }
   }
@@ -131,11 +189,10 @@ export class Api {
     return this.json(path('jobs', id) + (from > 0 ? query({ from }) : ''))
   }
   /**
-   * Waits until a job is over, and gives its result; throws what it failed with. `told` hears how far it is. A server that does not answer is waited for so many ms of
-   * `patience`: the job goes on there.
+   * Waits until a job is over, and gives its result; throws what it failed with. `told` hears how far it is. A server that does not answer is waited
+   * for so many ms of `patience`: the job goes on there.
    */
-  async result<Result>({ job }: JobBegun, told: (state: JobState<Result>) => void = () => {}, signal?: AbortSignal,
-    patience = kPatience): Promise<Result> {
+  async result<Result>({ job }: JobBegun, told: (state: JobState<Result>) => void = () => {}, signal?: AbortSignal, patience = kPatience): Promise<Result> {
     const recordings: unknown[] = []
     for (let wait = 100, away = 0; ; wait = Math.min(1000, wait * 1.3)) {
       let state: JobState<Result> | undefined
@@ -154,7 +211,8 @@ export class Api {
       }
       if (state) told(state)
       if (state?.state === 'done') return state.result!
-      if (state?.state === 'failed' || state?.state === 'cancelled') throw new ApiError(state.error?.message ?? state.state, 500, state.error?.code ?? state.state)
+      if (state?.state === 'failed' || state?.state === 'cancelled')
+        throw new ApiError(state.error?.message ?? state.state, 500, state.error?.code ?? state.state)
       await new Promise((resolve) => setTimeout(resolve, wait))
       if (signal?.aborted) throw signal.reason
     }

@@ -44,8 +44,19 @@ export async function isWritable(api: Api, database: string): Promise<boolean> {
   return (await api.databases()).find(({ name }) => name === database)?.writable ?? false
 }
 
-/** Sends a file under its plain name, and tells how many of its bytes have gone; `fetch` does not tell that. Rejects with the signal's reason where it is given up. */
-export function sendFile(api: Api, database: string, upload: string, name: string, file: Blob, told: (bytes: number) => void, signal: AbortSignal): Promise<void> {
+/**
+ * Sends a file under its plain name, and tells how many of its bytes have gone; `fetch` does not tell that. Rejects with the signal's reason where it is
+ * given up.
+ */
+export function sendFile(
+  api: Api,
+  database: string,
+  upload: string,
+  name: string,
+  file: Blob,
+  told: (bytes: number) => void,
+  signal: AbortSignal,
+): Promise<void> {
   const { url, headers } = api.request(path('databases', database, 'uploads', upload, 'files', name))
   return new Promise((resolve, reject) => {
     if (signal.aborted) return reject(signal.reason)

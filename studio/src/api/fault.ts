@@ -5,17 +5,28 @@ export type OwnFault = 'unreachable' | 'badAnswer' | 'streamRefused' | 'streamCl
 
 /** A fault that the studio itself saw. It is shown in the user's language; `detail` stands behind it as it is. */
 export class StudioFault extends Error {
-  constructor(readonly kind: OwnFault, readonly detail = '') {
+  constructor(
+    readonly kind: OwnFault,
+    readonly detail = '',
+  ) {
     super(detail ? `${kind}: ${detail}` : kind)
   }
 }
 
 /** Where a fault is in a text that was sent: line and column from 1, counted in characters (code points). */
-export interface FaultPlace { readonly line: number; readonly column: number }
+export interface FaultPlace {
+  readonly line: number
+  readonly column: number
+}
 
 /** A call that was refused, with the server's own line; of a query also where. */
 export class ApiError extends Error {
-  constructor(message: string, readonly status: number, readonly code: string, readonly place?: FaultPlace) {
+  constructor(
+    message: string,
+    readonly status: number,
+    readonly code: string,
+    readonly place?: FaultPlace,
+  ) {
     super(message)
   }
 }

@@ -4,7 +4,10 @@ import { glossesOf } from './complete'
 import { kEmpty, withJoin, withPlaces } from './project'
 import { placesOf } from './utterance'
 
-const glosses = glossesOf([{ gloss: 'A', tokens: 2 }, { gloss: 'B', tokens: 1 }])
+const glosses = glossesOf([
+  { gloss: 'A', tokens: 2 },
+  { gloss: 'B', tokens: 1 },
+])
 const recordings = new Map([['r', 50]])
 const project = withJoin(withPlaces(kEmpty, placesOf('X A#2 gone@1..20 Y , B#9 B r@1..20 A')), 5, { method: 'gap' })
 

@@ -3,7 +3,10 @@ import { tokensOf, type Glosses } from './complete'
 import { withPlaces, withToken, type Place, type Project } from './project'
 
 /** The call that tells what the tokens of a place cost, and which place of that call it is. */
-export interface Asking { readonly body: SignBody; readonly at: number }
+export interface Asking {
+  readonly body: SignBody
+  readonly at: number
+}
 
 /**
  * Asks of a place, left open, without those beside it that a database does not know: one of them would spoil the call. None where the

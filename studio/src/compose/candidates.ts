@@ -1,14 +1,20 @@
 import type { CandidateRow, ExplainedReport } from '../api/answers'
 
-interface Term { readonly name: string; readonly of: 'target' | 'join'; readonly cost: number }
+interface Term {
+  readonly name: string
+  readonly of: 'target' | 'join'
+  readonly cost: number
+}
 /** A token that may fill a place, with what speaks against it. */
 export interface Candidate {
-  readonly token: number; readonly recording: string
+  readonly token: number
+  readonly recording: string
   /** Frame of its recording that it begins at. */
   readonly frame: number
   readonly cost: number
   /** What stands alone, and its join to the sign before; none of the first place. */
-  readonly target: number; readonly join?: number
+  readonly target: number
+  readonly join?: number
   /** It was recorded right after the sign before, and that transition is kept. */
   readonly kept: boolean
   /** What the costs are made of, by the server's names, without what is nothing; the greatest first. */
@@ -34,7 +40,9 @@ function candidateOf({ token, recording, frames, cost, target_cost, target, kept
 }
 
 function termsOf(terms: Readonly<Record<string, number>>, of: Term['of']): Term[] {
-  return Object.entries(terms).filter(([, cost]) => cost >= kNothing).map(([name, cost]) => ({ name, of, cost }))
+  return Object.entries(terms)
+    .filter(([, cost]) => cost >= kNothing)
+    .map(([name, cost]) => ({ name, of, cost }))
 }
 
 /** The token that was chosen for each place; 0 of a piece. */

@@ -13,10 +13,19 @@ export function carried(before: readonly Place[], read: readonly Place[]): Place
   const take = (old: Place, fresh: Place): Place => ({ ...fresh, id: old.id, join: old.join, pause: fresh === read[0] ? old.pause : fresh.pause })
   const result = [...read]
   let from = 0
-  while (from < before.length && from < read.length && sameSign(before[from], read[from])) (result[from] = take(before[from], read[from])), ++from
-  let oldEnd = before.length, end = read.length
-  while (oldEnd > from && end > from && sameSign(before[oldEnd - 1], read[end - 1])) --oldEnd, --end, (result[end] = take(before[oldEnd], read[end]))
-  const old = before.slice(from, oldEnd), fresh = read.slice(from, end)
+  while (from < before.length && from < read.length && sameSign(before[from], read[from])) {
+    result[from] = take(before[from], read[from])
+    ++from
+  }
+  let oldEnd = before.length,
+    end = read.length
+  while (oldEnd > from && end > from && sameSign(before[oldEnd - 1], read[end - 1])) {
+    --oldEnd
+    --end
+    result[end] = take(before[oldEnd], read[end])
+  }
+  const old = before.slice(from, oldEnd),
+    fresh = read.slice(from, end)
   for (const [o, f] of pairs(old, fresh)) result[from + f] = take(old[o], fresh[f])
   return result
 }

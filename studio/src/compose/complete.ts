@@ -1,5 +1,9 @@
 /** A gloss that can be signed. */
-export interface GlossEntry { readonly gloss: string; readonly tokens: number; readonly folded: string }
+export interface GlossEntry {
+  readonly gloss: string
+  readonly tokens: number
+  readonly folded: string
+}
 /** The glosses of a database, made ready to be found by what is typed. */
 export interface Glosses {
   /** In the order of their folded forms. */
@@ -10,7 +14,10 @@ export interface Glosses {
 
 /** Without accents and case: what is typed finds glosses that differ in nothing else. */
 export function folded(text: string): string {
-  return text.normalize('NFD').replace(/\p{M}+/gu, '').toLowerCase()
+  return text
+    .normalize('NFD')
+    .replace(/\p{M}+/gu, '')
+    .toLowerCase()
 }
 const matched = (gloss: string) => gloss.normalize('NFC').trim()
 
@@ -28,7 +35,8 @@ export function tokensOf(glosses: Glosses, gloss: string): number | undefined {
 /** Glosses that begin with what is typed, then those that hold it, each in the order of the alphabet; of nothing typed the first ones. */
 export function completions({ entries }: Glosses, typed: string, most = 50): GlossEntry[] {
   const wanted = folded(typed.trim())
-  let low = 0, high = entries.length
+  let low = 0,
+    high = entries.length
   while (low < high) {
     const middle = (low + high) >> 1
     if (entries[middle].folded < wanted) low = middle + 1
@@ -46,10 +54,15 @@ export function completions({ entries }: Glosses, typed: string, most = 50): Glo
 }
 
 /** The word of an utterance that is being typed at a place: its ends, and what it says so far without quotes. */
-export interface TypedWord { readonly from: number; readonly to: number; readonly typed: string }
+export interface TypedWord {
+  readonly from: number
+  readonly to: number
+  readonly typed: string
+}
 
 export function wordAt(text: string, caret: number): TypedWord {
-  let from = 0, open = false
+  let from = 0,
+    open = false
   for (let i = 0; i < caret; ++i) {
     if (text[i] === '"' && (open || i === from)) open = !open
     else if (!open && /\s/.test(text[i])) from = i + 1
@@ -57,5 +70,12 @@ export function wordAt(text: string, caret: number): TypedWord {
   let to = caret
   while (to < text.length && (open ? text[to] !== '"' : !/\s/.test(text[to]))) ++to
   if (open && to < text.length) ++to
-  return { from, to, typed: text.slice(from, caret).replaceAll('"', '').replace(/(?<=.)[#@][\d.]*$/, '') }
+  return {
+    from,
+    to,
+    typed: text
+      .slice(from, caret)
+      .replaceAll('"', '')
+      .replace(/(?<=.)[#@][\d.]*$/, ''),
+  }
 }

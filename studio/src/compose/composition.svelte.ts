@@ -7,7 +7,11 @@ import { projectOf, stateOf } from './state'
 /** What the panel beside the picture is about: a place, the junction before a place (by the place's id), or all of it. */
 export type Selected = { readonly kind: 'place' | 'junction'; readonly id: number } | { readonly kind: 'all' }
 
-interface Kept { readonly history: History<Project>; readonly written: string; readonly unread?: string }
+interface Kept {
+  readonly history: History<Project>
+  readonly written: string
+  readonly unread?: string
+}
 /**
  * What was composed last of each database since the page was loaded: whoever comes back goes on with it. The address is written a
  * little after a step, so that one that was left at once still says what was before; it is told by `written`.
@@ -33,7 +37,9 @@ export class Composition {
     const text = JSON.stringify(state)
     if (text === this.written) return []
     const { project, wrong, unread } = projectOf(state)
-    const isFirst = this.written === '', says = Object.keys(state).length > 0, last = kept.get(this.database)
+    const isFirst = this.written === '',
+      says = Object.keys(state).length > 0,
+      last = kept.get(this.database)
     this.written = text
     if (isFirst && last && (!says || text === last.written)) {
       this.history = last.history

@@ -48,5 +48,7 @@ it('keeps the text of a link that cannot be read, in the address, too, until som
 
 it('links to a project without the token of who copies the link', () => {
   const { composition } = come({ utterance: 'A' })
-  expect(linkTo(composition.project, 'demo', 'https://x.org/studio/?token=SECRET#/demo/compose?utterance=B')).toBe('https://x.org/studio/#/demo/compose?utterance=A')
+  expect(linkTo(composition.project, 'demo', 'https://x.org/studio/?token=SECRET#/demo/compose?utterance=B')).toBe(
+    'https://x.org/studio/#/demo/compose?utterance=A',
+  )
 })

@@ -12,6 +12,11 @@ export function download(what: Blob | string, name: string, type = 'application/
 
 /** A text as the name of a file: without what systems forbid, not too long. */
 export function fileName(title: string, ending: string): string {
-  const plain = title.normalize('NFC').replace(/["#@.,…<>:/\\|?*\p{Cc}]+/gu, ' ').trim().replace(/\s+/g, '_').slice(0, 60)
+  const plain = title
+    .normalize('NFC')
+    .replace(/["#@.,…<>:/\\|?*\p{Cc}]+/gu, ' ')
+    .trim()
+    .replace(/\s+/g, '_')
+    .slice(0, 60)
   return `${plain || 'signweave'}${ending}`
 }

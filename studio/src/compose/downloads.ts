@@ -2,9 +2,11 @@
 export class Downloads {
   private readonly under = new Map<AbortController, string>()
 
-  constructor(private readonly save: (file: Blob, name: string) => void,
-              /** Told what was done or went wrong last, if anything, and what is still being made. */
-              private readonly told: (names: readonly string[], done?: { readonly name: string; readonly fault?: unknown }) => void) {}
+  constructor(
+    private readonly save: (file: Blob, name: string) => void,
+    /** Told what was done or went wrong last, if anything, and what is still being made. */
+    private readonly told: (names: readonly string[], done?: { readonly name: string; readonly fault?: unknown }) => void,
+  ) {}
 
   async get(name: string, make: (signal: AbortSignal) => Promise<Blob>): Promise<void> {
     const mine = new AbortController()

@@ -1,11 +1,17 @@
 /** Where a card is on the screen. */
-export interface Box { readonly left: number; readonly right: number; readonly top: number; readonly bottom: number }
+export interface Box {
+  readonly left: number
+  readonly right: number
+  readonly top: number
+  readonly bottom: number
+}
 
 /** Before which card something falls that is let go at a point: cards stand in lines, read from the left; their number means the end. */
 export function dropAt(boxes: readonly Box[], x: number, y: number): number {
   let at = 0
   for (const { left, right, top, bottom } of boxes) {
-    const above = bottom < y, same = top <= y && y <= bottom
+    const above = bottom < y,
+      same = top <= y && y <= bottom
     if (!above && !(same && (left + right) / 2 < x)) break
     ++at
   }

@@ -13,14 +13,22 @@ export interface Scenario {
 
 export const kScenarios: readonly Scenario[] = [
   {
-    name: 'scenario1', recording: 'meteo', replace: [
-      { from: ['BRETAGNE', 1], by: 'VANNES' }, { from: ['DEMAIN', 1], by: 'MARSEILLE' }, { from: ['VENDREDI', 1], by: 'RENNES' },
+    name: 'scenario1',
+    recording: 'meteo',
+    replace: [
+      { from: ['BRETAGNE', 1], by: 'VANNES' },
+      { from: ['DEMAIN', 1], by: 'MARSEILLE' },
+      { from: ['VENDREDI', 1], by: 'RENNES' },
       { from: ['MATIN', 2], by: 'LE MANS' },
     ],
   },
   {
-    name: 'scenario2', recording: 'meteo',
-    swap: [{ first: ['BRETAGNE', 1], last: ['PLUIE', 1] }, { first: ['NUAGES', 2], last: ['BROUILLARD', 1] }],
+    name: 'scenario2',
+    recording: 'meteo',
+    swap: [
+      { first: ['BRETAGNE', 1], last: ['PLUIE', 1] },
+      { first: ['NUAGES', 2], last: ['BROUILLARD', 1] },
+    ],
   },
 ]
 
@@ -46,5 +54,10 @@ export function played(scenario: Scenario, recording: Project): Project | undefi
   }
   const by = new Map<number, Place>()
   for (const { from, by: gloss } of scenario.replace ?? []) by.set(find(from), signPlace(gloss))
-  return by.has(-1) ? undefined : withPlaces(recording, places.map((place, k) => by.get(k) ?? place))
+  return by.has(-1)
+    ? undefined
+    : withPlaces(
+        recording,
+        places.map((place, k) => by.get(k) ?? place),
+      )
 }

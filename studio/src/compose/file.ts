@@ -10,18 +10,30 @@ const kName = 'signweave compose'
 /** What is wrong with a project file, by the key of its words; `detail` says where or what. */
 export type FileWrong = 'notJson' | 'notProject' | 'newerVersion' | 'unknownField' | 'badValue' | 'tooManyPlaces'
 export class FileFault extends Error {
-  constructor(readonly wrong: FileWrong, readonly detail = '') {
+  constructor(
+    readonly wrong: FileWrong,
+    readonly detail = '',
+  ) {
     super(`${wrong} ${detail}`)
   }
 }
 
 /** A project as a file, for people to read, too. */
 export function fileOf({ places, how, original }: Project, database: string): string {
-  return JSON.stringify({
-    project: kName, version: kVersion, database, original,
-    settings: { transition: how.transition || undefined, duration: how.duration, tempo: how.tempo, align: how.align, rate: how.rate || undefined },
-    places: places.map((place, k) => placeRow(k === 0 ? bare(place) : place)),
-  }, null, 2) + '\n'
+  return (
+    JSON.stringify(
+      {
+        project: kName,
+        version: kVersion,
+        database,
+        original,
+        settings: { transition: how.transition || undefined, duration: how.duration, tempo: how.tempo, align: how.align, rate: how.rate || undefined },
+        places: places.map((place, k) => placeRow(k === 0 ? bare(place) : place)),
+      },
+      null,
+      2,
+    ) + '\n'
+  )
 }
 
 /** Before the first place there is neither pause nor junction. */
@@ -37,7 +49,10 @@ function placeRow(place: Place): object {
   }
 }
 
-export interface FileRead { readonly project: Project; /** The database that it was made with; it may be another one. */ readonly database?: string }
+export interface FileRead {
+  readonly project: Project
+  /** The database that it was made with; it may be another one. */ readonly database?: string
+}
 
 /** Reads a project file. Throws FileFault; a field that this version does not know is one, for it would be lost. */
 export function readFile(text: string): FileRead {
@@ -56,7 +71,8 @@ export function readFile(text: string): FileRead {
   if (!Array.isArray(places)) throw new FileFault('badValue', 'places')
   if (places.length > kMostPlaces) throw new FileFault('tooManyPlaces', String(places.length))
   const project: Project = {
-    places: [], how: howOf(fields(settings, 'settings.', ['transition', 'duration', 'tempo', 'align', 'rate'])),
+    places: [],
+    how: howOf(fields(settings, 'settings.', ['transition', 'duration', 'tempo', 'align', 'rate'])),
     original: optional(whole.original, 'original', isText),
   }
   return { project: withPlaces(project, places.map(readPlace)), database: optional(whole.database, 'database', isText) }
@@ -85,8 +101,15 @@ function placeOf(given: unknown, where: string): Place {
   const join = row.junction === undefined ? {} : joinOf(recordAt(row.junction, `${where}.junction`), `${where}.junction.`)
   if ('recording' in row) {
     const { recording, from_ms, to_ms } = fields(row, `${where}.`, ['recording', 'from_ms', 'to_ms', 'pause', 'junction'])
-    const name = needed(recording, `${where}.recording`, isName), from = needed(from_ms, `${where}.from_ms`, isMs)
-    return piecePlace(name, from, needed(to_ms, `${where}.to_ms`, (value): value is number => isMs(value) && value > from), pause, join)
+    const name = needed(recording, `${where}.recording`, isName),
+      from = needed(from_ms, `${where}.from_ms`, isMs)
+    return piecePlace(
+      name,
+      from,
+      needed(to_ms, `${where}.to_ms`, (value): value is number => isMs(value) && value > from),
+      pause,
+      join,
+    )
   }
   const { gloss, token } = fields(row, `${where}.`, ['gloss', 'token', 'pause', 'junction'])
   return signPlace(needed(gloss, `${where}.gloss`, isName), optional(token, `${where}.token`, isMs) ?? 0, pause, join)
@@ -95,7 +118,8 @@ function placeOf(given: unknown, where: string): Place {
 function joinOf(row: Record<string, unknown>, where: string): Join {
   const { method, duration_ms, tempo } = fields(row, where, ['method', 'duration_ms', 'tempo'])
   const join = {
-    method: optional(method, `${where}method`, isMethod), durationMs: optional(duration_ms, `${where}duration_ms`, isDuration),
+    method: optional(method, `${where}method`, isMethod),
+    durationMs: optional(duration_ms, `${where}duration_ms`, isDuration),
     tempo: optional(tempo, `${where}tempo`, isTempo),
   }
   return Object.fromEntries(Object.entries(join).filter(([, value]) => value !== undefined))

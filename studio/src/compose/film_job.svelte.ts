@@ -24,11 +24,30 @@ export class FilmJob {
   }
 
   /** Resolves with the film's bytes; none where it was given up. `character` is whose surfaces are drawn, `text` the language beneath the pictures. */
-  async make(api: Api, database: string, body: SignBody, character: string | undefined, view: RenderView, size: FilmSize,
-             text: Text): Promise<Blob | undefined> {
+  async make(
+    api: Api,
+    database: string,
+    body: SignBody,
+    character: string | undefined,
+    view: RenderView,
+    size: FilmSize,
+    text: Text,
+  ): Promise<Blob | undefined> {
     const { signal } = this.abort
     const [width, height] = size.split('x').map(Number)
-    const request: RenderRequest = { database, call: 'sign', parameters: { ...body }, character: character ?? '', width, height, rate: kRate, view, kind: 'webm', at_ms: null, put: '' }
+    const request: RenderRequest = {
+      database,
+      call: 'sign',
+      parameters: { ...body },
+      character: character ?? '',
+      width,
+      height,
+      rate: kRate,
+      view,
+      kind: 'webm',
+      at_ms: null,
+      put: '',
+    }
     // What makes films is fetched by those who want one.
     const { filmOf } = await import('../render/film_of')
     try {

@@ -8,7 +8,9 @@ const many = (history: History<number>, step: (one: History<number>) => History<
 
 it('takes steps back and does them again', () => {
   const history = did(did(begun(1), 2), 3)
-  expect([many(history, undone, 1), many(history, undone, 2), many(history, undone, 9), redone(undone(history)).now, many(history, redone, 2)]).toEqual([2, 1, 1, 3, 3])
+  expect([many(history, undone, 1), many(history, undone, 2), many(history, undone, 9), redone(undone(history)).now, many(history, redone, 2)]).toEqual([
+    2, 1, 1, 3, 3,
+  ])
 })
 
 it('forgets what was taken back when something else is done', () => {

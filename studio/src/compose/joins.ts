@@ -9,7 +9,9 @@ export function joinTexts(places: readonly Place[]): string[] {
 }
 
 export function joinText({ method, durationMs, tempo }: Join): string {
-  return [method, durationMs === undefined ? undefined : `${durationMs}ms`, tempo === undefined ? undefined : `x${tempo}`].filter((part) => part !== undefined).join(',')
+  return [method, durationMs === undefined ? undefined : `${durationMs}ms`, tempo === undefined ? undefined : `x${tempo}`]
+    .filter((part) => part !== undefined)
+    .join(',')
 }
 
 /** The number of a junction and what is said of it; none where a text says something else. */
@@ -18,7 +20,8 @@ export function readJoin(text: string): { junction: number; join: Join } | undef
   if (!number || Number(number) < 1) return undefined
   const join: { method?: string; durationMs?: number; tempo?: number } = {}
   for (const part of parts.split(',')) {
-    const ms = /^(\d{1,6})ms$/.exec(part)?.[1], tempo = /^x(\d+(?:\.\d+)?)$/.exec(part)?.[1]
+    const ms = /^(\d{1,6})ms$/.exec(part)?.[1],
+      tempo = /^x(\d+(?:\.\d+)?)$/.exec(part)?.[1]
     if (ms !== undefined) join.durationMs = Number(ms)
     else if (tempo !== undefined) join.tempo = Number(tempo)
     else if (isMethod(part)) join.method = part

@@ -6,18 +6,44 @@ import { documentOf } from './made_document'
 import { placesOf } from './utterance'
 
 const sign = (gloss: string, begin: number, end: number, recording: string, from: number) => ({
-  gloss, begin_ms: begin, end_ms: end, recording, recorded: { begin_ms: from, end_ms: from + (end - begin) },
-  phases: [{ kind: 'preparation', begin_ms: begin, end_ms: begin + 100 }, { kind: 'stroke', begin_ms: begin + 100, end_ms: end - 100 }],
+  gloss,
+  begin_ms: begin,
+  end_ms: end,
+  recording,
+  recorded: { begin_ms: from, end_ms: from + (end - begin) },
+  phases: [
+    { kind: 'preparation', begin_ms: begin, end_ms: begin + 100 },
+    { kind: 'stroke', begin_ms: begin + 100, end_ms: end - 100 },
+  ],
 })
-const stretch = (recording: string, begin: number, end: number) =>
-  ({ recording, frames: { begin, end }, kept_frames: { begin: begin + 5, end }, kept_from_recorded_frame: 105, recorded_frames_per_frame: 1 })
-const junction = (begin: number, end: number) =>
-  ({ from: 'A', to: 'B', method: 'gap', frames: { begin, end }, retraction_frames: 1, preparation_frames: 2, blend_frames: 3 })
+const stretch = (recording: string, begin: number, end: number) => ({
+  recording,
+  frames: { begin, end },
+  kept_frames: { begin: begin + 5, end },
+  kept_from_recorded_frame: 105,
+  recorded_frames_per_frame: 1,
+})
+const junction = (begin: number, end: number) => ({
+  from: 'A',
+  to: 'B',
+  method: 'gap',
+  frames: { begin, end },
+  retraction_frames: 1,
+  preparation_frames: 2,
+  blend_frames: 3,
+})
 
 // A and B were recorded one after the other and stay so; then a piece with C and D in it, one with nothing, and E.
 const kReport: Report = {
-  frames: 1000, frames_per_second: 100,
-  signs: [sign('A', 0, 1000, 'r', 0), sign('B', 1000, 2000, 'r', 1000), sign('C', 2500, 3500, 's', 5000), sign('D', 3500, 4500, 's', 6000), sign('E', 8000, 10_000, 'r', 9000)],
+  frames: 1000,
+  frames_per_second: 100,
+  signs: [
+    sign('A', 0, 1000, 'r', 0),
+    sign('B', 1000, 2000, 'r', 1000),
+    sign('C', 2500, 3500, 's', 5000),
+    sign('D', 3500, 4500, 's', 6000),
+    sign('E', 8000, 10_000, 'r', 9000),
+  ],
   stretches: [stretch('r', 0, 200), stretch('s', 240, 460), stretch('s', 500, 700), stretch('r', 790, 1000)],
   junctions: [junction(200, 245), junction(460, 505), junction(700, 795)],
 }
@@ -25,15 +51,33 @@ const kPlaces = placesOf('A B s@4000..7000 s@100..200 E')
 
 it('finds each place, also where pieces hold several signs or none', () => {
   const { places, seams } = laidOf(kPlaces, kReport)!
-  expect(places.map(({ begin, end, stretch, signs }) => [begin, end, stretch, signs.length])).toEqual([[0, 1, 0, 1], [1, 2, 0, 1], [2.5, 4.5, 1, 2], [5, 7, 2, 0], [8, 10, 3, 1]])
-  expect(seams.map((seam) => seam && [seam.kind, seam.begin, seam.end])).toEqual([undefined, ['kept', 0.9, 1.1], ['made', 2, 2.45], ['made', 4.6, 5.05], ['made', 7, 7.95]])
+  expect(places.map(({ begin, end, stretch, signs }) => [begin, end, stretch, signs.length])).toEqual([
+    [0, 1, 0, 1],
+    [1, 2, 0, 1],
+    [2.5, 4.5, 1, 2],
+    [5, 7, 2, 0],
+    [8, 10, 3, 1],
+  ])
+  expect(seams.map((seam) => seam && [seam.kind, seam.begin, seam.end])).toEqual([
+    undefined,
+    ['kept', 0.9, 1.1],
+    ['made', 2, 2.45],
+    ['made', 4.6, 5.05],
+    ['made', 7, 7.95],
+  ])
   expect(seams[2]).toMatchObject({ method: 'gap', retraction: 1, preparation: 2, blend: 3 })
 })
 
 it('knows what was made of places that have moved since, but not their junctions', () => {
   const known = new Known(kPlaces, laidOf(kPlaces, kReport)!)
   const [a, b, c] = kPlaces.map(({ id }) => id)
-  expect([known.place(c)?.begin, known.seam(b, a)?.kind, known.seam(c, b)?.kind, known.seam(c, a), known.place(-1)]).toEqual([2.5, 'kept', 'made', undefined, undefined])
+  expect([known.place(c)?.begin, known.seam(b, a)?.kind, known.seam(c, b)?.kind, known.seam(c, a), known.place(-1)]).toEqual([
+    2.5,
+    'kept',
+    'made',
+    undefined,
+    undefined,
+  ])
   expect([known.at(0), known.at(2.7), known.at(99)]).toEqual([a, c, undefined])
 })
 
@@ -44,22 +88,59 @@ it('says nothing of places that are not those of the report', () => {
 
 it('draws what was made as its EAF has it', () => {
   const { tiers } = documentOf(kReport)
-  expect(tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([['Gloss', 5], ['Phase', 10], ['Source', 4], ['Junction', 3]])
+  expect(tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([
+    ['Gloss', 5],
+    ['Phase', 10],
+    ['Source', 4],
+    ['Junction', 3],
+  ])
   expect(tiers[2].annotations[1]).toEqual({ begin: 2400, end: 4600, label: 's frames 100..320' })
   expect(tiers[3].annotations[0].label).toBe('gap 450 ms: A -> B (m_i 1, m_j 2, p 3)')
   expect(tiers[1].annotations[1]).toEqual({ begin: 100, end: 900, label: 'Stroke' })
-  const other = documentOf(kReport, { preparation: 'P', stroke: 'S', retraction: 'R', madeSource: '{recording}, images {from} à {to}', madeSeam: '{method} en {ms} ms' }).tiers
+  const other = documentOf(kReport, {
+    preparation: 'P',
+    stroke: 'S',
+    retraction: 'R',
+    madeSource: '{recording}, images {from} à {to}',
+    madeSeam: '{method} en {ms} ms',
+  }).tiers
   expect([other[1].annotations[1].label, other[2].annotations[1].label, other[3].annotations[0].label]).toEqual(['S', 's, images 100 à 320', 'gap en 450 ms'])
 })
 
 it('tells the candidates of a place by their tokens, the cheapest first, and what their costs are made of', () => {
-  const row = (token: number, cost: number, more = {}) => ({ recording: 'r', token, frames: { begin: 10 * token, end: 10 * token + 5 }, cost, target_cost: 0.1, target: { left: 0.1, defects: 0 }, ...more })
+  const row = (token: number, cost: number, more = {}) => ({
+    recording: 'r',
+    token,
+    frames: { begin: 10 * token, end: 10 * token + 5 },
+    cost,
+    target_cost: 0.1,
+    target: { left: 0.1, defects: 0 },
+    ...more,
+  })
   const report: ExplainedReport = {
-    ...kReport, places: [{ candidates: [row(1, 2), row(3, 1)], chosen: 1 }, { candidates: [row(2, 3.3, { join_cost: 0.7, join: { arms: 0.4, place: 0.3, speed: 0 } }), row(4, 1, { kept: true, join_cost: 0, join: { arms: 9 } })], chosen: 0 }],
+    ...kReport,
+    places: [
+      { candidates: [row(1, 2), row(3, 1)], chosen: 1 },
+      {
+        candidates: [row(2, 3.3, { join_cost: 0.7, join: { arms: 0.4, place: 0.3, speed: 0 } }), row(4, 1, { kept: true, join_cost: 0, join: { arms: 9 } })],
+        chosen: 0,
+      },
+    ],
   }
-  expect(candidatesOf(report, 0).map(({ token, best, frame }) => [token, best, frame])).toEqual([[3, true, 30], [1, false, 10]])
+  expect(candidatesOf(report, 0).map(({ token, best, frame }) => [token, best, frame])).toEqual([
+    [3, true, 30],
+    [1, false, 10],
+  ])
   const [first, second] = candidatesOf(report, 1)
-  expect([first.token, first.kept, first.best, first.terms]).toEqual([4, true, false, [{ name: 'after', of: 'join', cost: 0.9 }, { name: 'left', of: 'target', cost: 0.1 }]])
+  expect([first.token, first.kept, first.best, first.terms]).toEqual([
+    4,
+    true,
+    false,
+    [
+      { name: 'after', of: 'join', cost: 0.9 },
+      { name: 'left', of: 'target', cost: 0.1 },
+    ],
+  ])
   expect(second.terms.map(({ name }) => name)).toEqual(['after', 'arms', 'place', 'left'])
   expect(chosenTokens(report)).toEqual([3, 2])
 })

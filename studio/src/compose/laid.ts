@@ -3,7 +3,8 @@ import type { Place } from './project'
 
 /** Where a place lies in what was made, in seconds. */
 export interface LaidPlace {
-  readonly begin: number; readonly end: number
+  readonly begin: number
+  readonly end: number
   /** Which stretches it begins and ends in: neighbours in a recording share one. */
   readonly stretch: number
   /** One of a gloss, any number of a piece. */
@@ -13,12 +14,20 @@ export interface LaidPlace {
 export type Seam =
   | { readonly kind: 'kept'; readonly begin: number; readonly end: number }
   | {
-    readonly kind: 'made'; readonly begin: number; readonly end: number; readonly method: string
-    /** Frames: m_i, m_j and p of Algorithm 1. */
-    readonly retraction: number; readonly preparation: number; readonly blend: number
-  }
+      readonly kind: 'made'
+      readonly begin: number
+      readonly end: number
+      readonly method: string
+      /** Frames: m_i, m_j and p of Algorithm 1. */
+      readonly retraction: number
+      readonly preparation: number
+      readonly blend: number
+    }
 /** What was made, place by place; before the first there is no seam. */
-export interface Laid { readonly places: readonly LaidPlace[]; readonly seams: readonly (Seam | undefined)[] }
+export interface Laid {
+  readonly places: readonly LaidPlace[]
+  readonly seams: readonly (Seam | undefined)[]
+}
 
 /** What is known of the places of a project from what was made last, which may have been another one: by the places' ids. */
 export class Known {
@@ -46,7 +55,8 @@ export class Known {
 export function laidOf(places: readonly Place[], report: Report): Laid | undefined {
   const { signs, stretches, junctions, frames_per_second: rate } = report
   const laid: LaidPlace[] = []
-  let sign = 0, stretch = -1
+  let sign = 0,
+    stretch = -1
   for (const place of places) {
     const from = sign
     if (place.kind === 'sign') ++sign

@@ -1,7 +1,7 @@
 import type { Api } from '../api/client'
 import { StudioFault } from '../api/fault'
 import type { AnnotationDocument } from '../annotation/document'
-import type { Declarations } from '../motion/source'
+import type { Declarations } from '../motion/declarations'
 import { StreamSource } from '../motion/stream_source'
 import { Opening } from '../player/opening'
 import type { Showing, Strand } from '../viewer/showing'
@@ -37,7 +37,12 @@ export class Live implements Showing {
   private told = 0
 
   /** `resting` is the recording whose signer rests, `how` what `open` of a stream takes. */
-  constructor(private readonly api: Api, private readonly database: string, private readonly resting: string, private readonly how: object) {
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+    private readonly resting: string,
+    private readonly how: object,
+  ) {
     this.transport.live = true
   }
 
@@ -51,11 +56,15 @@ export class Live implements Showing {
     const isThere = this.next ? this.next.character === character : this.source !== undefined && this.current?.character === character
     if (this.closed || isThere) return
     this.next?.close()
-    const next: Opening = (this.next = new Opening(character, (fault) => {
-      // A stream that broke is over: it is opened anew when it is asked for again.
-      if (this.current === next) this.source = undefined
-      this.note(fault)
-    }, () => this.progress()))
+    const next: Opening = (this.next = new Opening(
+      character,
+      (fault) => {
+        // A stream that broke is over: it is opened anew when it is asked for again.
+        if (this.current === next) this.source = undefined
+        this.note(fault)
+      },
+      () => this.progress(),
+    ))
     this.busy = true
     const source = new StreamSource(this.api, this.database, '', character, this.resting, this.how)
     source.onNotice = (fault) => this.note(fault)
@@ -63,28 +72,31 @@ export class Live implements Showing {
       this.places.push({ frame, gloss })
       if (this.places.length > kMostPlaces) this.places.splice(0, kMostPlaces / 2)
     }
-    next.strand('made', source).then((strand) => {
-      if (this.next !== next) return
-      this.current?.close()
-      this.current = next
-      this.next = undefined
-      this.source = source
-      this.trouble = undefined
-      this.places.length = 0
-      this.transport.time = 0
-      this.transport.rate = strand.motion.store.rate
-      this.main = strand
-      this.strands = [strand]
-      this.declarations = [strand.motion.declarations]
-      this.transport.play()
-      this.progress()
-      this.settle()
-    }).catch((fault: unknown) => {
-      next.close()
-      if (this.next !== next) return
-      this.next = undefined
-      this.fail(fault)
-    })
+    next
+      .strand('made', source)
+      .then((strand) => {
+        if (this.next !== next) return
+        this.current?.close()
+        this.current = next
+        this.next = undefined
+        this.source = source
+        this.trouble = undefined
+        this.places.length = 0
+        this.transport.time = 0
+        this.transport.rate = strand.motion.store.rate
+        this.main = strand
+        this.strands = [strand]
+        this.declarations = [strand.motion.declarations]
+        this.transport.play()
+        this.progress()
+        this.settle()
+      })
+      .catch((fault: unknown) => {
+        next.close()
+        if (this.next !== next) return
+        this.next = undefined
+        this.fail(fault)
+      })
   }
   /** No stream will come, until it is asked for again. */
   fail(fault: unknown): void {

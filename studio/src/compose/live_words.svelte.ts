@@ -20,7 +20,10 @@ export class LiveWords {
   private closed = false
 
   /** `append` waits until a signer is there; what it throws but for the server's refusals says that there is none. */
-  constructor(private readonly append: (utterance: string) => Promise<void>, private readonly hearer: LiveHearer) {}
+  constructor(
+    private readonly append: (utterance: string) => Promise<void>,
+    private readonly hearer: LiveHearer,
+  ) {}
 
   say(places: readonly Place[]): void {
     this.waiting = [...this.waiting, ...places]

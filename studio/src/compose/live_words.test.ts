@@ -56,7 +56,10 @@ it('gives what was not answered to whoever ends it, and tells nothing more', asy
 it('holds words until the stream is there, or is known not to come', async () => {
   const live = new Live({} as Api, 'd', 'r', {})
   let ended = ''
-  const append = live.append('A').then(() => (ended = 'signed'), (fault: unknown) => (ended = fault instanceof StudioFault ? fault.kind : String(fault)))
+  const append = live.append('A').then(
+    () => (ended = 'signed'),
+    (fault: unknown) => (ended = fault instanceof StudioFault ? fault.kind : String(fault)),
+  )
   await settled()
   expect(ended).toBe('')
   live.fail(new ApiError('no such character', 404, 'not_found'))

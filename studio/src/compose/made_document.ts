@@ -3,11 +3,18 @@ import type { Annotation, AnnotationDocument, Tier } from '../annotation/documen
 
 /** How phases, sources and junctions are called, with what is filled in as `{…}`. */
 export interface MadeLabels {
-  readonly preparation: string; readonly stroke: string; readonly retraction: string; readonly madeSource: string; readonly madeSeam: string
+  readonly preparation: string
+  readonly stroke: string
+  readonly retraction: string
+  readonly madeSource: string
+  readonly madeSeam: string
 }
 /** As the EAF has them. */
 export const kEafLabels: MadeLabels = {
-  preparation: 'Preparation', stroke: 'Stroke', retraction: 'Retraction', madeSource: '{recording} frames {from}..{to}',
+  preparation: 'Preparation',
+  stroke: 'Stroke',
+  retraction: 'Retraction',
+  madeSource: '{recording} frames {from}..{to}',
   madeSeam: '{method} {ms} ms: {from} -> {to} (m_i {retraction}, m_j {preparation}, p {blend})',
 }
 
@@ -16,21 +23,36 @@ export function documentOf(report: Report, labels: MadeLabels = kEafLabels): Ann
   const { signs, stretches, junctions, frames_per_second: rate } = report
   const ms = (frame: number) => Math.round((1000 * frame) / rate)
   const phases = signs.flatMap((sign) => sign.phases ?? []).map((phase) => ({ begin: phase.begin_ms, end: phase.end_ms, label: named(phase.kind, labels) }))
-  const tier = (name: string, annotations: readonly Annotation[], parent?: string): Tier =>
-    ({ name, parent, depth: parent ? 1 : 0, annotations: annotations.filter(({ begin, end }) => begin < end) })
+  const tier = (name: string, annotations: readonly Annotation[], parent?: string): Tier => ({
+    name,
+    parent,
+    depth: parent ? 1 : 0,
+    annotations: annotations.filter(({ begin, end }) => begin < end),
+  })
   return {
     tiers: [
-      tier('Gloss', signs.map(({ begin_ms, end_ms, gloss }) => ({ begin: begin_ms, end: end_ms, label: gloss }))),
+      tier(
+        'Gloss',
+        signs.map(({ begin_ms, end_ms, gloss }) => ({ begin: begin_ms, end: end_ms, label: gloss })),
+      ),
       tier('Phase', phases, 'Gloss'),
-      tier('Source', stretches.map(({ recording, frames, kept_frames, kept_from_recorded_frame: kept, recorded_frames_per_frame: step }) => {
-        const from = kept - (kept_frames.begin - frames.begin) * step, to = kept + (frames.end - kept_frames.begin) * step
-        return { begin: ms(frames.begin), end: ms(frames.end), label: put(labels.madeSource, { recording, from: Math.round(from), to: Math.round(to) }) }
-      })),
-      tier('Junction', junctions.map(({ frames, method, from, to, retraction_frames, preparation_frames, blend_frames }) => {
-        const begin = ms(frames.begin), end = ms(frames.end)
-        const values = { method, ms: end - begin, from, to, retraction: retraction_frames, preparation: preparation_frames, blend: blend_frames }
-        return { begin, end, label: put(labels.madeSeam, values) }
-      })),
+      tier(
+        'Source',
+        stretches.map(({ recording, frames, kept_frames, kept_from_recorded_frame: kept, recorded_frames_per_frame: step }) => {
+          const from = kept - (kept_frames.begin - frames.begin) * step,
+            to = kept + (frames.end - kept_frames.begin) * step
+          return { begin: ms(frames.begin), end: ms(frames.end), label: put(labels.madeSource, { recording, from: Math.round(from), to: Math.round(to) }) }
+        }),
+      ),
+      tier(
+        'Junction',
+        junctions.map(({ frames, method, from, to, retraction_frames, preparation_frames, blend_frames }) => {
+          const begin = ms(frames.begin),
+            end = ms(frames.end)
+          const values = { method, ms: end - begin, from, to, retraction: retraction_frames, preparation: preparation_frames, blend: blend_frames }
+          return { begin, end, label: put(labels.madeSeam, values) }
+        }),
+      ),
     ],
   }
 }
@@ -39,4 +61,5 @@ function named(kind: string, labels: MadeLabels): string {
   return kind === 'preparation' || kind === 'stroke' || kind === 'retraction' ? labels[kind] : kind.charAt(0).toUpperCase() + kind.slice(1)
 }
 /** What is filled in may hold anything, and is not read again. */
-const put = (text: string, values: Readonly<Record<string, string | number>>) => text.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole))
+const put = (text: string, values: Readonly<Record<string, string | number>>) =>
+  text.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole))

@@ -4,7 +4,8 @@ import type { AnnotationDocument } from '../annotation/document'
 import { beside, stepsOfSigns, type Steps } from '../motion/in_step'
 import { MadeSource } from '../motion/made_source'
 import { RecordingSource } from '../motion/recording_source'
-import type { Declarations, MotionSource } from '../motion/source'
+import type { Declarations } from '../motion/declarations'
+import type { MotionSource } from '../motion/source'
 import { Opening } from '../player/opening'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport, type Loop } from '../viewer/transport'
@@ -21,17 +22,28 @@ const kNothing: AnnotationDocument = { tiers: [] }
 const kAround = 0.4
 
 /** What stands beside what is made: the recording that it was made from, or the same signs joined otherwise. */
-export type Beside =
-  | { readonly kind: 'original'; readonly recording: string }
-  | { readonly kind: 'method'; readonly title: string; readonly other: Project }
+export type Beside = { readonly kind: 'original'; readonly recording: string } | { readonly kind: 'method'; readonly title: string; readonly other: Project }
 
 /** What is to be shown. */
-export interface Wish { readonly project: Project; readonly title: string; readonly beside?: Beside }
+export interface Wish {
+  readonly project: Project
+  readonly title: string
+  readonly beside?: Beside
+}
 /** What is shown: the wish, and what the server tells of it. */
-export interface Made { readonly wish: Wish; readonly report: Report; readonly laid?: Laid }
+export interface Made {
+  readonly wish: Wish
+  readonly report: Report
+  readonly laid?: Laid
+}
 
 /** A recording that stands beside; `before` is the one that is shown until it is there. */
-interface Recorded { readonly key: string; readonly opening: Opening; readonly strand: Promise<Strand>; before?: Recorded }
+interface Recorded {
+  readonly key: string
+  readonly opening: Opening
+  readonly strand: Promise<Strand>
+  before?: Recorded
+}
 
 /** Signs a project anew after each change. What is shown stays until the new one is there, and stays where there never is one. */
 export class Making implements Showing {
@@ -66,7 +78,11 @@ export class Making implements Showing {
   private told = 0
 
   /** `labels` is how parts of it are called. */
-  constructor(private readonly api: Api, private readonly database: string, private readonly labels: () => MadeLabels = () => kEafLabels) {}
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+    private readonly labels: () => MadeLabels = () => kEafLabels,
+  ) {}
 
   get complete(): boolean {
     return this.main?.source.complete ?? true
@@ -89,23 +105,29 @@ export class Making implements Showing {
     this.next?.close()
     this.next = undefined
     if (wish.project.places.length === 0) return this.clear()
-    const next = (this.next = new Opening(character, (fault) => this.note(fault), (source) => this.progress(source)))
+    const next = (this.next = new Opening(
+      character,
+      (fault) => this.note(fault),
+      (source) => this.progress(source),
+    ))
     this.busy = true
-    this.open(wish, next).then((strands) => {
-      if (this.next !== next) return
-      this.current?.close()
-      this.current = next
-      this.next = undefined
-      this.busy = false
-      this.trouble = undefined
-      this.show(wish, strands)
-    }).catch((fault: unknown) => {
-      next.close()
-      if (this.next !== next) return
-      this.next = undefined
-      this.busy = false
-      this.note(fault)
-    })
+    this.open(wish, next)
+      .then((strands) => {
+        if (this.next !== next) return
+        this.current?.close()
+        this.current = next
+        this.next = undefined
+        this.busy = false
+        this.trouble = undefined
+        this.show(wish, strands)
+      })
+      .catch((fault: unknown) => {
+        next.close()
+        if (this.next !== next) return
+        this.next = undefined
+        this.busy = false
+        this.note(fault)
+      })
   }
 
   /** Shows the junction before a place again and again; none where it is no junction of what is shown. */
@@ -145,32 +167,48 @@ export class Making implements Showing {
   private originalStrand(recording: string, character: string | undefined): Promise<Strand> {
     const key = JSON.stringify([recording, character])
     if (this.recorded?.key === key) return this.recorded.strand
-    const opening = new Opening(character, (fault) => this.note(fault), (source) => this.progress(source))
+    const opening = new Opening(
+      character,
+      (fault) => this.note(fault),
+      (source) => this.progress(source),
+    )
     const strand = Promise.all([opening.strand('original', new RecordingSource(this.api, this.database, recording, character)), this.readOriginal(recording)])
     const mine: Recorded = { key, opening, strand: strand.then(([one]) => one), before: this.recorded }
     this.recorded = mine
-    strand.then(() => {
-      mine.before?.opening.close()
-      mine.before = undefined
-    }, () => {
-      opening.close()
-      if (this.recorded === mine) this.recorded = mine.before // to be tried again when asked again
-    })
+    strand.then(
+      () => {
+        mine.before?.opening.close()
+        mine.before = undefined
+      },
+      () => {
+        opening.close()
+        if (this.recorded === mine) this.recorded = mine.before // to be tried again when asked again
+      },
+    )
     return mine.strand
   }
   private async readOriginal(recording: string): Promise<void> {
     const signs = mainSigns(await this.api.signs(this.database, recording))
-    this.original = { tiers: [{ name: 'Gloss', depth: 0, annotations: signs.map(({ name, begin_ms, end_ms }) => ({ begin: begin_ms, end: end_ms, label: name })) }] }
+    this.original = {
+      tiers: [{ name: 'Gloss', depth: 0, annotations: signs.map(({ name, begin_ms, end_ms }) => ({ begin: begin_ms, end: end_ms, label: name })) }],
+    }
   }
 
   private show(wish: Wish, strands: readonly Strand[]): void {
-    const { transport } = this, before = this.made
+    const { transport } = this,
+      before = this.made
     const main = strands.find(({ role }) => role === 'made') ?? strands[0]
     const { report } = main.motion
     if (!report) return this.note(new Error('no report'))
     const other = wish.beside?.kind === 'method' ? strands[1].motion.report : undefined
     const laid = laidOf(wish.project.places, report)
-    this.steps = other ? stepsOfSigns(report.signs, other.signs.map(({ begin_ms, end_ms }) => ({ begin: begin_ms, end: end_ms })), 0) : this.stepsOfOriginal(wish, report, strands[0])
+    this.steps = other
+      ? stepsOfSigns(
+          report.signs,
+          other.signs.map(({ begin_ms, end_ms }) => ({ begin: begin_ms, end: end_ms })),
+          0,
+        )
+      : this.stepsOfOriginal(wish, report, strands[0])
     this.made = { wish, report, laid }
     this.main = main
     this.strands = strands
@@ -198,7 +236,7 @@ export class Making implements Showing {
     if (transport.loop) {
       if (!wasAround) transport.setLoop(transport.loop.begin, transport.loop.end)
     } else if ((transport.playing || atEnd) && change < project.places.length) {
-      const from = change === 0 ? 0 : laid?.seams[change]?.begin ?? laid?.places[change]?.begin ?? transport.time
+      const from = change === 0 ? 0 : (laid?.seams[change]?.begin ?? laid?.places[change]?.begin ?? transport.time)
       transport.seek(from - (change === 0 ? 0 : kAround))
       transport.play()
       return

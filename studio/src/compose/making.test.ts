@@ -11,20 +11,37 @@ function reportOf(n: number): Report {
   const range = (begin: number, end: number) => ({ begin: begin * kRate, end: end * kRate })
   const each = Array.from({ length: n }, (_, k) => k * 1.5)
   return {
-    frames: 1.5 * n * kRate, frames_per_second: kRate,
+    frames: 1.5 * n * kRate,
+    frames_per_second: kRate,
     signs: each.map((at) => ({ gloss: 'A', recording: 'r', begin_ms: 1000 * at, end_ms: 1000 * (at + 1), recorded: { begin_ms: 0, end_ms: 1000 } })),
-    stretches: each.map((at) => ({ recording: 'r', frames: range(at, at + 1), kept_frames: range(at, at + 1), kept_from_recorded_frame: 0, recorded_frames_per_frame: 1 })),
-    junctions: each.slice(1).map((at) => ({ frames: range(at - 0.5, at), method: 'gap', from: 'A', to: 'A', retraction_frames: 1, preparation_frames: 1, blend_frames: 1 })),
-  } as unknown as Report
+    stretches: each.map((at) => ({
+      recording: 'r',
+      frames: range(at, at + 1),
+      kept_frames: range(at, at + 1),
+      kept_from_recorded_frame: 0,
+      recorded_frames_per_frame: 1,
+    })),
+    junctions: each
+      .slice(1)
+      .map((at) => ({ frames: range(at - 0.5, at), method: 'gap', from: 'A', to: 'A', retraction_frames: 1, preparation_frames: 1, blend_frames: 1 })),
+  }
 }
 /** As the server would answer to a project. */
 function show(making: Making, project: Project) {
   const report = reportOf(project.places.length)
-  const motion = { report, store: { rate: kRate, seconds: report.frames / kRate, length: report.frames, arrived: report.frames }, declarations: {}, originMs: 0 }
+  const motion = {
+    report,
+    store: { rate: kRate, seconds: report.frames / kRate, length: report.frames, arrived: report.frames },
+    declarations: {},
+    originMs: 0,
+  }
   const wish: Wish = { project, title: '' }
   making['show'](wish, [{ role: 'made', source: { complete: true, close() {} }, motion } as unknown as Strand])
 }
-const abcd = withPlaces(kEmpty, ['A', 'B', 'C', 'D'].map((gloss) => signPlace(gloss)))
+const abcd = withPlaces(
+  kEmpty,
+  ['A', 'B', 'C', 'D'].map((gloss) => signPlace(gloss)),
+)
 const around = ({ transport: { loop } }: Making) => loop && [loop.begin, loop.end].map((at) => Math.round(100 * at) / 100)
 
 it('goes on showing a junction where it went to, and none that is no more', () => {
@@ -59,7 +76,8 @@ it('stops fetching the recording beside where it cannot be had whole, and where 
   const making = new Making(api, 'd')
   const ask = (name: string) => {
     const strand = making['originalStrand'](name, undefined)
-    const { opening } = making['recorded']!, close = opening.close.bind(opening)
+    const { opening } = making['recorded']!,
+      close = opening.close.bind(opening)
     opening.close = () => (closed.push(name), close())
     return strand
   }

@@ -3,13 +3,18 @@ import { Newest } from './newest'
 
 /** Work that ends when it is told to. */
 function work() {
-  let end: (value: string) => void = () => {}, fail: (fault: Error) => void = () => {}, signal: AbortSignal | undefined
+  let end: (value: string) => void = () => {},
+    fail: (fault: Error) => void = () => {},
+    signal: AbortSignal | undefined
   const done = new Promise<string>((resolve, reject) => ((end = resolve), (fail = reject)))
   return { run: (given: AbortSignal) => ((signal = given), done), end, fail, aborted: () => signal?.aborted }
 }
 
 it('gives the newest alone, and stops what was before it', async () => {
-  const newest = new Newest(), first = work(), second = work(), third = work()
+  const newest = new Newest(),
+    first = work(),
+    second = work(),
+    third = work()
   const results = [newest.run(first.run, () => 0), newest.run(second.run, () => 0), newest.run(third.run, () => 0)]
   expect([first.aborted(), second.aborted(), third.aborted()]).toEqual([true, true, false])
   first.end('slow')
@@ -19,11 +24,17 @@ it('gives the newest alone, and stops what was before it', async () => {
 })
 
 it('gives nothing where what was there became something else meanwhile', async () => {
-  const newest = new Newest(), slow = work()
+  const newest = new Newest(),
+    slow = work()
   let project = {}
   const result = newest.run(slow.run, () => project)
   project = {}
   slow.end('old')
   expect(await result).toEqual({ kind: 'changed' })
-  expect(await newest.run(() => Promise.reject(new Error('gone')), () => project)).toEqual({ kind: 'failed', fault: new Error('gone') })
+  expect(
+    await newest.run(
+      () => Promise.reject(new Error('gone')),
+      () => project,
+    ),
+  ).toEqual({ kind: 'failed', fault: new Error('gone') })
 })

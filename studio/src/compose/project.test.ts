@@ -2,12 +2,32 @@ import { expect, it } from 'vitest'
 import { byMethod, bodyOf, pinned } from './body'
 import { carried } from './carry'
 import { fileOf } from './file'
-import { changed, duplicated, firstChange, inserted, kEmpty, moved, piecePlace, removed, replaced, sameProject, signPlace, withHow, withJoin, withPause, withPlaces, withToken } from './project'
+import {
+  changed,
+  duplicated,
+  firstChange,
+  inserted,
+  kEmpty,
+  moved,
+  piecePlace,
+  removed,
+  replaced,
+  sameProject,
+  signPlace,
+  withHow,
+  withJoin,
+  withPause,
+  withPlaces,
+  withToken,
+} from './project'
 import { stateOf } from './state'
 import { placesOf } from './utterance'
 
 const glosses = (project: typeof kEmpty) => project.places.map((place) => (place.kind === 'sign' ? place.gloss : place.recording)).join(' ')
-const abc = withPlaces(kEmpty, ['A', 'B', 'C'].map((gloss) => signPlace(gloss)))
+const abc = withPlaces(
+  kEmpty,
+  ['A', 'B', 'C'].map((gloss) => signPlace(gloss)),
+)
 
 it('inserts, removes, moves and duplicates, and leaves what was there as it was', () => {
   expect(glosses(inserted(abc, 1, signPlace('X'), signPlace('Y')))).toBe('A X Y B C')
@@ -25,7 +45,11 @@ it('takes pause and junction along with the place that they are before, and says
   const joined = withJoin(withPause(abc, 1, 'stop'), 1, { method: 'gap', durationMs: 300 })
   expect(moved(joined, 1, 2).places[2]).toMatchObject({ pause: 'stop', join: { method: 'gap', durationMs: 300 } })
   const first = moved(joined, 1, 0)
-  expect([bodyOf(first), stateOf(first), 'junction' in JSON.parse(fileOf(first, 'd')).places[0]]).toEqual([{ utterance: 'B A C' }, { utterance: 'B A C' }, false])
+  expect([bodyOf(first), stateOf(first), 'junction' in JSON.parse(fileOf(first, 'd')).places[0]]).toEqual([
+    { utterance: 'B A C' },
+    { utterance: 'B A C' },
+    false,
+  ])
   expect(sameProject(moved(first, 0, 1), joined)).toBe(true)
   expect([sameProject(first, withPlaces(kEmpty, placesOf('B A C'))), firstChange(first, withPlaces(kEmpty, placesOf('B A C')))]).toEqual([true, 3])
   expect(sameProject(moved(withPlaces(first, carried(first.places, placesOf('B A C'))), 0, 1), joined)).toBe(true)
@@ -34,16 +58,31 @@ it('takes pause and junction along with the place that they are before, and says
 })
 
 it('finds where two projects begin to differ', () => {
-  expect([firstChange(abc, abc), firstChange(abc, withToken(abc, 2, 1)), firstChange(abc, withHow(abc, { tempo: 2 })), firstChange(abc, removed(abc, 2))]).toEqual([3, 2, 0, 2])
-  const again = withPlaces(kEmpty, ['A', 'B', 'C'].map((gloss) => signPlace(gloss)))
+  expect([
+    firstChange(abc, abc),
+    firstChange(abc, withToken(abc, 2, 1)),
+    firstChange(abc, withHow(abc, { tempo: 2 })),
+    firstChange(abc, removed(abc, 2)),
+  ]).toEqual([3, 2, 0, 2])
+  const again = withPlaces(
+    kEmpty,
+    ['A', 'B', 'C'].map((gloss) => signPlace(gloss)),
+  )
   expect([sameProject(abc, again), sameProject(abc, withPause(again, 1, 'comma')), sameProject(abc, { ...again, original: 'r' })]).toEqual([true, false, false])
 })
 
 it('is the body of a call, of which only what is not as it is anyway is said', () => {
   expect(bodyOf(abc)).toEqual({ utterance: 'A B C' })
   const how = withHow(abc, { transition: 'gap', duration: 400, tempo: 1.5, align: 'ground', rate: '30000/1001' })
-  expect(bodyOf(withJoin(withJoin(how, 2, { durationMs: 450 }), 1, { method: 'hermite', tempo: 2 }))).toEqual(
-    { utterance: 'A B C', transition: 'gap', duration: 400, tempo: 1.5, align: 'ground', rate: '30000/1001', junctions: ['1=hermite,x2', '2=450ms'] })
+  expect(bodyOf(withJoin(withJoin(how, 2, { durationMs: 450 }), 1, { method: 'hermite', tempo: 2 }))).toEqual({
+    utterance: 'A B C',
+    transition: 'gap',
+    duration: 400,
+    tempo: 1.5,
+    align: 'ground',
+    rate: '30000/1001',
+    junctions: ['1=hermite,x2', '2=450ms'],
+  })
 })
 
 it('is made by another method alone, with the tokens pinned', () => {

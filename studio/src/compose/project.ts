@@ -3,7 +3,11 @@ export type Pause = 'none' | 'comma' | 'stop'
 export const kPauses = ['none', 'comma', 'stop'] as const
 
 /** What a junction has of its own; the rest is as the settings for all say. */
-export interface Join { readonly method?: string; readonly durationMs?: number; readonly tempo?: number }
+export interface Join {
+  readonly method?: string
+  readonly durationMs?: number
+  readonly tempo?: number
+}
 
 interface Placed {
   /** Tells places apart while they move; not saved. */
@@ -13,9 +17,18 @@ interface Placed {
   readonly join: Join
 }
 /** A gloss; token 0 is whichever fits best, else counted from 1 by recording name, then time. */
-export interface SignPlace extends Placed { readonly kind: 'sign'; readonly gloss: string; readonly token: number }
+export interface SignPlace extends Placed {
+  readonly kind: 'sign'
+  readonly gloss: string
+  readonly token: number
+}
 /** A piece of a recording, in ms of its annotation time. */
-export interface PiecePlace extends Placed { readonly kind: 'piece'; readonly recording: string; readonly from: number; readonly to: number }
+export interface PiecePlace extends Placed {
+  readonly kind: 'piece'
+  readonly recording: string
+  readonly from: number
+  readonly to: number
+}
 export type Place = SignPlace | PiecePlace
 
 export const kAligns = ['auto', 'ground', 'none'] as const
@@ -61,7 +74,10 @@ export function inserted(project: Project, at: number, ...more: readonly Place[]
   return withPlaces(project, [...places.slice(0, at), ...more, ...places.slice(at)])
 }
 export function removed(project: Project, at: number): Project {
-  return withPlaces(project, project.places.filter((_, k) => k !== at))
+  return withPlaces(
+    project,
+    project.places.filter((_, k) => k !== at),
+  )
 }
 /** Place `from` so that it comes to stand at `to` of the new order. */
 export function moved(project: Project, from: number, to: number): Project {
@@ -74,7 +90,10 @@ export function duplicated(project: Project, at: number): Project {
   return inserted(project, at + 1, { ...project.places[at], id: ++ids, pause: 'none', join: {} })
 }
 export function changed(project: Project, at: number, change: (place: Place) => Place): Project {
-  return withPlaces(project, project.places.map((place, k) => (k === at ? change(place) : place)))
+  return withPlaces(
+    project,
+    project.places.map((place, k) => (k === at ? change(place) : place)),
+  )
 }
 /** Another sign at a place, with the pause and the junction that were there. */
 export function replaced(project: Project, at: number, by: Place): Project {
@@ -117,15 +136,20 @@ function sameBefore(a: Place, b: Place, k: number): boolean {
 }
 /** Whether two projects are the same but for their ids. */
 export function sameProject(a: Project, b: Project): boolean {
-  return a.original === b.original && sameHow(a.how, b.how) && a.places.length === b.places.length
-    && a.places.every((one, k) => sameSign(one, b.places[k]) && sameBefore(one, b.places[k], k))
+  return (
+    a.original === b.original &&
+    sameHow(a.how, b.how) &&
+    a.places.length === b.places.length &&
+    a.places.every((one, k) => sameSign(one, b.places[k]) && sameBefore(one, b.places[k], k))
+  )
 }
 /** The first place that is another one, or stands elsewhere, or is joined otherwise; their number where all are alike. */
 export function firstChange(a: Project, b: Project): number {
   if (!sameHow(a.how, b.how)) return 0
   let k = 0
   while (k < a.places.length && k < b.places.length) {
-    const one = a.places[k], other = b.places[k]
+    const one = a.places[k],
+      other = b.places[k]
     if (!sameSign(one, other) || !sameBefore(one, other, k)) break
     ++k
   }

@@ -8,8 +8,14 @@ import { projectOf, stateOf } from './state'
 import { placesOf } from './utterance'
 
 const kFull: Project = {
-  ...withHow(withJoin(withJoin(withPlaces(kEmpty, placesOf('VANNES MATIN#2 , "LE MANS" "ISL Thanks"@1200..3400')), 1, { method: 'gap', durationMs: 450, tempo: 1.5 }), 3, { tempo: 0.5 }),
-    { transition: 'hermite', duration: 'corpus', tempo: 1.25, align: 'ground', rate: '30000/1001' }),
+  ...withHow(
+    withJoin(
+      withJoin(withPlaces(kEmpty, placesOf('VANNES MATIN#2 , "LE MANS" "ISL Thanks"@1200..3400')), 1, { method: 'gap', durationMs: 450, tempo: 1.5 }),
+      3,
+      { tempo: 0.5 },
+    ),
+    { transition: 'hermite', duration: 'corpus', tempo: 1.25, align: 'ground', rate: '30000/1001' },
+  ),
   original: 'meteo',
 }
 
@@ -22,7 +28,15 @@ it('comes out of an address as it went in', () => {
 })
 
 it('names what in an address cannot be read, and keeps the rest', () => {
-  const { project, wrong } = projectOf({ utterance: 'A B', duration: '1.5', tempo: '9', align: 'x', rate: 'y', transition: '1;2', junctions: '1=gap;7=gap;1=,' })
+  const { project, wrong } = projectOf({
+    utterance: 'A B',
+    duration: '1.5',
+    tempo: '9',
+    align: 'x',
+    rate: 'y',
+    transition: '1;2',
+    junctions: '1=gap;7=gap;1=,',
+  })
   expect(wrong).toEqual(['transition', 'duration', 'tempo', 'align', 'rate', 'junctions'])
   expect(project.places.map(({ join }) => join)).toEqual([{}, { method: 'gap' }])
   expect(projectOf({ utterance: 'A "B' })).toEqual({ project: kEmpty, wrong: ['utterance'], unread: 'A "B' })
@@ -37,7 +51,10 @@ it('comes out of a file as it went in', () => {
 it('reads the file that the documentation shows', () => {
   const { project, database } = readFile(/```json\n([^]*?)```/.exec(doc)![1])
   expect([bodyOf(project), project.original, database]).toEqual([
-    { utterance: 'VANNES , MATIN#2 villes@1200..3400', transition: 'hermite', duration: 400, tempo: 1.2, rate: '60', junctions: ['1=gap,450ms,x1.5'] }, 'meteo', 'demo'])
+    { utterance: 'VANNES , MATIN#2 villes@1200..3400', transition: 'hermite', duration: 400, tempo: 1.2, rate: '60', junctions: ['1=gap,450ms,x1.5'] },
+    'meteo',
+    'demo',
+  ])
 })
 
 it('refuses a file that it does not understand whole, and says where', () => {
@@ -50,8 +67,10 @@ it('refuses a file that it does not understand whole, and says where', () => {
     }
     return 'taken'
   }
-  const refused = (change: (file: Record<string, any>) => unknown) => {
-    const file = JSON.parse(fileOf(kFull, 'demo')) as Record<string, any>
+  // eslint-disable-next-line @typescript-eslint/no-explicit-any -- anything may stand in a file
+  type SavedFile = Record<string, any>
+  const refused = (change: (file: SavedFile) => unknown) => {
+    const file = JSON.parse(fileOf(kFull, 'demo')) as SavedFile
     change(file)
     return of(JSON.stringify(file))
   }

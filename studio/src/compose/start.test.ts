@@ -17,7 +17,14 @@ it('takes the sign tier with the most signs, of equal ones the first by name', (
 })
 
 it('makes a recording’s signs the places, each its own token; what no token is, is a piece', async () => {
-  const row = (token: number, recording: string, begin: number): CandidateRow => ({ token, recording, frames: { begin, end: begin + 20 }, cost: 0, target_cost: 0, target: {} })
+  const row = (token: number, recording: string, begin: number): CandidateRow => ({
+    token,
+    recording,
+    frames: { begin, end: begin + 20 },
+    cost: 0,
+    target_cost: 0,
+    target: {},
+  })
   const tokens: Record<string, readonly CandidateRow[]> = { A: [row(1, 'q', 0), row(2, 'r', 0), row(3, 'r', 145)], B: [row(1, 'r', 50)] }
   const asked: string[] = []
   const api = {
@@ -36,7 +43,13 @@ it('makes a recording’s signs the places, each its own token; what no token is
 
 it('plays the paper’s scenarios where their signs are', () => {
   const meteo = ['BONJOUR', 'BRETAGNE', 'MATIN', 'NUAGES', 'PLUIE', 'DEMAIN', 'VENDREDI', 'NUAGES', 'MATIN', 'BROUILLARD']
-  const recording = { ...withPlaces(kEmpty, meteo.map((gloss, k) => signPlace(gloss, k + 1))), original: 'meteo' }
+  const recording = {
+    ...withPlaces(
+      kEmpty,
+      meteo.map((gloss, k) => signPlace(gloss, k + 1)),
+    ),
+    original: 'meteo',
+  }
   const [first, second] = kScenarios.map((scenario) => played(scenario, recording)!)
   expect(textOf(first.places)).toBe('BONJOUR#1 VANNES MATIN#3 NUAGES#4 PLUIE#5 MARSEILLE RENNES NUAGES#8 "LE MANS" BROUILLARD#10')
   expect(textOf(second.places)).toBe('BONJOUR#1 NUAGES#8 MATIN#9 BROUILLARD#10 DEMAIN#6 VENDREDI#7 BRETAGNE#2 MATIN#3 NUAGES#4 PLUIE#5')

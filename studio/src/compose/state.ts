@@ -26,7 +26,11 @@ export function linkTo(project: Project, database: string, page: string): string
 }
 
 /** What an address says, and the names of what in it could not be read. `unread` is a text whose signs could not be. */
-export interface Read { readonly project: Project; readonly wrong: readonly string[]; readonly unread?: string }
+export interface Read {
+  readonly project: Project
+  readonly wrong: readonly string[]
+  readonly unread?: string
+}
 
 /** The project that an address holds. What cannot be read is left out, and named. */
 export function projectOf(state: WorkState): Read {

@@ -11,8 +11,17 @@ it('reads an utterance as the server does', () => {
   expect(placesOf('VANNES MATIN#2 , "LE MANS"').map(plain)).toEqual([sign('VANNES'), sign('MATIN', 2), sign('LE MANS', 0, 'comma')])
   expect(placesOf('"ISL Thanks"@1200..3400 meteo@1..2').map(plain)).toEqual([piece('ISL Thanks', 1200, 3400), piece('meteo', 1, 2)])
   expect(placesOf('. A , . B , C .').map(plain)).toEqual([sign('A'), sign('B', 0, 'stop'), sign('C', 0, 'comma')])
-  expect(placesOf(`AUJOURD'HUI #BANK "A#3" "," "LE MANS"#2 A=B C#D #3 @1..2`).map(plain)).toEqual(
-    [sign("AUJOURD'HUI"), sign('#BANK'), sign('A#3'), sign(','), sign('LE MANS', 2), sign('A=B'), sign('C#D'), sign('#3'), sign('@1..2')])
+  expect(placesOf(`AUJOURD'HUI #BANK "A#3" "," "LE MANS"#2 A=B C#D #3 @1..2`).map(plain)).toEqual([
+    sign("AUJOURD'HUI"),
+    sign('#BANK'),
+    sign('A#3'),
+    sign(','),
+    sign('LE MANS', 2),
+    sign('A=B'),
+    sign('C#D'),
+    sign('#3'),
+    sign('@1..2'),
+  ])
   expect(placesOf('  \t ')).toEqual([])
 })
 
@@ -28,7 +37,13 @@ it('says where a text is wrong', () => {
   }
   expect(() => placesOf('A '.repeat(10_001))).toThrow('tooManyPlaces')
   expect(placesOf('A '.repeat(10_000)).length).toBe(10_000)
-  expect(['A "B', '"" A', 'A r@5..5', 'A "B"x', 'A#0'].map(wrong)).toEqual([['noClosingQuote', 2], ['emptyName', 0], ['pieceOrder', 2], ['badSuffix', 2], ['tokenZero', 0]])
+  expect(['A "B', '"" A', 'A r@5..5', 'A "B"x', 'A#0'].map(wrong)).toEqual([
+    ['noClosingQuote', 2],
+    ['emptyName', 0],
+    ['pieceOrder', 2],
+    ['badSuffix', 2],
+    ['tokenZero', 0],
+  ])
 })
 
 it('writes what is read as the same places', () => {

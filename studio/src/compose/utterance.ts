@@ -3,13 +3,23 @@ import { kMostPlaces, piecePlace, signPlace, type Pause, type Place } from './pr
 /** What is wrong with a text, by the key of its words; `at` counts characters from 0, `rest` is what stands there. */
 export type UtteranceWrong = 'noClosingQuote' | 'emptyName' | 'pieceOrder' | 'badSuffix' | 'tokenZero' | 'tooLong' | 'tooManyPlaces'
 export class UtteranceFault extends Error {
-  constructor(readonly wrong: UtteranceWrong, readonly at: number, readonly detail = '', readonly rest = '') {
+  constructor(
+    readonly wrong: UtteranceWrong,
+    readonly at: number,
+    readonly detail = '',
+    readonly rest = '',
+  ) {
     super(`${wrong} at ${at}`)
   }
 }
 
 /** A word of the text: where it stands, and what it asks for; pauses ask for nothing. */
-export interface Word { readonly from: number; readonly to: number; readonly place?: Place; readonly pause?: Pause }
+export interface Word {
+  readonly from: number
+  readonly to: number
+  readonly place?: Place
+  readonly pause?: Pause
+}
 
 const kBlank = /[ \t-\r]/
 const kToken = /^(.+)#(\d{1,15})$/s
@@ -26,7 +36,8 @@ export function wordsOf(text: string): Word[] {
       continue
     }
     const from = at
-    let name: string, suffix = ''
+    let name: string,
+      suffix = ''
     const quoted = text[at] === '"'
     if (quoted) {
       const close = text.indexOf('"', at + 1)
@@ -63,7 +74,8 @@ function placeOf(name: string, suffix: string, at: number): Place {
   if (suffix === '') return signPlace(name)
   const piece = kPiece.exec(suffix)
   if (piece && piece[1] === '') {
-    const from = Number(piece[2]), to = Number(piece[3])
+    const from = Number(piece[2]),
+      to = Number(piece[3])
     if (from >= to) throw new UtteranceFault('pieceOrder', at)
     return piecePlace(name, from, to)
   }

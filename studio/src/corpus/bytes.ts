@@ -1,7 +1,12 @@
 import { number } from '../ui/preferences.svelte'
 
 /** Words for sizes, by their unit. */
-export interface SizeWords { readonly bytes: string; readonly kB: string; readonly MB: string; readonly GB: string }
+export interface SizeWords {
+  readonly bytes: string
+  readonly kB: string
+  readonly MB: string
+  readonly GB: string
+}
 
 /** A size as people read it: two or three figures. */
 export function size(bytes: number, words: SizeWords): string {

@@ -14,13 +14,26 @@ const scores = {
   hermite: { wrist: wrist(11, 0.55), peak_speed_ratio: estimate(null) },
 }
 const evaluation: Evaluation = {
-  recordings: 2, recordings_left_out: 0, spans_left_out: 1, seed: 1, confidence: 0.95,
-  tasks: [{ task: 'given', groups: [
-    { group: '170 ms', spans: 5, recordings: 2, hands: { moving: scores } },
-    { group: '170 ms, long, 1 peak', spans: 2, recordings: 1, hands: { moving: scores } },
-    { group: 'natural', spans: 7, recordings: 2, hands: { moving: { slerp: { wrist: wrist(30, 1) }, learned: { wrist: wrist(31, 1.03) } } } },
-  ] }],
-  spans: [{ file: 'a', first_frame: 3, frames: 17, group: '170 ms' }, { file: 'b', first_frame: 3, frames: 17, group: '170 ms' }, { file: 'b', first_frame: 50, frames: 30, group: 'natural' }],
+  recordings: 2,
+  recordings_left_out: 0,
+  spans_left_out: 1,
+  seed: 1,
+  confidence: 0.95,
+  tasks: [
+    {
+      task: 'given',
+      groups: [
+        { group: '170 ms', spans: 5, recordings: 2, hands: { moving: scores } },
+        { group: '170 ms, long, 1 peak', spans: 2, recordings: 1, hands: { moving: scores } },
+        { group: 'natural', spans: 7, recordings: 2, hands: { moving: { slerp: { wrist: wrist(30, 1) }, learned: { wrist: wrist(31, 1.03) } } } },
+      ],
+    },
+  ],
+  spans: [
+    { file: 'a', first_frame: 3, frames: 17, group: '170 ms' },
+    { file: 'b', first_frame: 3, frames: 17, group: '170 ms' },
+    { file: 'b', first_frame: 50, frames: 30, group: 'natural' },
+  ],
 }
 const [task] = evaluation.tasks
 const measure = (name: string) => kMeasures.find((one) => one.measure === name)!
@@ -36,16 +49,29 @@ describe('an evaluation', () => {
     const group = evaluation.tasks[0].groups[0]
     const tasks = (...groups: unknown[]) => ({ tasks: [{ task: 'given', groups }] })
     const odd: Record<string, unknown> = {
-      noTask: { tasks: [] }, noGroup: tasks(), twice: tasks(group, group), sameTask: { tasks: [evaluation.tasks[0], evaluation.tasks[0]] }, nullScores: tasks({ ...group, hands: { moving: { learned: null } } }),
-      textScores: tasks({ ...group, hands: { moving: 'x' } }), listHands: tasks({ ...group, hands: [] }), nullFigure: tasks({ ...group, hands: { moving: { learned: { wrist: null } } } }),
-      textValue: tasks({ ...group, hands: { moving: { learned: { wrist: { value: '9' } } } } }), oddOver: tasks({ ...group, hands: { moving: { learned: { wrist: { value: 9, over_slerp: 1 } } } } }),
-      noCounts: tasks({ group: '170 ms', hands: {} }), nullSpan: { spans: [null] }, nameless: { spans: [{ frames: 3 }] }, textNotice: { notices: ['x'] }, listDeclared: { declarations: ['x'] }, plot: { plot: 3 },
+      noTask: { tasks: [] },
+      noGroup: tasks(),
+      twice: tasks(group, group),
+      sameTask: { tasks: [evaluation.tasks[0], evaluation.tasks[0]] },
+      nullScores: tasks({ ...group, hands: { moving: { learned: null } } }),
+      textScores: tasks({ ...group, hands: { moving: 'x' } }),
+      listHands: tasks({ ...group, hands: [] }),
+      nullFigure: tasks({ ...group, hands: { moving: { learned: { wrist: null } } } }),
+      textValue: tasks({ ...group, hands: { moving: { learned: { wrist: { value: '9' } } } } }),
+      oddOver: tasks({ ...group, hands: { moving: { learned: { wrist: { value: 9, over_slerp: 1 } } } } }),
+      noCounts: tasks({ group: '170 ms', hands: {} }),
+      nullSpan: { spans: [null] },
+      nameless: { spans: [{ frames: 3 }] },
+      textNotice: { notices: ['x'] },
+      listDeclared: { declarations: ['x'] },
+      plot: { plot: 3 },
     }
-    for (const [what, more] of Object.entries(odd)) expect(() => readEvaluation(JSON.stringify({ ...evaluation, ...(more as object) })), what).toThrow('noEvaluation')
+    for (const [what, more] of Object.entries(odd))
+      expect(() => readEvaluation(JSON.stringify({ ...evaluation, ...(more as object) })), what).toThrow('noEvaluation')
     // A task that found nothing may stand beside one that did.
     expect(readEvaluation(JSON.stringify({ ...evaluation, tasks: [...evaluation.tasks, { task: 'replaced', groups: [] }] })).tasks).toHaveLength(2)
   })
-  it('has figures by method and measure, or over another method\'s', () => {
+  it("has figures by method and measure, or over another method's", () => {
     expect(figureOf(scores, 'learned', 'wrist')?.value).toBe(9)
     expect(figureOf(scores, 'learned', 'wrist/slerp')?.value).toBe(0.45)
     expect(figureOf(scores, 'hermite', 'peak_speed_ratio')).toBeUndefined()
@@ -57,7 +83,10 @@ describe('an evaluation', () => {
     expect(wholeGroups(task).map(({ group }) => group)).toEqual(['170 ms', 'natural'])
   })
   it('counts the spans of recordings', () => {
-    expect(spansByRecording(evaluation.spans).map(({ recording, spans }) => [recording, spans])).toEqual([['b', 2], ['a', 1]])
+    expect(spansByRecording(evaluation.spans).map(({ recording, spans }) => [recording, spans])).toEqual([
+      ['b', 2],
+      ['a', 1],
+    ])
   })
   it('tells how durations were met once for all methods', () => {
     expect(countsOf(task, kDurations)[0].durations[0]?.value).toBe(110)
@@ -71,10 +100,29 @@ describe('the best figure', () => {
     expect(farness(-0.2, 'zero')).toBe(0.2)
     expect([...tableByMeasure(task.groups[0], 'moving', [measure('peak_speed_ratio')]).best[0]]).toEqual(['learned'])
   })
-  it('is never a bound\'s, which knows the answer, and is not told where all are alike', () => {
+  it("is never a bound's, which knows the answer, and is not told where all are alike", () => {
     expect([...tableByGroup(wholeGroups(task), 'moving', measure('wrist')).best[0]]).toEqual(['learned'])
-    expect(bestOf([['a', estimate(0)], ['b', estimate(0)]], 'low', isBound).size).toBe(0)
-    expect([...bestOf([['a', estimate(0)], ['b', estimate(0)], ['c', estimate(1)]], 'low', isBound)]).toEqual(['a', 'b'])
+    expect(
+      bestOf(
+        [
+          ['a', estimate(0)],
+          ['b', estimate(0)],
+        ],
+        'low',
+        isBound,
+      ).size,
+    ).toBe(0)
+    expect([
+      ...bestOf(
+        [
+          ['a', estimate(0)],
+          ['b', estimate(0)],
+          ['c', estimate(1)],
+        ],
+        'low',
+        isBound,
+      ),
+    ]).toEqual(['a', 'b'])
   })
 })
 
@@ -89,7 +137,8 @@ describe('a table', () => {
   it('goes into a file with intervals and counts', () => {
     const table = tableByGroup(wholeGroups(task).slice(0, 1), 'moving', measure('wrist'))
     expect(csvOf(csvRows(table, table.rows.slice(0, 1), { task: 'given' }))).toBe(
-      'task,method,170 ms (mm),170 ms (mm) low,170 ms (mm) high,170 ms (mm) spans\r\ngiven,learned,9,8,10,5\r\n')
+      'task,method,170 ms (mm),170 ms (mm) low,170 ms (mm) high,170 ms (mm) spans\r\ngiven,learned,9,8,10,5\r\n',
+    )
   })
 })
 

@@ -2,9 +2,12 @@ import { PageFault } from './fault'
 
 /** One figure, pooled over spans, with its interval; null where there is none, as of the interval of one recording alone. */
 export interface Estimate {
-  readonly value: number | null; readonly low: number | null; readonly high: number | null
+  readonly value: number | null
+  readonly low: number | null
+  readonly high: number | null
   /** What it is from. */
-  readonly spans: number; readonly recordings: number
+  readonly spans: number
+  readonly recordings: number
   readonly unit?: string
   readonly over_slerp?: Estimate
   readonly over_hermite?: Estimate
@@ -16,15 +19,27 @@ export type Scores = Readonly<Record<string, Readonly<Record<string, Estimate>>>
 export interface Group {
   /** `annotated`, `170 ms`, …; those behind a comma are a part of the one before it. */
   readonly group: string
-  readonly spans: number; readonly recordings: number
+  readonly spans: number
+  readonly recordings: number
   readonly hands: Readonly<Partial<Record<Hand, Scores>>>
 }
-export interface Task { readonly task: string; readonly groups: readonly Group[] }
-export interface MeasuredSpan { readonly file: string; readonly first_frame: number; readonly frames: number; readonly group: string }
+export interface Task {
+  readonly task: string
+  readonly groups: readonly Group[]
+}
+export interface MeasuredSpan {
+  readonly file: string
+  readonly first_frame: number
+  readonly frames: number
+  readonly group: string
+}
 /** What `signweave evaluate --json` prints, and what the job answers, which has the last three as well. */
 export interface Evaluation {
-  readonly recordings: number; readonly recordings_left_out: number; readonly spans_left_out: number
-  readonly seed: number; readonly confidence: number
+  readonly recordings: number
+  readonly recordings_left_out: number
+  readonly spans_left_out: number
+  readonly seed: number
+  readonly confidence: number
   readonly tasks: readonly Task[]
   readonly spans: readonly MeasuredSpan[]
   readonly plot?: string
@@ -56,18 +71,31 @@ const areUnique = (names: readonly unknown[]) => names.every(isText) && new Set(
 
 /** Everything that the page looks at: what is not there as it should be would break it while it is drawn. */
 function isEvaluation(read: unknown): boolean {
-  return isObject(read) && isNumber(read.recordings) && list(read.tasks, isTask) && areUnique(read.tasks.map(({ task }) => task)) &&
+  return (
+    isObject(read) &&
+    isNumber(read.recordings) &&
+    list(read.tasks, isTask) &&
+    areUnique(read.tasks.map(({ task }) => task)) &&
     read.tasks.some(({ groups }) => (groups as readonly unknown[]).length > 0) &&
     list(read.spans, (span) => isObject(span) && isText(span.file) && isText(span.group)) &&
-    (missing(read.plot) || isText(read.plot)) && (missing(read.declarations) || every(read.declarations, isText)) &&
+    (missing(read.plot) || isText(read.plot)) &&
+    (missing(read.declarations) || every(read.declarations, isText)) &&
     (missing(read.notices) || list(read.notices, (notice) => isObject(notice) && isText(notice.where) && isText(notice.text)))
+  )
 }
 const isTask = (task: unknown) => isObject(task) && isText(task.task) && list(task.groups, isGroup) && areUnique(task.groups.map(({ group }) => group))
-const isGroup = (group: unknown) => isObject(group) && isText(group.group) && isNumber(group.spans) && isNumber(group.recordings) &&
+const isGroup = (group: unknown) =>
+  isObject(group) &&
+  isText(group.group) &&
+  isNumber(group.spans) &&
+  isNumber(group.recordings) &&
   every(group.hands, (scores) => every(scores, (figures) => every(figures, isEstimate)))
 function isEstimate(figure: unknown): boolean {
-  return isObject(figure) && [figure.value, figure.low, figure.high].every((value) => missing(value) || isNumber(value)) &&
+  return (
+    isObject(figure) &&
+    [figure.value, figure.low, figure.high].every((value) => missing(value) || isNumber(value)) &&
     [figure.over_slerp, figure.over_hermite].every((over) => missing(over) || isEstimate(over))
+  )
 }
 
 /** The figure of a column: `wrist`, or of what it is over, `wrist/slerp`. None where it was not measured. */
@@ -90,13 +118,16 @@ export function gapOf(group: string): number | undefined {
 }
 
 /** How many spans of each recording there are, the most first. */
-export function spansByRecording(spans: readonly MeasuredSpan[]): readonly { readonly recording: string; readonly spans: number; readonly groups: ReadonlyMap<string, number> }[] {
+export function spansByRecording(
+  spans: readonly MeasuredSpan[],
+): readonly { readonly recording: string; readonly spans: number; readonly groups: ReadonlyMap<string, number> }[] {
   const by = new Map<string, Map<string, number>>()
   for (const { file, group } of spans) {
     let groups = by.get(file)
     if (!groups) by.set(file, (groups = new Map()))
     groups.set(group, (groups.get(group) ?? 0) + 1)
   }
-  return [...by].map(([recording, groups]) => ({ recording, spans: [...groups.values()].reduce((a, b) => a + b, 0), groups }))
+  return [...by]
+    .map(([recording, groups]) => ({ recording, spans: [...groups.values()].reduce((a, b) => a + b, 0), groups }))
     .sort((a, b) => b.spans - a.spans || a.recording.localeCompare(b.recording))
 }

@@ -3,7 +3,12 @@ import type { Estimate, Scores, Task } from './evaluation'
 /** Which figure is the best: the lowest, the one nearest to 1 (as a ratio) or to 0; none says nothing of the method. */
 export type Better = 'low' | 'one' | 'zero'
 /** `measure` is as `figureOf` takes it. */
-export interface Measure { readonly measure: string; readonly digits: number; readonly better: Better; readonly unit?: 'mm' | 'ms' | '°' | 'µs' }
+export interface Measure {
+  readonly measure: string
+  readonly digits: number
+  readonly better: Better
+  readonly unit?: 'mm' | 'ms' | '°' | 'µs'
+}
 
 /** In the order of docs/evaluation.md, the wrist over slerp's first, which is what to look at first. */
 export const kMeasures: readonly Measure[] = [
@@ -59,8 +64,14 @@ export function farness(value: number, better: Better): number {
 }
 
 /** The methods whose figure is the best, bounds left out; none where all are alike. */
-export function bestOf(figures: readonly (readonly [method: string, figure: Estimate | undefined])[], better: Better, isBound: (method: string) => boolean): ReadonlySet<string> {
-  const there = figures.flatMap(([method, figure]) => (typeof figure?.value === 'number' && !isBound(method) ? [{ method, far: farness(figure.value, better) }] : []))
+export function bestOf(
+  figures: readonly (readonly [method: string, figure: Estimate | undefined])[],
+  better: Better,
+  isBound: (method: string) => boolean,
+): ReadonlySet<string> {
+  const there = figures.flatMap(([method, figure]) =>
+    typeof figure?.value === 'number' && !isBound(method) ? [{ method, far: farness(figure.value, better) }] : [],
+  )
   const least = Math.min(...there.map(({ far }) => far))
   const best = there.filter(({ far }) => far === least)
   return new Set(best.length < there.length ? best.map(({ method }) => method) : [])

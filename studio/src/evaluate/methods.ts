@@ -1,6 +1,9 @@
 /** What a method is there for: to sign with, to be held against, or as a bound that nothing which signs can use. */
 export type MethodKind = 'signing' | 'yardstick' | 'bound'
-export interface Method { readonly method: string; readonly kind: MethodKind }
+export interface Method {
+  readonly method: string
+  readonly kind: MethodKind
+}
 
 /** In the order of the command line, the default first. */
 export const kMethods: readonly Method[] = [

@@ -11,8 +11,16 @@ export function standAlone(svg: SVGSVGElement): string {
   copy.setAttribute('height', String(Math.round(height)))
   copy.setAttribute('font-family', 'sans-serif')
   const ground = document.createElementNS('http://www.w3.org/2000/svg', 'rect')
-  for (const [name, value] of [['width', '100%'], ['height', '100%'], ['fill', 'var(--panel)']]) ground.setAttribute(name, value)
+  for (const [name, value] of [
+    ['width', '100%'],
+    ['height', '100%'],
+    ['fill', 'var(--panel)'],
+  ])
+    ground.setAttribute(name, value)
   copy.prepend(ground)
-  return new XMLSerializer().serializeToString(copy).replace(/var\((--[\w-]+)\)/g, (_, name: string) => style.getPropertyValue(name).trim())
-    .replace(/<!--.*?-->/gs, '').replace(/ class="[^"]*"/g, '')
+  return new XMLSerializer()
+    .serializeToString(copy)
+    .replace(/var\((--[\w-]+)\)/g, (_, name: string) => style.getPropertyValue(name).trim())
+    .replace(/<!--.*?-->/gs, '')
+    .replace(/ class="[^"]*"/g, '')
 }

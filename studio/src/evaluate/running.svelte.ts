@@ -3,9 +3,15 @@ import { ApiError } from '../api/fault'
 import type { Evaluation } from './evaluation'
 
 /** What the form asks for. */
-export interface Wishes { readonly method: readonly string[]; readonly seed: number }
+export interface Wishes {
+  readonly method: readonly string[]
+  readonly seed: number
+}
 /** An evaluation that is shown, and the file that it was opened from. */
-export interface Shown { readonly evaluation: Evaluation; readonly file?: string }
+export interface Shown {
+  readonly evaluation: Evaluation
+  readonly file?: string
+}
 
 /** The evaluation of a database: goes on while other pages are looked at. */
 export class Running {
@@ -21,7 +27,10 @@ export class Running {
   /** Ends the wait for a server that could not be reached. */
   private wake?: () => void
 
-  constructor(private readonly api: Api, private readonly database: string) {
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+  ) {
     const job = remembered(database)
     if (job) void this.follow(job, true)
   }
@@ -79,13 +88,18 @@ export class Running {
     this.state = 'waiting'
     for (let wait = kFirstWait; this.job; wait = Math.min(kLongestWait, 2 * wait)) {
       try {
-        const evaluation = await this.api.result<Evaluation>({ job }, ({ state, fraction }) => {
-          if (state === 'waiting' || state === 'running') this.state = state
-          this.fraction = fraction
-          this.fault = undefined
-          wait = kFirstWait
-          if (this.unwanted) void this.cancel()
-        }, undefined, 0)
+        const evaluation = await this.api.result<Evaluation>(
+          { job },
+          ({ state, fraction }) => {
+            if (state === 'waiting' || state === 'running') this.state = state
+            this.fraction = fraction
+            this.fault = undefined
+            wait = kFirstWait
+            if (this.unwanted) void this.cancel()
+          },
+          undefined,
+          0,
+        )
         this.end()
         this.open({ evaluation })
       } catch (fault) {

@@ -11,28 +11,37 @@ const stored = new Map<string, string>()
 
 /** A server whose answers are given one after the other; `result` ends as the test says. */
 function server() {
-  const cancelled: string[] = [], waits: { told: Told; resolve: (one: Evaluation) => void; reject: (fault: unknown) => void }[] = []
+  const cancelled: string[] = [],
+    waits: { told: Told; resolve: (one: Evaluation) => void; reject: (fault: unknown) => void }[] = []
   let begin: (job: { job: string }) => void = () => {}
   const api = {
     evaluate: () => new Promise((resolve) => (begin = resolve)),
     result: (_: unknown, told: Told) => new Promise((resolve, reject) => waits.push({ told, resolve, reject })),
-    cancel: async (job: string) => { cancelled.push(job) },
+    cancel: async (job: string) => {
+      cancelled.push(job)
+    },
   }
   return { api: api as unknown as Api & typeof api, cancelled, waits, answer: () => begin({ job: '7' }) }
 }
-const settle = async () => { for (let i = 0; i < 10; ++i) await Promise.resolve() }
+const settle = async () => {
+  for (let i = 0; i < 10; ++i) await Promise.resolve()
+}
 const state = (fraction: number) => ({ state: 'running', fraction }) as JobState<Evaluation>
 
 beforeEach(() => {
   stored.clear()
   vi.stubGlobal('sessionStorage', { getItem: (key: string) => stored.get(key) ?? null, setItem: (key: string, value: string) => void stored.set(key, value) })
   vi.useFakeTimers()
-  return () => { vi.useRealTimers(); vi.unstubAllGlobals() }
+  return () => {
+    vi.useRealTimers()
+    vi.unstubAllGlobals()
+  }
 })
 
 describe('an evaluation that goes on', () => {
   it('is cancelled also before the server has said which job it is', async () => {
-    const { api, cancelled, waits, answer } = server(), running = new Running(api, 'demo')
+    const { api, cancelled, waits, answer } = server(),
+      running = new Running(api, 'demo')
     void running.start({ method: [], seed: 1 })
     await running.cancel()
     expect(cancelled).toEqual([])
@@ -49,7 +58,8 @@ describe('an evaluation that goes on', () => {
     expect(cancelled).toEqual(['7'])
   })
   it('is followed on where the server cannot be reached for a while, by itself and when asked to', async () => {
-    const { api, waits, answer } = server(), running = new Running(api, 'demo')
+    const { api, waits, answer } = server(),
+      running = new Running(api, 'demo')
     void running.start({ method: [], seed: 1 })
     answer()
     await settle()
@@ -73,14 +83,19 @@ describe('an evaluation that goes on', () => {
     expect(waits).toHaveLength(3)
   })
   it('is cancelled once the server is there again', async () => {
-    const { api, cancelled, waits, answer } = server(), running = new Running(api, 'demo')
+    const { api, cancelled, waits, answer } = server(),
+      running = new Running(api, 'demo')
     void running.start({ method: [], seed: 1 })
     answer()
     await settle()
-    api.cancel = async () => { throw new StudioFault('unreachable') }
+    api.cancel = async () => {
+      throw new StudioFault('unreachable')
+    }
     await running.cancel()
     expect(running.lost).toBe(true)
-    api.cancel = async (job) => { cancelled.push(job) }
+    api.cancel = async (job) => {
+      cancelled.push(job)
+    }
     waits[0].told(state(0.5))
     waits[0].told(state(0.6))
     await settle()
@@ -88,7 +103,8 @@ describe('an evaluation that goes on', () => {
   })
   it('ends where the server says so, and nothing is said of one that it has forgotten since', async () => {
     stored.set('signweave.evaluation.demo', '3')
-    const { api, waits, answer } = server(), running = new Running(api, 'demo')
+    const { api, waits, answer } = server(),
+      running = new Running(api, 'demo')
     waits[0].reject(new ApiError('there is no job 3', 404, 'not_found'))
     await settle()
     expect([running.state, running.fault, stored.get('signweave.evaluation.demo')]).toEqual(['idle', undefined, ''])

@@ -1,16 +1,24 @@
 /** From values to places on a line, in pixels. */
-export interface Scale { readonly at: (value: number) => number; readonly ticks: readonly number[]; readonly digits: number }
+export interface Scale {
+  readonly at: (value: number) => number
+  readonly ticks: readonly number[]
+  readonly digits: number
+}
 
 /** Over some values, from 0 where they are near it; `log` where all are above 0. */
 export function scaleOf(values: readonly number[], length: number, log: boolean, count = 5): Scale {
   const finite = values.filter(Number.isFinite)
-  const low = Math.min(...finite), high = Math.max(...finite)
+  const low = Math.min(...finite),
+    high = Math.max(...finite)
   if (finite.length === 0) return { at: () => 0, ticks: [], digits: 0 }
   if (log && low > 0) return logarithmic(low, high, length)
-  const from = low < 0 ? low : 0, to = high > 0 ? high : 0
+  const from = low < 0 ? low : 0,
+    to = high > 0 ? high : 0
   const step = stepOf(to - from || 1, count)
-  const first = Math.floor(from / step + 1e-9), last = Math.max(first + 1, Math.ceil(to / step - 1e-9))
-  const begin = first * step, end = last * step
+  const first = Math.floor(from / step + 1e-9),
+    last = Math.max(first + 1, Math.ceil(to / step - 1e-9))
+  const begin = first * step,
+    end = last * step
   return {
     at: (value) => ((value - begin) / (end - begin)) * length,
     ticks: Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step),
@@ -19,23 +27,28 @@ export function scaleOf(values: readonly number[], length: number, log: boolean,
 }
 
 function logarithmic(low: number, high: number, length: number): Scale {
-  const from = Math.log10(low / 1.1), to = Math.log10(Math.max(high, low * 1.01) * 1.1)
+  const from = Math.log10(low / 1.1),
+    to = Math.log10(Math.max(high, low * 1.01) * 1.1)
   const ticks: number[] = []
   for (let power = Math.floor(from); power <= to; ++power) {
     for (const part of [1, 2, 5]) {
-      const tick = part * 10 ** power, place = Math.log10(tick)
+      const tick = part * 10 ** power,
+        place = Math.log10(tick)
       if (place >= from && place <= to) ticks.push(tick)
     }
   }
   return {
     at: (value) => ((Math.log10(Math.max(value, 1e-300)) - from) / (to - from)) * length,
-    ticks, digits: Math.max(0, -Math.floor(from)),
+    ticks,
+    digits: Math.max(0, -Math.floor(from)),
   }
 }
 
 /** A step of 1, 2 or 5 times a power of ten that goes about `count` times into a range. */
 function stepOf(range: number, count: number): number {
-  const rough = range / count, power = 10 ** Math.floor(Math.log10(rough)), part = rough / power
+  const rough = range / count,
+    power = 10 ** Math.floor(Math.log10(rough)),
+    part = rough / power
   return (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10) * power
 }
 

@@ -64,9 +64,15 @@ const en = {
   interval: '{value} ({low} to {high})',
   nothing: 'Nothing was measured here.',
   onlySeen: 'These numbers say how near a method comes to one capture. Whether it looks right, only viewers can say.',
-  kind_signing: 'to sign with', kind_yardstick: 'held against', kind_bound: 'bound',
-  group_annotated: 'annotated', group_natural: 'natural', 'group_same gloss': 'same gloss', 'group_other sign': 'other sign',
-  part_one: 'long, 1 peak', part_more: 'long, 2 or more peaks',
+  kind_signing: 'to sign with',
+  kind_yardstick: 'held against',
+  kind_bound: 'bound',
+  group_annotated: 'annotated',
+  group_natural: 'natural',
+  'group_same gloss': 'same gloss',
+  'group_other sign': 'other sign',
+  part_one: 'long, 1 peak',
+  part_more: 'long, 2 or more peaks',
   noEvaluation: 'This is no evaluation: it must be JSON that this page or signweave evaluate --json wrote.',
   notDrawn: 'This evaluation cannot be shown',
   putAway: 'Put it away',
@@ -123,7 +129,9 @@ const fr: Words = {
   byMeasure: 'Toutes les mesures, une sorte d’intervalle',
   method: 'Méthode',
   best: 'meilleure',
-  bestNote: '★ la meilleure d’une colonne, bornes exclues. Les intervalles de confiance sont à {percent} % : là où ils se recouvrent, ces enregistrements ne départagent pas les méthodes.',
+  bestNote:
+    '★ la meilleure d’une colonne, bornes exclues. Les intervalles de confiance sont à {percent} % : là où ils se recouvrent, ' +
+    'ces enregistrements ne départagent pas les méthodes.',
   noInterval: 'Pas d’intervalle de confiance : il n’y en a pas pour un seul enregistrement.',
   sortBy: 'Trier par {name}',
   spans: 'Intervalles',
@@ -143,9 +151,15 @@ const fr: Words = {
   interval: '{value} ({low} à {high})',
   nothing: 'Rien n’a été mesuré ici.',
   onlySeen: 'Ces nombres disent à quel point une méthode approche d’une capture. Si c’est juste à voir, seuls des spectateurs peuvent le dire.',
-  kind_signing: 'pour signer', kind_yardstick: 'comparaison', kind_bound: 'borne',
-  group_annotated: 'annotés', group_natural: 'naturels', 'group_same gloss': 'même glose', 'group_other sign': 'autre signe',
-  part_one: 'longs, 1 pic', part_more: 'longs, 2 pics ou plus',
+  kind_signing: 'pour signer',
+  kind_yardstick: 'comparaison',
+  kind_bound: 'borne',
+  group_annotated: 'annotés',
+  group_natural: 'naturels',
+  'group_same gloss': 'même glose',
+  'group_other sign': 'autre signe',
+  part_one: 'longs, 1 pic',
+  part_more: 'longs, 2 pics ou plus',
   noEvaluation: 'Ce n’est pas une évaluation : il faut le JSON écrit par cette page ou par signweave evaluate --json.',
   notDrawn: 'Cette évaluation ne peut pas être montrée',
   putAway: 'La fermer',
@@ -162,5 +176,9 @@ export function groupName(group: string, text: Words): string {
   const [name, ...part] = group.split(', ')
   const known = (text as Readonly<Record<string, string>>)[`group_${name}`] ?? name
   const peaks = part.join(', ')
-  return peaks === 'long, 1 peak' ? `${known}, ${text.part_one}` : peaks === 'long, 2 or more peaks' ? `${known}, ${text.part_more}` : [known, ...part].join(', ')
+  return peaks === 'long, 1 peak'
+    ? `${known}, ${text.part_one}`
+    : peaks === 'long, 2 or more peaks'
+      ? `${known}, ${text.part_more}`
+      : [known, ...part].join(', ')
 }

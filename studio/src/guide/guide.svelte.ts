@@ -7,7 +7,9 @@ const kKey = 'signweave.guide'
 /** As much as a step needs to know of. */
 const kMostCalls = 200
 
-interface Stage { readonly transport: { readonly playing: boolean; readonly speed: number; readonly loop: unknown } }
+interface Stage {
+  readonly transport: { readonly playing: boolean; readonly speed: number; readonly loop: unknown }
+}
 
 /** The guided path that somebody is on, as long as this browser remembers. */
 class Guide {
@@ -55,8 +57,12 @@ class Guide {
     this.recordings = recordings
     const stage = (window as { signweaveStage?: Stage }).signweaveStage?.transport
     const now = looked(under, {
-      route: parseRoute(location.hash), playing: stage?.playing ?? false, speed: stage?.speed ?? 1, selected: Boolean(stage?.loop),
-      calls: this.calls, recordings,
+      route: parseRoute(location.hash),
+      playing: stage?.playing ?? false,
+      speed: stage?.speed ?? 1,
+      selected: Boolean(stage?.loop),
+      calls: this.calls,
+      recordings,
     })
     if (now === under) return
     const id = now.step !== under.step ? stepAt(under)?.id : undefined

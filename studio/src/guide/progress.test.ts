@@ -5,7 +5,16 @@ import { kSteps, type Facts } from './steps'
 import { words } from './words'
 
 const about = { database: 'demo', recording: 'meteo', gloss: 'MATIN' }
-const facts = (hash: string, more: Partial<Facts> = {}): Facts => ({ route: parseRoute(hash), playing: false, speed: 1, selected: false, calls: [], recordings: 2, recordingsBefore: 2, ...more })
+const facts = (hash: string, more: Partial<Facts> = {}): Facts => ({
+  route: parseRoute(hash),
+  playing: false,
+  speed: 1,
+  selected: false,
+  calls: [],
+  recordings: 2,
+  recordingsBefore: 2,
+  ...more,
+})
 const call = (method: string, where: string, body = '') => ({ method, where, body })
 
 describe('a guided path', () => {

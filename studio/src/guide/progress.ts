@@ -49,7 +49,14 @@ export function looked(progress: Progress, facts: Omit<Facts, 'recordingsBefore'
 export function readProgress(text: string | null): Progress | undefined {
   try {
     const { path, about, step, done, under, met, before } = JSON.parse(text ?? '') as Progress
-    const right = kPaths.includes(path) && typeof about.database === 'string' && typeof about.recording === 'string' && typeof about.gloss === 'string' && Number.isInteger(step) && step >= 0 && Array.isArray(done)
+    const right =
+      kPaths.includes(path) &&
+      typeof about.database === 'string' &&
+      typeof about.recording === 'string' &&
+      typeof about.gloss === 'string' &&
+      Number.isInteger(step) &&
+      step >= 0 &&
+      Array.isArray(done)
     if (!right) return undefined
     const read = goTo({ path, about, step, done: done.filter((id) => typeof id === 'string'), under: under === true }, step)
     // What was not done yet is recognised after a reload, too.

@@ -4,13 +4,20 @@ import type { Route, WorkPage } from '../ui/route'
 /** What is known of what somebody does: where they are, what plays there, and which calls were answered since the step began. */
 export interface Facts {
   readonly route: Route
-  readonly playing: boolean; readonly speed: number; readonly selected: boolean
+  readonly playing: boolean
+  readonly speed: number
+  readonly selected: boolean
   readonly calls: readonly Answered[]
   /** How many recordings the database has, and had when the step began. */
-  readonly recordings: number; readonly recordingsBefore: number
+  readonly recordings: number
+  readonly recordingsBefore: number
 }
 /** What a path is about; the words of its steps name it. */
-export interface About { readonly database: string; readonly recording: string; readonly gloss: string }
+export interface About {
+  readonly database: string
+  readonly recording: string
+  readonly gloss: string
+}
 export interface Step {
   readonly id: string
   /** Where it is done. */
@@ -21,15 +28,21 @@ export interface Step {
 export const kPaths = ['demo', 'own'] as const
 export type Path = (typeof kPaths)[number]
 
-const work = (page: WorkPage) => ({ database }: About): Route => ({ page, database, state: {} })
+const work =
+  (page: WorkPage) =>
+  ({ database }: About): Route => ({ page, database, state: {} })
 const recording = ({ database, recording }: About): Route => (recording ? { page: 'recording', database, recording, at: 0 } : { page: 'recordings', database })
 const stateOf = (facts: Facts, page: WorkPage) => (facts.route.page === page && 'state' in facts.route ? facts.route.state : undefined)
 /** The page that composes holds what it makes under one of these names. */
-const utteranceOf = (facts: Facts) => { const state = stateOf(facts, 'compose'); return state ? (state.utterance ?? state.u ?? '') : '' }
+const utteranceOf = (facts: Facts) => {
+  const state = stateOf(facts, 'compose')
+  return state ? (state.utterance ?? state.u ?? '') : ''
+}
 const called = (facts: Facts, method: string, where: RegExp) => facts.calls.some((call) => call.method === method && where.test(call.where))
 /** A file that was made here: the call that makes it says as what. */
 const isFile = ({ method, where, body }: Answered) =>
-  (method === 'POST' && /\/(sign|edit)$/.test(where) && /"format":"(?!frames"|json")/.test(body)) || (method === 'GET' && /\/motion\?/.test(where) && /[?&]format=(?!frames\b)/.test(where))
+  (method === 'POST' && /\/(sign|edit)$/.test(where) && /"format":"(?!frames"|json")/.test(body)) ||
+  (method === 'GET' && /\/motion\?/.test(where) && /[?&]format=(?!frames\b)/.test(where))
 const saved = (facts: Facts) => facts.calls.some(isFile)
 /** How the address tells a token and a way of joining. */
 const kToken = /#\d|@\d+\.\./
@@ -39,7 +52,11 @@ const kDemo: readonly Step[] = [
   { id: 'slow', to: recording, done: ({ route, playing, speed }) => route.page === 'recording' && playing && speed < 1 },
   { id: 'select', to: recording, done: ({ route, selected }) => route.page === 'recording' && selected },
   { id: 'search', to: work('search'), done: (facts) => Boolean(stateOf(facts, 'search')?.q) },
-  { id: 'grid', to: ({ database, gloss }) => ({ page: 'search', database, state: { q: `gloss = "${gloss.replace(/[\\"]/g, '\\$&')}"`, view: 'grid' } }), done: (facts) => Boolean(stateOf(facts, 'search')?.q) && stateOf(facts, 'search')?.view === 'grid' },
+  {
+    id: 'grid',
+    to: ({ database, gloss }) => ({ page: 'search', database, state: { q: `gloss = "${gloss.replace(/[\\"]/g, '\\$&')}"`, view: 'grid' } }),
+    done: (facts) => Boolean(stateOf(facts, 'search')?.q) && stateOf(facts, 'search')?.view === 'grid',
+  },
   { id: 'compose', to: work('compose'), done: (facts) => utteranceOf(facts).trim().includes(' ') },
   { id: 'token', to: work('compose'), done: (facts) => kToken.test(utteranceOf(facts)) },
   { id: 'transition', to: work('compose'), done: (facts) => Boolean(stateOf(facts, 'compose')?.transition ?? stateOf(facts, 'compose')?.junctions) },
@@ -54,8 +71,16 @@ const kOwn: readonly Step[] = [
   { id: 'store', to: work('import'), done: ({ recordings, recordingsBefore }) => recordings > recordingsBefore },
   { id: 'openOwn', to: ({ database }) => ({ page: 'recordings', database }), done: ({ route }) => route.page === 'recording' },
   { id: 'find', to: work('search'), done: (facts) => Boolean(stateOf(facts, 'search')?.q) },
-  { id: 'propose', to: ({ database }) => ({ page: 'recordings', database }), done: (facts) => facts.route.page === 'phases' && called(facts, 'GET', /\/segment(\?|$)/) },
-  { id: 'check', to: ({ database }) => ({ page: 'recordings', database }), done: (facts) => facts.route.page === 'phases' && called(facts, 'POST', /\/import$/) },
+  {
+    id: 'propose',
+    to: ({ database }) => ({ page: 'recordings', database }),
+    done: (facts) => facts.route.page === 'phases' && called(facts, 'GET', /\/segment(\?|$)/),
+  },
+  {
+    id: 'check',
+    to: ({ database }) => ({ page: 'recordings', database }),
+    done: (facts) => facts.route.page === 'phases' && called(facts, 'POST', /\/import$/),
+  },
   { id: 'composeOwn', to: work('compose'), done: (facts) => utteranceOf(facts).trim() !== '' },
   { id: 'export', to: work('compose'), done: saved },
 ]

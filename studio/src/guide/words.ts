@@ -1,9 +1,13 @@
 /** `title` is what a step is called, `now` what to do. `{…}` is filled in with what the path is about. */
-interface StepWords { readonly title: string; readonly now: string }
+interface StepWords {
+  readonly title: string
+  readonly now: string
+}
 
 const en = {
   title: 'First steps',
-  intro: 'Two paths of about five minutes. You do each step in the studio itself; a strip at the top goes along, says what to do, and notices when it was done.',
+  intro:
+    'Two paths of about five minutes. You do each step in the studio itself; a strip at the top goes along, says what to do, and notices when it was done.',
   path_demo: 'I have only the demo',
   path_own: 'I have a folder of EAF and BVH',
   line_demo: 'Look, search, compose and evaluate with what this database holds.',
@@ -59,7 +63,9 @@ type Words = { readonly [key in keyof typeof en]: (typeof en)[key] extends strin
 
 const fr: Words = {
   title: 'Premiers pas',
-  intro: 'Deux parcours d’environ cinq minutes. Chaque étape se fait dans le studio même ; un bandeau en haut vous accompagne, dit quoi faire et remarque quand c’est fait.',
+  intro:
+    'Deux parcours d’environ cinq minutes. Chaque étape se fait dans le studio même ; un bandeau en haut vous accompagne, ' +
+    'dit quoi faire et remarque quand c’est fait.',
   path_demo: 'Je n’ai que la démo',
   path_own: 'J’ai un dossier d’EAF et de BVH',
   line_demo: 'Regarder, chercher, composer et évaluer avec ce que contient cette base.',
@@ -100,13 +106,22 @@ const fr: Words = {
     save: { title: 'Télécharger ou partager', now: 'Téléchargez BVH, GLB ou EAF, ou copiez le lien puis appuyez sur Fait.' },
     evaluate: { title: 'Évaluer', now: 'Appuyez sur Évaluer : chaque méthode refait des transitions captées et on compare.' },
     drop: { title: 'Apporter vos fichiers', now: 'Déposez votre dossier d’EAF et de BVH sur la page, ou choisissez-le, et faites-le examiner.' },
-    report: { title: 'Vérifier le rapport', now: 'Lisez ce qui a été deviné : paires de fichiers, lignes, axes, unité, squelette, défauts. Puis appuyez sur Fait.' },
+    report: {
+      title: 'Vérifier le rapport',
+      now: 'Lisez ce qui a été deviné : paires de fichiers, lignes, axes, unité, squelette, défauts. Puis appuyez sur Fait.',
+    },
     correct: { title: 'Corriger', now: 'Changez ce qui a été mal deviné, par exemple une ligne ou l’unité, et regardez à nouveau. Tout est juste ? Passez.' },
     store: { title: 'Les enregistrer', now: 'Importez ce qui est juste.' },
     openOwn: { title: 'En ouvrir un', now: 'Ouvrez un de vos enregistrements et regardez-le.' },
     find: { title: 'Trouver un signe', now: 'Cherchez une de vos gloses, par exemple gloss = "…".' },
-    propose: { title: 'Proposer des phases', now: 'Dans la liste des enregistrements, appuyez sur Montrer, puis sur Phases : elles sont proposées d’après le mouvement.' },
-    check: { title: 'En vérifier', now: 'Acceptez, déplacez ou rejetez-en quelques-unes et enregistrez. Une proposition n’est pas une annotation tant que personne ne l’a vérifiée.' },
+    propose: {
+      title: 'Proposer des phases',
+      now: 'Dans la liste des enregistrements, appuyez sur Montrer, puis sur Phases : elles sont proposées d’après le mouvement.',
+    },
+    check: {
+      title: 'En vérifier',
+      now: 'Acceptez, déplacez ou rejetez-en quelques-unes et enregistrez. Une proposition n’est pas une annotation tant que personne ne l’a vérifiée.',
+    },
     composeOwn: { title: 'En composer', now: 'Tapez une de vos gloses.' },
     export: { title: 'Exporter', now: 'Téléchargez ce que vous avez composé en BVH, GLB ou EAF.' },
   },

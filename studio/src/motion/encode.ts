@@ -14,8 +14,14 @@ export function encode(skeleton: Skeleton, poses: readonly Pose[], first = 0): A
     for (const joint of skeleton.translated) {
       for (let k = 0; k < 3; ++k, at += 4) view.setInt32(at, Math.round(positions[3 * joint + k] / kTranslationUnit), true)
     }
-    for (const track of tracks) view.setFloat32(at, track, true), (at += 4)
-    for (const part of rotations) view.setInt16(at, Math.round(part / kRotationUnit), true), (at += 2)
+    for (const track of tracks) {
+      view.setFloat32(at, track, true)
+      at += 4
+    }
+    for (const part of rotations) {
+      view.setInt16(at, Math.round(part / kRotationUnit), true)
+      at += 2
+    }
   }
   return message
 }

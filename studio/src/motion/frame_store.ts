@@ -115,7 +115,10 @@ export class FrameStore {
 
   /** The first frame at or after `frame`, else at all, that never came; `length` where all have. */
   firstNew(frame: number): number {
-    for (const [from, end] of [[Math.max(0, frame), this.length], [0, Math.min(frame, this.length)]]) {
+    for (const [from, end] of [
+      [Math.max(0, frame), this.length],
+      [0, Math.min(frame, this.length)],
+    ]) {
       for (let f = from; f < end; ++f) {
         const trace = this.traces[f >> kPageBits]
         if (trace?.count === kPageFrames) f |= kPageFrames - 1
@@ -134,7 +137,8 @@ export class FrameStore {
 
   /** Metres a second of a wrist at a frame, from the frames before and after it; NaN where they have not come. */
   speed(frame: number, hand: 0 | 1): number {
-    const before = Math.max(0, frame - 1), after = Math.min(this.length - 1, frame + 1)
+    const before = Math.max(0, frame - 1),
+      after = Math.min(this.length - 1, frame + 1)
     const dx = this.hand(after, hand, 0) - this.hand(before, hand, 0)
     const dy = this.hand(after, hand, 1) - this.hand(before, hand, 1)
     const dz = this.hand(after, hand, 2) - this.hand(before, hand, 2)
@@ -174,8 +178,10 @@ export class FrameStore {
     for (let t = 0; t < tracks.length; ++t, ++word) tracks[t] = keep * tracks[t] + part * page.floats[word]
     let short = word << 1
     for (let j = 0; j < rotations.length; j += 4, short += 4) {
-      const x = page.shorts[short] * kRotationUnit, y = page.shorts[short + 1] * kRotationUnit
-      const z = page.shorts[short + 2] * kRotationUnit, w = page.shorts[short + 3] * kRotationUnit
+      const x = page.shorts[short] * kRotationUnit,
+        y = page.shorts[short + 1] * kRotationUnit
+      const z = page.shorts[short + 2] * kRotationUnit,
+        w = page.shorts[short + 3] * kRotationUnit
       // q and -q are one rotation: the blend takes the short way round.
       const dot = fresh ? 1 : rotations[j] * x + rotations[j + 1] * y + rotations[j + 2] * z + rotations[j + 3] * w
       const to = dot < 0 ? -part : part

@@ -9,14 +9,25 @@ import type { Skeleton } from './skeleton'
 const half = Math.SQRT1_2
 
 const kSkeleton: Skeleton = {
-  joints: [{ name: 'root', parent: -1, offset: [0, 1, 0] }, { name: 'hand', parent: 0, offset: [1, 0, 0] }], translated: [0], tracks: ['jawOpen'],
+  joints: [
+    { name: 'root', parent: -1, offset: [0, 1, 0] },
+    { name: 'hand', parent: 0, offset: [1, 0, 0] },
+  ],
+  translated: [0],
+  tracks: ['jawOpen'],
 }
 const kHeader: FramesHeader = {
-  ...kSkeleton, recording: 'r', declarations: [], rate: 10, layout: 1, frame_bytes: 32,
+  ...kSkeleton,
+  recording: 'r',
+  declarations: [],
+  rate: 10,
+  layout: 1,
+  frame_bytes: 32,
 }
 /** A root that moves and turns about y by 0, then 90 degrees, and a hand a metre to its left. */
 function turn(): [Pose, Pose] {
-  const a = restPose(kSkeleton), b = restPose(kSkeleton)
+  const a = restPose(kSkeleton),
+    b = restPose(kSkeleton)
   b.positions[0] = 0.5
   b.rotations.set([0, half, 0, half])
   b.tracks[0] = 1
@@ -54,7 +65,8 @@ describe('frames that a call answers', () => {
   const told: MotionHeader = { ...kHeader, frames: 3, origin_ms: 120, rig: { parts: { left_hand: { joint: 'hand', index: 1 } } } }
   /** The bytes of an answer of two messages, in parts of `size` bytes. */
   function body(size: number, header = told, cut = 0): ReadableStream<Uint8Array> {
-    const text = new TextEncoder().encode(JSON.stringify(header)), length = new Uint8Array(new Uint32Array([text.length]).buffer)
+    const text = new TextEncoder().encode(JSON.stringify(header)),
+      length = new Uint8Array(new Uint32Array([text.length]).buffer)
     const parts = [length, text, new Uint8Array(encode(kSkeleton, turn())), new Uint8Array(encode(kSkeleton, [turn()[0]], 2))]
     const all = parts.flatMap((part) => [...part])
     all.length -= cut
@@ -84,7 +96,9 @@ describe('frames that a call answers', () => {
   it('are refused where the answer ends early, goes on, or has no header', async () => {
     await expect(read(body(64, told, 5))).rejects.toThrow('too early')
     await expect(read(body(64, { ...told, frames: 2 }))).rejects.toThrow('more comes')
-    await expect(read(new ReadableStream({ start: (stream) => (stream.enqueue(Uint8Array.from([2, 0, 0, 0, 0x7b, 0x7b])), stream.close()) }))).rejects.toThrow('no JSON')
+    await expect(read(new ReadableStream({ start: (stream) => (stream.enqueue(Uint8Array.from([2, 0, 0, 0, 0x7b, 0x7b])), stream.close()) }))).rejects.toThrow(
+      'no JSON',
+    )
   })
 })
 
@@ -133,7 +147,13 @@ describe('frames that have come', () => {
     made.keepAround(500, 400)
     expect(made.held).toBeLessThanOrEqual(400)
     expect([made.has(384), made.has(500), made.has(639), made.has(0), made.has(899)]).toEqual([true, true, true, false, false])
-    made.put(blockOf(kSkeleton, Array.from({ length: 100 }, () => turn()[0]), 900))
+    made.put(
+      blockOf(
+        kSkeleton,
+        Array.from({ length: 100 }, () => turn()[0]),
+        900,
+      ),
+    )
     expect([made.firstNew(500), made.arrived, made.firstMissing(0)]).toEqual([1000, 1000, 0])
   })
 

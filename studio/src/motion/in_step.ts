@@ -1,16 +1,23 @@
 import type { ReportSign } from '../api/answers'
 
 /** Pairs of moments that belong together, in seconds from frame 0 of either motion; both rise. */
-export interface Steps { readonly here: Float64Array; readonly there: Float64Array }
+export interface Steps {
+  readonly here: Float64Array
+  readonly there: Float64Array
+}
 
 /**
  * What of an original stands beside each sign that was made from it: the k-th sign of the one beside the k-th of the other.
  * `original` are the signs' spans in ms of annotation time, in order.
  */
 export function stepsOfSigns(signs: readonly ReportSign[], original: readonly { begin: number; end: number }[], originMs: number): Steps {
-  const here: number[] = [0], there: number[] = [0]
+  const here: number[] = [0],
+    there: number[] = [0]
   const add = (h: number, t: number) => {
-    if (h > here[here.length - 1] + 1e-6 && t >= there[there.length - 1]) here.push(h), there.push(t)
+    if (h > here[here.length - 1] + 1e-6 && t >= there[there.length - 1]) {
+      here.push(h)
+      there.push(t)
+    }
   }
   signs.slice(0, original.length).forEach((sign, k) => {
     add(sign.begin_ms / 1000, (original[k].begin - originMs) / 1000)
@@ -24,7 +31,8 @@ export function beside({ here, there }: Steps, seconds: number): number {
   const last = here.length - 1
   if (last < 0 || seconds <= here[0]) return seconds
   if (seconds >= here[last]) return there[last] + (seconds - here[last])
-  let low = 0, high = last
+  let low = 0,
+    high = last
   while (high - low > 1) {
     const middle = (low + high) >> 1
     if (here[middle] <= seconds) low = middle

@@ -24,16 +24,31 @@ export class Kinematics {
   private place(pose: Pose, j: number): void {
     const { positions: p, rotations: q } = this
     const parent = this.skeleton.joints[j].parent
-    const lx = pose.rotations[4 * j], ly = pose.rotations[4 * j + 1], lz = pose.rotations[4 * j + 2], lw = pose.rotations[4 * j + 3]
-    const ox = pose.positions[3 * j], oy = pose.positions[3 * j + 1], oz = pose.positions[3 * j + 2]
+    const lx = pose.rotations[4 * j],
+      ly = pose.rotations[4 * j + 1],
+      lz = pose.rotations[4 * j + 2],
+      lw = pose.rotations[4 * j + 3]
+    const ox = pose.positions[3 * j],
+      oy = pose.positions[3 * j + 1],
+      oz = pose.positions[3 * j + 2]
     if (parent < 0) {
-      p[3 * j] = ox, p[3 * j + 1] = oy, p[3 * j + 2] = oz
-      q[4 * j] = lx, q[4 * j + 1] = ly, q[4 * j + 2] = lz, q[4 * j + 3] = lw
+      p[3 * j] = ox
+      p[3 * j + 1] = oy
+      p[3 * j + 2] = oz
+      q[4 * j] = lx
+      q[4 * j + 1] = ly
+      q[4 * j + 2] = lz
+      q[4 * j + 3] = lw
       return
     }
-    const x = q[4 * parent], y = q[4 * parent + 1], z = q[4 * parent + 2], w = q[4 * parent + 3]
+    const x = q[4 * parent],
+      y = q[4 * parent + 1],
+      z = q[4 * parent + 2],
+      w = q[4 * parent + 3]
     // v + 2 q × (q × v + w v)
-    const cx = y * oz - z * oy + w * ox, cy = z * ox - x * oz + w * oy, cz = x * oy - y * ox + w * oz
+    const cx = y * oz - z * oy + w * ox,
+      cy = z * ox - x * oz + w * oy,
+      cz = x * oy - y * ox + w * oz
     p[3 * j] = p[3 * parent] + ox + 2 * (y * cz - z * cy)
     p[3 * j + 1] = p[3 * parent + 1] + oy + 2 * (z * cx - x * cz)
     p[3 * j + 2] = p[3 * parent + 2] + oz + 2 * (x * cy - y * cx)

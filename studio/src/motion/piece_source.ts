@@ -14,21 +14,35 @@ export class PieceSource implements MotionSource {
   private readonly abort = new AbortController()
 
   /** `title` stands on the screen. */
-  constructor(private readonly api: Api, private readonly database: string, private readonly recording: string,
-              private readonly wishes: PieceWishes, readonly title = recording) {}
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+    private readonly recording: string,
+    private readonly wishes: PieceWishes,
+    readonly title = recording,
+  ) {}
 
   async open(): Promise<OpenedMotion> {
     let opened: OpenedMotion | undefined
-    await this.api.piece(this.database, this.recording, this.wishes, {
-      begin: (header) => {
-        const rig = rigOf(header)
-        opened = {
-          store: new FrameStore(skeletonOf(header), header.rate, rig, header.frames), rig, character: header.character, originMs: header.origin_ms,
-          declarations: declarationsOf(header),
-        }
+    await this.api.piece(
+      this.database,
+      this.recording,
+      this.wishes,
+      {
+        begin: (header) => {
+          const rig = rigOf(header)
+          opened = {
+            store: new FrameStore(skeletonOf(header), header.rate, rig, header.frames),
+            rig,
+            character: header.character,
+            originMs: header.origin_ms,
+            declarations: declarationsOf(header),
+          }
+        },
+        take: (block) => opened!.store.put(block),
       },
-      take: (block) => opened!.store.put(block),
-    }, this.abort.signal)
+      this.abort.signal,
+    )
     if (!opened) throw new StudioFault('framesMissing')
     this.complete = true
     return opened

@@ -7,15 +7,22 @@ const kSkeleton = { joints: [{ name: 'root', parent: -1, offset: [0, 0, 0] }], t
 
 /** Pieces of 20 bytes a frame, ten frames each, that come when they are told to. */
 function rig(most?: number) {
-  const asked: number[] = [], closed: number[] = []
+  const asked: number[] = [],
+    closed: number[] = []
   const ends = new Map<number, { come: () => Promise<void>; fail: () => Promise<void> }>()
   const settled = () => new Promise<void>((resolve) => setTimeout(resolve))
   const pieces = new Pieces(({ from }) => {
     asked.push(from)
-    const source = { close: () => closed.push(from), open: () => new Promise<OpenedMotion>((resolve, reject) => ends.set(from, {
-      come: () => (resolve({ store: { length: 10, skeleton: kSkeleton } } as unknown as OpenedMotion), settled()),
-      fail: () => (reject(new Error('no')), settled()),
-    })) }
+    const source = {
+      close: () => closed.push(from),
+      open: () =>
+        new Promise<OpenedMotion>((resolve, reject) =>
+          ends.set(from, {
+            come: () => (resolve({ store: { length: 10, skeleton: kSkeleton } } as unknown as OpenedMotion), settled()),
+            fail: () => (reject(new Error('no')), settled()),
+          }),
+        ),
+    }
     return source as unknown as MotionSource
   }, most)
   return { pieces, asked, closed, ends }

@@ -2,11 +2,17 @@ import { frameBytes } from './frames'
 import type { MotionSource, OpenedMotion } from './source'
 
 /** A piece of a recording, in ms of annotation time, in a character's joints where one is named. */
-export interface Piece { readonly recording: string; readonly from: number; readonly to: number; readonly character?: string }
+export interface Piece {
+  readonly recording: string
+  readonly from: number
+  readonly to: number
+  readonly character?: string
+}
 export const keyOf = ({ recording, from, to, character = '' }: Piece): string => `${from}..${to} ${character} ${recording}`
 
 /** A piece that has come, or why it did not. */
-export type Come = { readonly source: MotionSource; readonly motion: OpenedMotion; readonly fault?: undefined } | { readonly fault: unknown; readonly motion?: undefined }
+export type Come =
+  { readonly source: MotionSource; readonly motion: OpenedMotion; readonly fault?: undefined } | { readonly fault: unknown; readonly motion?: undefined }
 
 const kAtOnce = 4
 const kMostBytes = 48e6
@@ -24,7 +30,10 @@ export class Pieces {
   private readonly come = new Map<string, Come & { readonly bytes: number }>()
   private bytes = 0
 
-  constructor(private readonly source: (piece: Piece) => MotionSource, private readonly most = kMostBytes) {}
+  constructor(
+    private readonly source: (piece: Piece) => MotionSource,
+    private readonly most = kMostBytes,
+  ) {}
 
   /** What is wanted now, in the order in which it should come; all else that is under way is given up. */
   want(pieces: readonly Piece[]): void {
@@ -36,7 +45,9 @@ export class Pieces {
     }
     for (const key of this.wanted.keys()) {
       const here = this.come.get(key)
-      if (here) this.come.delete(key), this.come.set(key, here)
+      if (!here) continue
+      this.come.delete(key)
+      this.come.set(key, here)
     }
     // A fault is told as long as somebody looks, and then tried again.
     for (const [key, { fault }] of this.come) if (fault !== undefined && !this.wanted.has(key)) this.forget(key)

@@ -34,8 +34,13 @@ export class RecordingSource implements MotionSource {
   private opened?: OpenedMotion
 
   /** `character` names the one whose joints the poses are for; the picture starts at `startSeconds` from frame 0. */
-  constructor(private readonly api: Api, private readonly database: string, private readonly recording: string,
-              private readonly character?: string, startSeconds = 0) {
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+    private readonly recording: string,
+    private readonly character?: string,
+    startSeconds = 0,
+  ) {
     this.title = recording
     this.wanted = startSeconds
   }
@@ -98,16 +103,24 @@ export class RecordingSource implements MotionSource {
     const { info, database, recording, character } = this
     const ms = (frame: number) => Math.round(info.clock_origin_ms + (1000 * frame) / info.frames_per_second)
     let shift = 0
-    await this.api.motion(database, recording, ms(first), ms(end), character, {
-      begin: (header) => {
-        // A piece counts its frames from its own first one.
-        shift = Math.round(((header.origin_ms - info.clock_origin_ms) * info.frames_per_second) / 1000)
-        if (this.opened) return
-        const rig = rigOf(header)
-        const store = new FrameStore(skeletonOf(header), header.rate, rig, info.frames)
-        this.opened = { store, rig, character: header.character, originMs: info.clock_origin_ms, declarations: declarationsOf(header) }
+    await this.api.motion(
+      database,
+      recording,
+      ms(first),
+      ms(end),
+      character,
+      {
+        begin: (header) => {
+          // A piece counts its frames from its own first one.
+          shift = Math.round(((header.origin_ms - info.clock_origin_ms) * info.frames_per_second) / 1000)
+          if (this.opened) return
+          const rig = rigOf(header)
+          const store = new FrameStore(skeletonOf(header), header.rate, rig, info.frames)
+          this.opened = { store, rig, character: header.character, originMs: info.clock_origin_ms, declarations: declarationsOf(header) }
+        },
+        take: (block) => this.opened!.store.put({ ...block, first: block.first + shift }),
       },
-      take: (block) => this.opened!.store.put({ ...block, first: block.first + shift }),
-    }, this.abort.signal)
+      this.abort.signal,
+    )
   }
 }

@@ -1,9 +1,7 @@
 import type { Report, ReportSign } from '../api/answers'
+import type { Declarations } from './declarations'
 import type { FrameStore } from './frame_store'
 import type { Rig } from './skeleton'
-
-/** What a recording says of itself, by name: must be shown wherever its motion is. */
-export type Declarations = Readonly<Record<string, string>>
 
 /** Something that gives the frames of a motion, in pieces. */
 export interface MotionSource {

@@ -36,8 +36,14 @@ export class StreamSource implements MotionSource {
    * `title` is signed first; with `resting`, a recording, nothing is, and its signer rests until something is. `how` is what else
    * `open` takes: `transition`, `duration`, `tempo`, `align`, `rate`.
    */
-  constructor(private readonly api: Api, private readonly database: string, readonly title: string, private readonly character?: string,
-              private readonly resting?: string, private readonly how: object = {}) {}
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+    readonly title: string,
+    private readonly character?: string,
+    private readonly resting?: string,
+    private readonly how: object = {},
+  ) {}
 
   open(): Promise<OpenedMotion> {
     return new Promise((resolve, reject) => {

@@ -11,7 +11,13 @@ export interface ActedOn {
   /** The tier that signs are found on, and the annotation time of frame 0. */
   readonly tier?: Tier
   readonly originMs: number
-  readonly viewer?: { look(view: View): void; orbit(azimuth: number, elevation: number): void; zoom(factor: number): void; toggleTrails(): void; toggleBones(): void }
+  readonly viewer?: {
+    look(view: View): void
+    orbit(azimuth: number, elevation: number): void
+    zoom(factor: number): void
+    toggleTrails(): void
+    toggleBones(): void
+  }
   readonly timeline?: { zoom(factor: number): void; fit(): void }
   readonly wardrobe: Wardrobe
   readonly fullscreen: () => void
@@ -27,18 +33,43 @@ export function act(action: Action, { transport, tier, originMs, viewer, timelin
     if (begin !== undefined) transport.seek((begin - originMs) / 1000)
   }
   switch (action) {
-    case 'play': transport.playing ? transport.pause() : transport.play(); break
-    case 'back': transport.step(-1); break
-    case 'on': transport.step(1); break
-    case 'leapBack': transport.step(-10); break
-    case 'leapOn': transport.step(10); break
-    case 'signBefore': jump(-1); break
-    case 'signAfter': jump(1); break
-    case 'begin': transport.seek(transport.loop?.begin ?? 0); break
-    case 'end': transport.seek(transport.loop?.end ?? transport.duration); break
-    case 'slower': transport.setSpeed(transport.speed - (transport.speed > 0.5 ? 0.25 : 0.1)); break
-    case 'faster': transport.setSpeed(transport.speed + (transport.speed >= 0.5 ? 0.25 : 0.1)); break
-    case 'repeat': transport.repeat = !transport.repeat; break
+    case 'play':
+      if (transport.playing) transport.pause()
+      else transport.play()
+      break
+    case 'back':
+      transport.step(-1)
+      break
+    case 'on':
+      transport.step(1)
+      break
+    case 'leapBack':
+      transport.step(-10)
+      break
+    case 'leapOn':
+      transport.step(10)
+      break
+    case 'signBefore':
+      jump(-1)
+      break
+    case 'signAfter':
+      jump(1)
+      break
+    case 'begin':
+      transport.seek(transport.loop?.begin ?? 0)
+      break
+    case 'end':
+      transport.seek(transport.loop?.end ?? transport.duration)
+      break
+    case 'slower':
+      transport.setSpeed(transport.speed - (transport.speed > 0.5 ? 0.25 : 0.1))
+      break
+    case 'faster':
+      transport.setSpeed(transport.speed + (transport.speed >= 0.5 ? 0.25 : 0.1))
+      break
+    case 'repeat':
+      transport.repeat = !transport.repeat
+      break
     case 'select': {
       const sign = tier && annotationNear(tier, ms)
       if (sign) {
@@ -47,24 +78,58 @@ export function act(action: Action, { transport, tier, originMs, viewer, timelin
       }
       break
     }
-    case 'loopBegin': transport.setLoop(transport.time, transport.loop?.end ?? transport.duration); break
-    case 'loopEnd': transport.setLoop(transport.loop?.begin ?? 0, transport.time); break
-    case 'clear': transport.loop = null; break
-    case 'orbitLeft': viewer?.orbit(-kTurn, 0); break
-    case 'orbitRight': viewer?.orbit(kTurn, 0); break
-    case 'orbitUp': viewer?.orbit(0, kTurn); break
-    case 'orbitDown': viewer?.orbit(0, -kTurn); break
-    case 'nearer': viewer?.zoom(1.2); break
-    case 'farther': viewer?.zoom(1 / 1.2); break
-    case 'trails': viewer?.toggleTrails(); break
-    case 'bones': viewer?.toggleBones(); break
-    case 'signer': nextSigner(wardrobe); break
-    case 'zoomIn': timeline?.zoom(1.5); break
-    case 'zoomOut': timeline?.zoom(1 / 1.5); break
-    case 'fit': timeline?.fit(); break
-    case 'full': fullscreen(); break
-    case 'help': break
-    default: if ((kViews as readonly string[]).includes(action)) viewer?.look(action as View)
+    case 'loopBegin':
+      transport.setLoop(transport.time, transport.loop?.end ?? transport.duration)
+      break
+    case 'loopEnd':
+      transport.setLoop(transport.loop?.begin ?? 0, transport.time)
+      break
+    case 'clear':
+      transport.loop = null
+      break
+    case 'orbitLeft':
+      viewer?.orbit(-kTurn, 0)
+      break
+    case 'orbitRight':
+      viewer?.orbit(kTurn, 0)
+      break
+    case 'orbitUp':
+      viewer?.orbit(0, kTurn)
+      break
+    case 'orbitDown':
+      viewer?.orbit(0, -kTurn)
+      break
+    case 'nearer':
+      viewer?.zoom(1.2)
+      break
+    case 'farther':
+      viewer?.zoom(1 / 1.2)
+      break
+    case 'trails':
+      viewer?.toggleTrails()
+      break
+    case 'bones':
+      viewer?.toggleBones()
+      break
+    case 'signer':
+      nextSigner(wardrobe)
+      break
+    case 'zoomIn':
+      timeline?.zoom(1.5)
+      break
+    case 'zoomOut':
+      timeline?.zoom(1 / 1.5)
+      break
+    case 'fit':
+      timeline?.fit()
+      break
+    case 'full':
+      fullscreen()
+      break
+    case 'help':
+      break
+    default:
+      if ((kViews as readonly string[]).includes(action)) viewer?.look(action)
   }
 }
 

@@ -9,7 +9,8 @@ function source(name: string, events: string[]) {
   return { ready, broken, source: { open: () => opened, close: () => void events.push(`closed ${name}`) } as unknown as MotionSource }
 }
 function wearing() {
-  const events: string[] = [], made = new Map<string, ReturnType<typeof source>>()
+  const events: string[] = [],
+    made = new Map<string, ReturnType<typeof source>>()
   const worn = new Worn<string>(Promise.resolve('a'), {
     open: async (opening) => {
       const one = source(opening.character!, events)
@@ -17,8 +18,10 @@ function wearing() {
       await opening.strand('only', one.source)
       return opening.character!
     },
-    shown: (name) => events.push(`shown ${name}`), progress: () => events.push('progress'),
-    note: (fault) => events.push(`beside: ${(fault as Error).message}`), fail: (fault) => events.push(`none: ${(fault as Error).message}`),
+    shown: (name) => events.push(`shown ${name}`),
+    progress: () => events.push('progress'),
+    note: (fault) => events.push(`beside: ${(fault as Error).message}`),
+    fail: (fault) => events.push(`none: ${(fault as Error).message}`),
   })
   const settled = () => new Promise((resolve) => setTimeout(resolve))
   return { events, made, worn, settled }

@@ -5,8 +5,11 @@ import type { Strand } from '../viewer/showing'
 export class Opening {
   private readonly sources: MotionSource[] = []
 
-  constructor(readonly character: string | undefined, private readonly onFault: (fault: Error) => void,
-              private readonly onProgress: (source: MotionSource) => void) {}
+  constructor(
+    readonly character: string | undefined,
+    private readonly onFault: (fault: Error) => void,
+    private readonly onProgress: (source: MotionSource) => void,
+  ) {}
 
   async strand(role: Strand['role'], source: MotionSource): Promise<Strand> {
     this.sources.push(source)
@@ -35,7 +38,10 @@ export class Worn<Opened> {
   private current?: Opening
   private next?: Opening
 
-  constructor(character: Promise<string | undefined>, private readonly on: Openings<Opened>) {
+  constructor(
+    character: Promise<string | undefined>,
+    private readonly on: Openings<Opened>,
+  ) {
     character.then((name) => this.wear(name)).catch((fault: unknown) => this.fail(fault))
   }
 
@@ -43,20 +49,29 @@ export class Worn<Opened> {
     const newest = this.next ?? this.current
     if (this.closed || (newest && newest.character === character)) return
     this.next?.close()
-    const next = (this.next = new Opening(character, (fault) => this.note(fault), (source) => { if (!this.closed) this.on.progress(source) }))
-    this.on.open(next).then((opened) => {
-      if (this.next !== next) return
-      this.current?.close()
-      this.current = next
-      this.next = undefined
-      this.on.shown(opened)
-    }).catch((fault: unknown) => {
-      next.close()
-      if (this.next !== next) return
-      this.next = undefined
-      if (this.current) this.note(fault)
-      else this.fail(fault)
-    })
+    const next = (this.next = new Opening(
+      character,
+      (fault) => this.note(fault),
+      (source) => {
+        if (!this.closed) this.on.progress(source)
+      },
+    ))
+    this.on
+      .open(next)
+      .then((opened) => {
+        if (this.next !== next) return
+        this.current?.close()
+        this.current = next
+        this.next = undefined
+        this.on.shown(opened)
+      })
+      .catch((fault: unknown) => {
+        next.close()
+        if (this.next !== next) return
+        this.next = undefined
+        if (this.current) this.note(fault)
+        else this.fail(fault)
+      })
   }
 
   close(): void {

@@ -1,4 +1,5 @@
-import type { Declarations, MotionSource } from '../motion/source'
+import type { Declarations } from '../motion/declarations'
+import type { MotionSource } from '../motion/source'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport } from '../viewer/transport'
 import { Worn } from './opening'
@@ -13,7 +14,10 @@ export interface ReelSource {
   readonly timeOf?: (first: Strand, own: Strand) => (seconds: number) => number
 }
 
-interface Opened { readonly strands: readonly Strand[]; readonly times: ReadonlyMap<Strand, (seconds: number) => number> }
+interface Opened {
+  readonly strands: readonly Strand[]
+  readonly times: ReadonlyMap<Strand, (seconds: number) => number>
+}
 
 /** Motions that are shown together for as long as somebody looks at them, without annotation of their own. */
 export class Reel implements Showing {
@@ -32,8 +36,11 @@ export class Reel implements Showing {
   private times: Opened['times'] = new Map()
 
   /** `sources` makes them in a character's joints (none: the recordings' own). Several may be told one at a time: close the reel before. */
-  constructor(private readonly sources: (character: string | undefined) => readonly ReelSource[], character: Promise<string | undefined>,
-              private readonly onOpen?: () => void) {
+  constructor(
+    private readonly sources: (character: string | undefined) => readonly ReelSource[],
+    character: Promise<string | undefined>,
+    private readonly onOpen?: () => void,
+  ) {
     this.worn = new Worn<Opened>(character, {
       open: async (opening) => {
         const all = this.sources(opening.character)

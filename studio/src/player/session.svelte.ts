@@ -6,7 +6,8 @@ import { readEaf } from '../annotation/eaf'
 import { beside, stepsOfSigns, type Steps } from '../motion/in_step'
 import { MadeSource } from '../motion/made_source'
 import { RecordingSource } from '../motion/recording_source'
-import type { Declarations, MotionSource } from '../motion/source'
+import type { Declarations } from '../motion/declarations'
+import type { MotionSource } from '../motion/source'
 import { StreamSource } from '../motion/stream_source'
 import type { Route } from '../ui/route'
 import type { Showing, Strand } from '../viewer/showing'
@@ -54,7 +55,11 @@ export class Session implements Showing {
   private told = 0
 
   /** `character` names whose joints the poses are for; none for the recordings' own. */
-  constructor(private readonly api: Api, readonly shown: Shown, character: Promise<string | undefined>) {
+  constructor(
+    private readonly api: Api,
+    readonly shown: Shown,
+    character: Promise<string | undefined>,
+  ) {
     if (shown.page === 'recording') this.transport.time = shown.at || Math.max(0, (shown.span?.[0] ?? 0) / 1000)
     this.worn = new Worn(character, {
       open: (opening) => this.strandsOf(opening),
@@ -124,8 +129,12 @@ export class Session implements Showing {
       await this.pair(left, main)
       return { strands: [left, main], main }
     }
-    const main = await opening.strand('made', shown.pace === 'live' ? this.stream(database, shown.utterance, character)
-      : new MadeSource(api, database, shown.utterance, 'sign', bodyOf(shown), character))
+    const main = await opening.strand(
+      'made',
+      shown.pace === 'live'
+        ? this.stream(database, shown.utterance, character)
+        : new MadeSource(api, database, shown.utterance, 'sign', bodyOf(shown), character),
+    )
     return { strands: [main], main }
   }
 
@@ -155,9 +164,15 @@ export class Session implements Showing {
     const { database } = shown
     if (shown.page === 'recording') {
       void this.annotate(api.annotation(database, shown.recording))
-      api.media(database, shown.recording).then((media) => (this.media = media), (fault: unknown) => this.note(fault))
+      api.media(database, shown.recording).then(
+        (media) => (this.media = media),
+        (fault: unknown) => this.note(fault),
+      )
     } else if (shown.page === 'edit') {
-      this.originalRead = api.annotation(database, shown.recording).then((eaf) => void (this.original = readEaf(eaf))).catch((fault: unknown) => this.note(fault))
+      this.originalRead = api
+        .annotation(database, shown.recording)
+        .then((eaf) => void (this.original = readEaf(eaf)))
+        .catch((fault: unknown) => this.note(fault))
       void this.annotate(api.madeAnnotation(database, 'edit', bodyOf(shown)))
     } else if (shown.pace === 'live') this.annotated = true
     else void this.annotate(api.madeAnnotation(database, 'sign', bodyOf(shown)))

@@ -1,4 +1,4 @@
-import type { Declarations } from '../motion/source'
+import type { Declarations } from '../motion/declarations'
 import { en, type Text } from '../text/en'
 
 /** What stands at the bottom of every picture: what the recordings say of themselves, and what is not as it was captured. */
@@ -24,14 +24,19 @@ export function linesOf(parts: readonly string[], width: number, measure: (text:
 }
 
 /** The bottom of a picture, drawn once. */
-export interface Caption { readonly picture: OffscreenCanvas; readonly height: number }
+export interface Caption {
+  readonly picture: OffscreenCanvas
+  readonly height: number
+}
 
 /** Draws a caption for pictures of this size; none where there is nothing to say. */
 export function drawCaption(parts: readonly string[], width: number, height: number): Caption | undefined {
   if (parts.length === 0) return undefined
   const size = Math.max(11, Math.round(0.029 * Math.min(height, (9 / 16) * width)))
   const font = `600 ${size}px system-ui, 'DejaVu Sans', sans-serif`
-  const pad = Math.round(0.6 * size), step = Math.round(1.3 * size), mark = Math.round(1.5 * size)
+  const pad = Math.round(0.6 * size),
+    step = Math.round(1.3 * size),
+    mark = Math.round(1.5 * size)
   const ruler = new OffscreenCanvas(1, 1).getContext('2d')!
   ruler.font = font
   const lines = linesOf(parts, width - 2 * pad - mark, (text) => ruler.measureText(text).width)

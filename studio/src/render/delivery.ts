@@ -5,7 +5,11 @@ import { en } from '../text/en'
 const kProgressMs = 500
 
 /** What is put at the end of a render. */
-export interface Done { readonly frames: number; readonly seconds: number; readonly codec: string }
+export interface Done {
+  readonly frames: number
+  readonly seconds: number
+  readonly codec: string
+}
 
 /** Puts what was rendered to the server that asked for it, one thing after the other. After `done` or `fault` nothing more goes out. */
 export class Delivery {
@@ -25,7 +29,9 @@ export class Delivery {
   progress(done: number, of: number): void {
     if (this.over || this.told === undefined || performance.now() - this.told < kProgressMs) return
     this.told = undefined
-    this.send('progress', JSON.stringify({ done, of })).catch((fault: unknown) => this.fault(fault)).finally(() => (this.told = performance.now()))
+    this.send('progress', JSON.stringify({ done, of }))
+      .catch((fault: unknown) => this.fault(fault))
+      .finally(() => (this.told = performance.now()))
   }
 
   async done(what: Done): Promise<void> {

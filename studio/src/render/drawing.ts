@@ -19,14 +19,22 @@ export class Drawing {
   /** Side by side: one, or one for each hand. */
   private readonly sights: readonly Sight[]
 
-  private constructor(private readonly renderer: WebGLRenderer, private readonly pane: Pane, motion: OpenedMotion, request: RenderRequest, notes: readonly string[], text: Text) {
+  private constructor(
+    private readonly renderer: WebGLRenderer,
+    private readonly pane: Pane,
+    motion: OpenedMotion,
+    request: RenderRequest,
+    notes: readonly string[],
+    text: Text,
+  ) {
     const { width, height, view } = request
     this.canvas = new OffscreenCanvas(width, height)
     this.context = this.canvas.getContext('2d', { alpha: false })!
     this.context.fillStyle = '#12161b'
     this.ground = groundOf(width, height)
     this.caption = drawCaption(captionOf(motion.declarations, pane.body.hasFace, notes, text), width, height)
-    const foot = this.caption?.height ?? 0, lens = pane.camera.camera.fov
+    const foot = this.caption?.height ?? 0,
+      lens = pane.camera.camera.fov
     this.sights = sightsOf(motion, pane.signer, view, (shots) => ({ lens, width: width / shots, height, foot }))
     renderer.setScissorTest(true)
   }

@@ -21,7 +21,10 @@ export class Film {
   private fail!: (fault: unknown) => void
   private readonly failed = new Promise<never>((_, reject) => (this.fail = reject))
 
-  private constructor(private readonly config: VideoEncoderConfig, private readonly rate: number) {
+  private constructor(
+    private readonly config: VideoEncoderConfig,
+    private readonly rate: number,
+  ) {
     this.failed.catch(() => {}) // told by whatever waits next
     this.packets = new EncodedVideoPacketSource(config.codec.startsWith('vp09') ? 'vp9' : 'vp8')
     this.output.addVideoTrack(this.packets, { frameRate: rate })

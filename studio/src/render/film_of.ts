@@ -7,8 +7,7 @@ import { everyMoment } from './moments'
 import type { RenderRequest } from './request'
 
 /** Makes a film in a page that does other things, too: as `signweave render` does, every picture drawn. Rejects where `signal` gives it up. */
-export async function filmOf(api: Api, request: RenderRequest, progress: (done: number, of: number) => void, signal: AbortSignal,
-                             text?: Text): Promise<Blob> {
+export async function filmOf(api: Api, request: RenderRequest, progress: (done: number, of: number) => void, signal: AbortSignal, text?: Text): Promise<Blob> {
   const { width, height, rate } = request
   const motion = await gather(api, request, signal)
   const { seconds } = everyMoment(motion.store.length, motion.store.rate, rate)

@@ -10,7 +10,10 @@ import { follow, handPoints } from './landmarks'
 import { sightsOf } from './sight'
 
 const kAxes: Axes = { right: new Vector3(1, 0, 0), up: new Vector3(0, 1, 0), back: new Vector3(0, 0, 1) }
-const kLens = 28, kWidth = 1280, kHeight = 720, kFoot = 40
+const kLens = 28,
+  kWidth = 1280,
+  kHeight = 720,
+  kFoot = 40
 
 /** A number from 0 to 1 for each place of a row, the same every time. */
 function chance(i: number): number {
@@ -24,7 +27,9 @@ describe('a framing', () => {
   const used = (stand: { right: number; up: number; back: number }, from = 0, to = 200) => {
     let most = 0
     for (let i = from; i < to; ++i) {
-      const depth = stand.back - places[3 * i + 2], x = places[3 * i] - stand.right, y = places[3 * i + 1] - stand.up
+      const depth = stand.back - places[3 * i + 2],
+        x = places[3 * i] - stand.right,
+        y = places[3 * i + 1] - stand.up
       most = Math.max(most, Math.abs(x) / (window.side * depth), y / (window.top * depth), -y / (window.bottom * depth))
     }
     return most
@@ -34,7 +39,12 @@ describe('a framing', () => {
     const stand = new Framing(kAxes, window).still({ points: 200, places }, 0)
     expect(used(stand)).toBeCloseTo(1, 5)
     expect(used({ ...stand, back: stand.back - 0.01 })).toBeGreaterThan(1)
-    for (const [right, up] of [[0.05, 0], [-0.05, 0], [0, 0.05], [0, -0.05]]) {
+    for (const [right, up] of [
+      [0.05, 0],
+      [-0.05, 0],
+      [0, 0.05],
+      [0, -0.05],
+    ]) {
       expect(used({ right: stand.right + right, up: stand.up + up, back: stand.back })).toBeGreaterThanOrEqual(1 - 1e-6)
     }
   })
@@ -56,23 +66,45 @@ describe('a framing', () => {
 
 describe('a sight', () => {
   const kSkeleton: Skeleton = {
-    joints: [{ name: 'hips', parent: -1, offset: [0, 1, 0] }, { name: 'head', parent: 0, offset: [0, 0.6, 0] },
-      { name: 'l', parent: 0, offset: [0.2, 0.4, 0] }, { name: 'lh', parent: 2, offset: [0.5, 0, 0] }, { name: 'r', parent: 0, offset: [-0.2, 0.4, 0] }, { name: 'rh', parent: 4, offset: [-0.5, 0, 0] }],
-    translated: [0], tracks: [],
+    joints: [
+      { name: 'hips', parent: -1, offset: [0, 1, 0] },
+      { name: 'head', parent: 0, offset: [0, 0.6, 0] },
+      { name: 'l', parent: 0, offset: [0.2, 0.4, 0] },
+      { name: 'lh', parent: 2, offset: [0.5, 0, 0] },
+      { name: 'r', parent: 0, offset: [-0.2, 0.4, 0] },
+      { name: 'rh', parent: 4, offset: [-0.5, 0, 0] },
+    ],
+    translated: [0],
+    tracks: [],
   }
   const kRig: Rig = {
-    pelvis: { joint: 0 }, head: { joint: 1 }, neck: { joint: 1 }, left_upper_arm: { joint: 2 }, right_upper_arm: { joint: 4 }, left_hand: { joint: 3 }, right_hand: { joint: 5 },
-    left_index_tip: { joint: 3, offset: [0.18, 0, 0] }, right_index_tip: { joint: 5, offset: [-0.18, 0, 0] },
+    pelvis: { joint: 0 },
+    head: { joint: 1 },
+    neck: { joint: 1 },
+    left_upper_arm: { joint: 2 },
+    right_upper_arm: { joint: 4 },
+    left_hand: { joint: 3 },
+    right_hand: { joint: 5 },
+    left_index_tip: { joint: 3, offset: [0.18, 0, 0] },
+    right_index_tip: { joint: 5, offset: [-0.18, 0, 0] },
   }
   const store = new FrameStore(kSkeleton, 50, kRig)
-  store.put(blockOf(kSkeleton, Array.from({ length: 120 }, (_, frame) => {
-    const pose = restPose(kSkeleton)
-    for (const [joint, side] of [[2, 1], [4, -1]]) {
-      const turn = side * (frame < 20 ? -0.75 : 1.1 * Math.sin(frame / 9 + joint))
-      pose.rotations.set([0, side * 0.3 * Math.sin(frame / 7), Math.sin(turn), Math.cos(turn)], 4 * joint)
-    }
-    return pose
-  })))
+  store.put(
+    blockOf(
+      kSkeleton,
+      Array.from({ length: 120 }, (_, frame) => {
+        const pose = restPose(kSkeleton)
+        for (const [joint, side] of [
+          [2, 1],
+          [4, -1],
+        ]) {
+          const turn = side * (frame < 20 ? -0.75 : 1.1 * Math.sin(frame / 9 + joint))
+          pose.rotations.set([0, side * 0.3 * Math.sin(frame / 7), Math.sin(turn), Math.cos(turn)], 4 * joint)
+        }
+        return pose
+      }),
+    ),
+  )
   const motion = { store, rig: kRig, originMs: 0, declarations: {} }
   const signer = new Proportions(kSkeleton, kRig)
   const seen = (camera: PerspectiveCamera, marks: { points: number; places: Float32Array }, frame: number) =>
@@ -82,7 +114,8 @@ describe('a sight', () => {
     const sights = sightsOf(motion, signer, view, (shots) => ({ lens: kLens, width: kWidth / shots, height: kHeight, foot: kFoot }))
     expect(sights).toHaveLength(view === 'hands' ? 2 : 1)
     for (const side of ['right', 'left'] as const) {
-      const marks = follow(motion, handPoints(motion, side)), sight = sights[view === 'hands' && side === 'left' ? 1 : 0]
+      const marks = follow(motion, handPoints(motion, side)),
+        sight = sights[view === 'hands' && side === 'left' ? 1 : 0]
       expect(marks.points).toBe(2)
       let widest = 0
       for (let frame = 0; frame < store.length; ++frame) {

@@ -2,22 +2,40 @@ import type { Vector3 } from 'three'
 import type { Landmarks } from './landmarks'
 
 /** The axes of a picture in model space, unit length: to its right, up, and from what is seen to the camera. */
-export interface Axes { readonly right: Vector3; readonly up: Vector3; readonly back: Vector3 }
+export interface Axes {
+  readonly right: Vector3
+  readonly up: Vector3
+  readonly back: Vector3
+}
 
 /** Where a camera stands that looks along −back: metres along the axes. */
-export interface Stand { right: number; up: number; back: number }
+export interface Stand {
+  right: number
+  up: number
+  back: number
+}
 
 /** The part of a picture that must hold everything: how far it reaches from the middle, for a place one metre before the camera. */
-export interface Window { readonly side: number; readonly top: number; readonly bottom: number }
+export interface Window {
+  readonly side: number
+  readonly top: number
+  readonly bottom: number
+}
 
 /** What a camera of this lens (degrees, vertical) sees, less a margin, and less `foot` pixels at the bottom that a text covers. */
 export function windowOf(lens: number, width: number, height: number, foot: number): Window {
-  const half = Math.tan((lens * Math.PI) / 360), margin = 0.04
+  const half = Math.tan((lens * Math.PI) / 360),
+    margin = 0.04
   return { side: half * (width / height - margin), top: half * (1 - margin), bottom: half * Math.max(0.2, 1 - margin - (2 * foot) / height) }
 }
 
 /** How near a camera may go to what it must hold, each side by itself, so that frames can be taken together. */
-interface Bounds { left: number; right: number; top: number; bottom: number }
+interface Bounds {
+  left: number
+  right: number
+  top: number
+  bottom: number
+}
 
 const kNowhere: Readonly<Bounds> = { left: -Infinity, right: -Infinity, top: -Infinity, bottom: -Infinity }
 
@@ -26,7 +44,10 @@ const kNowhere: Readonly<Bounds> = { left: -Infinity, right: -Infinity, top: -In
  * and down. So each side gives a smallest d that falls or rises with a or b, and the best stand is where two sides meet.
  */
 export class Framing {
-  constructor(private readonly axes: Axes, private readonly window: Window) {}
+  constructor(
+    private readonly axes: Axes,
+    private readonly window: Window,
+  ) {}
 
   /**
    * The nearest stand that holds all points, each with `around` metres about it, in every frame: in the middle between them, or
@@ -52,7 +73,14 @@ export class Framing {
       return one
     })
     const stands = bounds.map((one) => this.nearest(one))
-    const rights = softened(stands.map(({ right }) => right), smooth), ups = softened(stands.map(({ up }) => up), smooth)
+    const rights = softened(
+        stands.map(({ right }) => right),
+        smooth,
+      ),
+      ups = softened(
+        stands.map(({ up }) => up),
+        smooth,
+      )
     const needed = bounds.map((one, frame) => this.distance(one, rights[frame], ups[frame]))
     // A mean of the largest values around never falls below the value itself.
     const backs = softened(largestAround(needed, smooth), smooth)
@@ -60,9 +88,12 @@ export class Framing {
   }
 
   private widen(bounds: Bounds, { places }: Landmarks, from: number, to: number, around: number): void {
-    const { right, up, back } = this.axes, { side, top, bottom } = this.window
+    const { right, up, back } = this.axes,
+      { side, top, bottom } = this.window
     for (let i = 3 * from; i < 3 * to; i += 3) {
-      const px = places[i], py = places[i + 1], pz = places[i + 2]
+      const px = places[i],
+        py = places[i + 1],
+        pz = places[i + 2]
       const x = right.x * px + right.y * py + right.z * pz
       const y = up.x * px + up.y * py + up.z * pz
       const z = back.x * px + back.y * py + back.z * pz + around
@@ -91,7 +122,8 @@ export function softened(values: readonly number[], reach: number): number[] {
   const sums = [0]
   for (const value of values) sums.push(sums[sums.length - 1] + value)
   return values.map((_, i) => {
-    const from = Math.max(0, i - reach), to = Math.min(values.length, i + reach + 1)
+    const from = Math.max(0, i - reach),
+      to = Math.min(values.length, i + reach + 1)
     return (sums[to] - sums[from]) / (to - from)
   })
 }

@@ -6,10 +6,16 @@ import type { OpenedMotion } from '../motion/source'
 import { Proportions } from '../viewer/proportions'
 
 /** Where what a picture must show is in each frame: [3 · (frame · points + point)], metres, model space. */
-export interface Landmarks { readonly points: number; readonly places: Float32Array }
+export interface Landmarks {
+  readonly points: number
+  readonly places: Float32Array
+}
 
 /** A place that moves with a joint, `offset` metres from it in its space. */
-export interface Point { readonly joint: number; readonly offset: Vector3 }
+export interface Point {
+  readonly joint: number
+  readonly offset: Vector3
+}
 
 /** A joint itself. */
 export function jointAlone(joint: number): Point {
@@ -42,10 +48,12 @@ export function bustPoints({ rig }: OpenedMotion, signer: Proportions): Point[] 
 /** Follows points through all frames of a motion, which must all be there. */
 export function follow({ store }: OpenedMotion, points: readonly Point[]): Landmarks {
   const { skeleton, rate, length } = store
-  const pose = restPose(skeleton), model = new Kinematics(skeleton)
+  const pose = restPose(skeleton),
+    model = new Kinematics(skeleton)
   const joints = withParents(skeleton, points)
   const places = new Float32Array(3 * points.length * length)
-  const at = new Vector3(), turn = new Quaternion()
+  const at = new Vector3(),
+    turn = new Quaternion()
   for (let frame = 0, to = 0; frame < length; ++frame) {
     store.sample(frame / rate, pose)
     model.update(pose, joints)

@@ -9,8 +9,16 @@ describe('the moments of a film', () => {
   })
 
   it('never lie after the last frame, whatever the rates', () => {
-    for (const [frames, from, to] of [[5179, 100, 30], [99, 120, 30], [10, 30, 60], [1, 30, 30], [7, 29.97, 30], [1000, 30000 / 1001, 24]]) {
-      const { seconds } = everyMoment(frames, from, to), last = (frames - 1) / from
+    for (const [frames, from, to] of [
+      [5179, 100, 30],
+      [99, 120, 30],
+      [10, 30, 60],
+      [1, 30, 30],
+      [7, 29.97, 30],
+      [1000, 30000 / 1001, 24],
+    ]) {
+      const { seconds } = everyMoment(frames, from, to),
+        last = (frames - 1) / from
       expect(seconds[seconds.length - 1]).toBeLessThanOrEqual(last + 1e-6)
       expect(seconds.length / to).toBeGreaterThan(last - 1e-6) // and the next one would
     }

@@ -7,14 +7,20 @@ import { bustPoints, follow, handPoints, jointAlone } from './landmarks'
 import type { RenderView } from './request'
 
 /** About a joint, metres of a signer of scale 1: flesh, and in a view of the hands something to see them by. */
-const kFlesh = 0.03, kAboutHands = 0.05
+const kFlesh = 0.03,
+  kAboutHands = 0.05
 /** Seconds before and after a moment over which a view of the hands follows them. */
 const kFollow = 0.35
 /** How far above the hands their view is, radians. */
 const kAbove = 0.12
 
 /** The picture that a sight is for: degrees of the lens, vertical; pixels, of which `foot` at the bottom are covered. */
-interface Picture { readonly lens: number; readonly width: number; readonly height: number; readonly foot: number }
+interface Picture {
+  readonly lens: number
+  readonly width: number
+  readonly height: number
+  readonly foot: number
+}
 
 /**
  * What a view needs to show a whole motion, which is known before the first picture is drawn: one sight, or one for each hand, as
@@ -23,19 +29,26 @@ interface Picture { readonly lens: number; readonly width: number; readonly heig
  */
 export function sightsOf(motion: OpenedMotion, signer: Proportions, view: RenderView, picture: (shots: number) => Picture): Sight[] {
   const hands = (['right', 'left'] as const).map((side) => handPoints(motion, side)).filter(({ length }) => length > 0)
-  const { scale } = signer, facing = facingOf(motion, signer)
+  const { scale } = signer,
+    facing = facingOf(motion, signer)
   if (view === 'hands') {
     if (hands.length === 0) throw new Error('no hands are known of this motion’s joints: a view of them cannot be made')
-    return hands.map((hand) => new Sight(motion, facing, view, picture(hands.length),
-      (framing) => framing.moving(follow(motion, hand), kAboutHands * scale, Math.round(kFollow * motion.store.rate))))
+    return hands.map(
+      (hand) =>
+        new Sight(motion, facing, view, picture(hands.length), (framing) =>
+          framing.moving(follow(motion, hand), kAboutHands * scale, Math.round(kFollow * motion.store.rate)),
+        ),
+    )
   }
   const body = [...bustPoints(motion, signer), ...hands.flat()]
   const seen = follow(motion, body.length > 0 ? body : motion.store.skeleton.joints.map((_, joint) => jointAlone(joint)))
-  return [new Sight(motion, facing, view, picture(1), (framing, { right }) => {
-    // From the front the body is in the middle, wherever the hands go; from the side all that is seen.
-    const root = view === 'front' ? motion.rig.pelvis : undefined
-    return [framing.still(seen, kFlesh * scale, root && meanAlong(follow(motion, [jointAlone(root.joint)]).places, right))]
-  })]
+  return [
+    new Sight(motion, facing, view, picture(1), (framing, { right }) => {
+      // From the front the body is in the middle, wherever the hands go; from the side all that is seen.
+      const root = view === 'front' ? motion.rig.pelvis : undefined
+      return [framing.still(seen, kFlesh * scale, root && meanAlong(follow(motion, [jointAlone(root.joint)]).places, right))]
+    }),
+  ]
 }
 
 /** A camera that is told beforehand where it stands, for each frame of a motion or once for all. */
@@ -45,8 +58,13 @@ export class Sight {
   private readonly stands: readonly Stand[]
   private readonly rate: number
 
-  constructor({ store }: OpenedMotion, private readonly signer: Facing, view: RenderView, { lens, width, height, foot }: Picture,
-              stands: (framing: Framing, axes: Axes) => readonly Stand[]) {
+  constructor(
+    { store }: OpenedMotion,
+    private readonly signer: Facing,
+    view: RenderView,
+    { lens, width, height, foot }: Picture,
+    stands: (framing: Framing, axes: Axes) => readonly Stand[],
+  ) {
     this.camera = new PerspectiveCamera(lens, width / height, 0.05, 50)
     this.rate = store.rate
     this.axes = axesOf(signer, view)
@@ -55,9 +73,12 @@ export class Sight {
 
   /** The camera for a moment, in seconds from the motion's first frame. */
   at(seconds: number): PerspectiveCamera {
-    const { camera, stands } = this, { right, up, back } = this.axes
-    const at = Math.min(stands.length - 1, Math.max(0, seconds * this.rate)), frame = Math.floor(at)
-    const from = stands[frame], to = stands[Math.min(stands.length - 1, frame + 1)]
+    const { camera, stands } = this,
+      { right, up, back } = this.axes
+    const at = Math.min(stands.length - 1, Math.max(0, seconds * this.rate)),
+      frame = Math.floor(at)
+    const from = stands[frame],
+      to = stands[Math.min(stands.length - 1, frame + 1)]
     const between = (key: keyof Stand) => from[key] + (to[key] - from[key]) * (at - frame)
     camera.position.set(0, 0, 0).addScaledVector(right, between('right')).addScaledVector(up, between('up')).addScaledVector(back, between('back'))
     camera.up.copy(this.signer.up)

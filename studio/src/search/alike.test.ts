@@ -1,10 +1,20 @@
 import { expect, it } from 'vitest'
 import { alikeOf, alikeQuery } from './alike'
 
-const document = { tiers: [
-  { name: 'Gloss', depth: 0, annotations: [{ begin: 1200, end: 2980, label: 'BONJOUR' }] },
-  { name: 'Phase', parent: 'Gloss', depth: 1, annotations: [{ begin: 1200, end: 1900, label: 'Preparation' }, { begin: 1900, end: 2460, label: 'Stroke' }] },
-] }
+const document = {
+  tiers: [
+    { name: 'Gloss', depth: 0, annotations: [{ begin: 1200, end: 2980, label: 'BONJOUR' }] },
+    {
+      name: 'Phase',
+      parent: 'Gloss',
+      depth: 1,
+      annotations: [
+        { begin: 1200, end: 1900, label: 'Preparation' },
+        { begin: 1900, end: 2460, label: 'Stroke' },
+      ],
+    },
+  ],
+}
 
 it('asks for signs that move like a stretch, and for phases where it is one', () => {
   expect(alikeQuery('me"teo', 1200, 2980, document)).toBe('like("me\\"teo"@1200..2980)')

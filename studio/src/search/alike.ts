@@ -7,7 +7,8 @@ import { pieceText, type Answer } from './answers'
  * is a phase as it is annotated, phases of that kind.
  */
 export function alikeQuery(recording: string, from: number, to: number, { tiers }: AnnotationDocument): string {
-  const begin = Math.round(from), end = Math.round(to)
+  const begin = Math.round(from),
+    end = Math.round(to)
   const like = `like(${pieceText({ recording, begin, end })})`
   for (const { name, depth, annotations } of tiers) {
     const same = annotations.find((one) => Math.abs(one.begin - from) < 1 && Math.abs(one.end - to) < 1)

@@ -69,7 +69,8 @@ export class AnswerLoop implements Showing {
   /** Begins the loop anew: the answer, or with what is around it. */
   private repeat(originMs = this.strands[0]?.motion.originMs): void {
     if (!this.answer || originMs === undefined) return
-    const { transport } = this, { begin, end } = this.answer
+    const { transport } = this,
+      { begin, end } = this.answer
     const around = this.around ? kAround : 0
     transport.setLoop((begin - around - originMs) / 1000, (end + around - originMs) / 1000)
     transport.seek(transport.loop?.begin ?? 0)

@@ -12,7 +12,10 @@ it('reads answers with a distance and with variables', () => {
 
 it('reads plain answers, and counts on over several pieces', () => {
   const reader = new AnswerReader()
-  reader.take([['recording', 'tier', 'name', 'begin ms', 'end ms'], ['a', 'T', 'x', '0', '1']])
+  reader.take([
+    ['recording', 'tier', 'name', 'begin ms', 'end ms'],
+    ['a', 'T', 'x', '0', '1'],
+  ])
   const [second] = reader.take([['a', 'T', 'y', '1', '2']])
   expect(second).toEqual({ at: 1, recording: 'a', tier: 'T', name: 'y', begin: 1, end: 2, distance: undefined, bindings: undefined })
   expect(reader.ranked).toBe(false)

@@ -35,7 +35,12 @@ export class AnswerReader {
         continue
       }
       const answer: Answer = {
-        at: this.count++, recording: this.text(record[0]), tier: this.text(record[1]), name: record[2], begin: Number(record[3]), end: Number(record[4]),
+        at: this.count++,
+        recording: this.text(record[0]),
+        tier: this.text(record[1]),
+        name: record[2],
+        begin: Number(record[3]),
+        end: Number(record[4]),
         distance: this.ranked ? Number(record[kPlain]) : undefined,
         bindings: this.variables.length > 0 ? record.slice(this.ranked ? kPlain + 1 : kPlain) : undefined,
       }

@@ -25,7 +25,10 @@ export class Asking {
   seconds = $state(0)
   private abort?: AbortController
 
-  constructor(private readonly api: Api, private readonly database: string) {}
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+  ) {}
 
   async ask(text: string, limit?: number): Promise<void> {
     this.abort?.abort()
@@ -67,7 +70,8 @@ export class Asking {
   }
 
   private async read(csv: ReadableStream<Uint8Array>, text: string, signal: AbortSignal): Promise<void> {
-    const lines = new CsvReader(), reader = new AnswerReader()
+    const lines = new CsvReader(),
+      reader = new AnswerReader()
     const come: Answer[] = []
     const decoder = new TextDecoder()
     const stream = csv.getReader()

@@ -2,7 +2,9 @@ import { expect, it } from 'vitest'
 import { kGap, layoutOf, moved, shownCells } from './cells'
 
 it('puts as many cells beside each other as fit', () => {
-  const small = layoutOf(1240, 'small'), large = layoutOf(1240, 'large'), phone = layoutOf(344, 'medium')
+  const small = layoutOf(1240, 'small'),
+    large = layoutOf(1240, 'large'),
+    phone = layoutOf(344, 'medium')
   expect([small.columns, large.columns, phone.columns]).toEqual([8, 4, 2])
   for (const { columns, width } of [small, large]) expect(columns * width + (columns - 1) * kGap).toBeLessThanOrEqual(1240)
   expect(layoutOf(20, 'large').columns).toBe(1)

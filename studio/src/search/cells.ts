@@ -1,7 +1,12 @@
 import { shownRows } from '../ui/rows'
 
 /** How cells of a size lie in a window of a width: as many beside each other as fit, all as wide as there is room. */
-export interface Layout { readonly columns: number; readonly width: number; /** Of the picture. */ readonly picture: number; /** From one row of cells to the next. */ readonly step: number }
+export interface Layout {
+  readonly columns: number
+  readonly width: number
+  /** Of the picture. */ readonly picture: number
+  /** From one row of cells to the next. */ readonly step: number
+}
 export const kGap = 8
 export const kCaption = 48
 export const kSizes = { small: 132, medium: 184, large: 268 } as const
@@ -26,8 +31,14 @@ export function shownCells(count: number, { columns, step }: Layout, scroll: num
 export function moved(key: string, at: number, count: number, columns: number, rowsInView: number): number {
   const page = columns * Math.max(1, rowsInView)
   const to: Readonly<Record<string, number>> = {
-    ArrowLeft: at - 1, ArrowRight: at + 1, ArrowUp: at - columns < 0 ? at : at - columns, ArrowDown: at + columns >= count ? at : at + columns,
-    Home: 0, End: count - 1, PageUp: at - page, PageDown: at + page,
+    ArrowLeft: at - 1,
+    ArrowRight: at + 1,
+    ArrowUp: at - columns < 0 ? at : at - columns,
+    ArrowDown: at + columns >= count ? at : at + columns,
+    Home: 0,
+    End: count - 1,
+    PageUp: at - page,
+    PageDown: at + page,
   }
   return Math.min(count - 1, Math.max(0, to[key] ?? at))
 }

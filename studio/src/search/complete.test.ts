@@ -2,19 +2,29 @@ import { expect, it } from 'vitest'
 import { complete, type Words } from './complete'
 
 const words: Words = {
-  glosses: [{ gloss: 'LE MANS', tokens: 3 }, { gloss: 'NANTES', tokens: 2 }, { gloss: 'VANNES', tokens: 5 }, { gloss: 'ÉTÉ', tokens: 1 }],
-  tiers: ['Gloss', 'Mouthing', 'Phase'], recordings: ['meteo', 'villes'], signers: ['anna'], tracks: ['jawOpen'],
+  glosses: [
+    { gloss: 'LE MANS', tokens: 3 },
+    { gloss: 'NANTES', tokens: 2 },
+    { gloss: 'VANNES', tokens: 5 },
+    { gloss: 'ÉTÉ', tokens: 1 },
+  ],
+  tiers: ['Gloss', 'Mouthing', 'Phase'],
+  recordings: ['meteo', 'villes'],
+  signers: ['anna'],
+  tracks: ['jawOpen'],
   language: {
     fields: ['gloss', 'phase', 'hand', 'recording', 'tier', 'duration', 'begin', 'end', 'unit', 'signer'],
     links: ['parent', 'child', 'ancestor', 'descendant', 'overlaps', 'during', 'starts', 'ends', 'equals'],
-    phases: ['preparation', 'stroke', 'retraction', 'hold', 'other'], hands: ['both', 'right', 'left'],
+    phases: ['preparation', 'stroke', 'retraction', 'hold', 'other'],
+    hands: ['both', 'right', 'left'],
     points: ['hand', 'left_hand', 'right_hand', 'head', 'neck'],
     functions: ['speed', 'mean_speed', 'path', 'distance', 'contact', 'begin', 'end', 'track', 'gaze', 'like'],
   },
 }
 /** `|` is the caret. What is offered, and what the text becomes with the first of it. */
 const at = (marked: string, known = words) => {
-  const caret = marked.indexOf('|'), text = marked.slice(0, caret) + marked.slice(caret + 1)
+  const caret = marked.indexOf('|'),
+    text = marked.slice(0, caret) + marked.slice(caret + 1)
   const { from, to, options, eager } = complete(text, caret, known)
   const [first] = options
   return { labels: options.map(({ label }) => label), first, eager, chosen: first ? text.slice(0, from) + first.insert + text.slice(to) : text }
@@ -67,8 +77,25 @@ it('offers what a tier says once that is known, and tells which tier to ask for'
   const wants = (text: string, known = words) => complete(text, text.length, known).wants
   expect([wants('tier("Mouthing") = '), wants('tier("Mouthing") = "nu'), wants('!tier("Gloss") != ')]).toEqual(['Mouthing', 'Mouthing', 'Gloss'])
   // Not where a name is no tier's, or an expression is written, or something else.
-  expect([wants('tier("Mouth") = '), wants('tier("Mouthing") =~ '), wants('tier("Mouthing"'), wants('tier("Mouthing") = "nuage" & gloss = '), wants('tier("Mouthing") = $X & tier() = ')]).toEqual(Array(5).fill(undefined))
-  const known = { ...words, labels: new Map([['Mouthing', [{ label: 'le "nuage"', annotations: 3 }, { label: 'pluie', annotations: 1 }]]]) }
+  expect([
+    wants('tier("Mouth") = '),
+    wants('tier("Mouthing") =~ '),
+    wants('tier("Mouthing"'),
+    wants('tier("Mouthing") = "nuage" & gloss = '),
+    wants('tier("Mouthing") = $X & tier() = '),
+  ]).toEqual(Array(5).fill(undefined))
+  const known = {
+    ...words,
+    labels: new Map([
+      [
+        'Mouthing',
+        [
+          { label: 'le "nuage"', annotations: 3 },
+          { label: 'pluie', annotations: 1 },
+        ],
+      ],
+    ]),
+  }
   expect([wants('tier("Mouthing") = ', known), wants('tier("Gloss") = ', known)]).toEqual([undefined, 'Gloss'])
   expect(at('gloss = "A" overlaps tier("Mouthing") = |', known).labels).toEqual(['le "nuage"', 'pluie', '$X'])
   expect(at('tier("Mouthing") = nua|', known)).toMatchObject({ chosen: 'tier("Mouthing") = "le \\"nuage\\""', first: { tokens: 3 } })
@@ -110,11 +137,15 @@ it('offers comparisons, components and what joins conditions', () => {
 })
 
 it('is silent where nothing in its lists can stand', () => {
-  for (const marked of ['gloss =~ /van|', 'gloss = "A" ->[..|', 'gloss = "VANNES|"', 'phase = stroke|', '12 |', 'tier("A") = "x|']) expect(at(marked).labels, marked).toEqual([])
+  for (const marked of ['gloss =~ /van|', 'gloss = "A" ->[..|', 'gloss = "VANNES|"', 'phase = stroke|', '12 |', 'tier("A") = "x|'])
+    expect(at(marked).labels, marked).toEqual([])
 })
 
 it('offers much at a time, and not all of a large vocabulary', () => {
   const glosses = Array.from({ length: 5000 }, (_, i) => ({ gloss: `G${i}`, tokens: 1 }))
   expect(complete('gloss = ', 8, { ...words, glosses }).options.length).toBeLessThanOrEqual(60)
-  expect(complete('gloss = G4999', 13, { ...words, glosses: [...glosses, { gloss: 'G49990', tokens: 1 }] }).options.map(({ label }) => label)).toEqual(['G4999', 'G49990'])
+  expect(complete('gloss = G4999', 13, { ...words, glosses: [...glosses, { gloss: 'G49990', tokens: 1 }] }).options.map(({ label }) => label)).toEqual([
+    'G4999',
+    'G49990',
+  ])
 })

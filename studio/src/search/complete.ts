@@ -44,8 +44,15 @@ export function complete(text: string, caret: number, words: Words): Completion 
   const options = matching(offered(context, words, rest, before), typed).map((option) => spaced(option, text, from, context))
   const done = text.slice(from, to)
   const only = typed !== '' && options.length === 1 && options[0].insert.trim() === done
-  const wants = context.at === 'value' && context.by !== '=~' && context.tier !== undefined && words.tiers.includes(context.tier) && !words.labels?.has(context.tier)
-  return { from, to, options: only ? [] : options, ...(wants ? { wants: context.tier } : {}), eager: typed !== '' || (typing !== undefined && typing.kind === 'text') || context.at === 'value' || context.at === 'argument' }
+  const wants =
+    context.at === 'value' && context.by !== '=~' && context.tier !== undefined && words.tiers.includes(context.tier) && !words.labels?.has(context.tier)
+  return {
+    from,
+    to,
+    options: only ? [] : options,
+    ...(wants ? { wants: context.tier } : {}),
+    eager: typed !== '' || (typing !== undefined && typing.kind === 'text') || context.at === 'value' || context.at === 'argument',
+  }
 }
 
 /** Whether the caret is in a token that is being typed; behind a sign or a closed text it is not. */
@@ -64,15 +71,20 @@ function endOf({ kind, begin, end, closed }: Token, text: string, caret: number)
 
 function offered(context: Context, words: Words, rest: string, before: readonly Token[]): readonly Option[] {
   switch (context.at) {
-    case 'condition': return conditions(words, before)
+    case 'condition':
+      return conditions(words, before)
     case 'compare': {
       const { fields, functions, links } = words.language
       return [fields, functions, links].some((list) => list.includes(context.of)) ? compares(context.of, context.part) : []
     }
-    case 'value': return values(context, words)
-    case 'argument': return argumentsOf(context.of, context.index, words, rest)
-    case 'after': return after(context.open)
-    case 'nothing': return []
+    case 'value':
+      return values(context, words)
+    case 'argument':
+      return argumentsOf(context.of, context.index, words, rest)
+    case 'after':
+      return after(context.open)
+    case 'nothing':
+      return []
   }
 }
 
@@ -81,8 +93,9 @@ const sign = (label: string, insert = label): Option => ({ label, insert, kind: 
 
 function conditions({ language }: Words, before: readonly Token[]): Option[] {
   const known = (name: string) => language.fields.includes(name)
-  const fields = kPlainFields.filter(known).map((name) =>
-    name === 'unit' ? word(name) : name === 'tier' ? word(name, 'tier("') : word(name, `${name} ${kTimes.includes(name) ? '>' : '='} `))
+  const fields = kPlainFields
+    .filter(known)
+    .map((name) => (name === 'unit' ? word(name) : name === 'tier' ? word(name, 'tier("') : word(name, `${name} ${kTimes.includes(name) ? '>' : '='} `)))
   const calls = [...language.functions.filter((name) => name !== 'like'), ...language.links].filter((name) => isCall(name) || kTimes.includes(name))
   const like = language.functions.includes('like') ? [word('like', 'like("')] : []
   const last = before[before.length - 1]
@@ -96,10 +109,14 @@ function compares(of: string, part?: string): Option[] {
   if (part === '' && (of === 'begin' || of === 'end')) return kComponents.map((name) => word(name))
   const moments = part !== '' ? [] : of === 'track' || of === 'gaze' ? kMoments : of === 'distance' ? kMoments.slice(1) : []
   const named = part === '.palm' || part === '.fingers' || part === '.x' || part === '.forward'
-  const signs = kTextFields.includes(of) || of === 'tier' ? ['=', '!=', ...(of === 'hand' ? [] : ['=~'])]
-    : of === 'contact' || part === '.contact' ? ['=']
-    : part === '.palm' || part === '.fingers' ? ['=', '!=']
-    : ['>', '<', '>=', '<=', ...(named || part === '.height' || (part === undefined && kTimes.includes(of)) ? ['=', '!='] : [])]
+  const signs =
+    kTextFields.includes(of) || of === 'tier'
+      ? ['=', '!=', ...(of === 'hand' ? [] : ['=~'])]
+      : of === 'contact' || part === '.contact'
+        ? ['=']
+        : part === '.palm' || part === '.fingers'
+          ? ['=', '!=']
+          : ['>', '<', '>=', '<=', ...(named || part === '.height' || (part === undefined && kTimes.includes(of)) ? ['=', '!='] : [])]
   return [...signs.map((one) => sign(one, `${one} `)), ...moments.map((name) => word(name))]
 }
 
@@ -109,13 +126,20 @@ function values({ of, by, part, tier }: Context & { readonly at: 'value' }, word
   const texts = (list: readonly string[], kind: Option['kind']) => list.map((label): Option => ({ label, insert: quoted(label), kind }))
   const plain = (list: readonly string[], kind: Option['kind']) => list.map((label): Option => ({ label, insert: label, kind }))
   switch (of) {
-    case 'gloss': return [...words.glosses.map(({ gloss, tokens }): Option => ({ label: gloss, insert: quoted(gloss), kind: 'gloss', tokens })), sign('$X')]
-    case 'phase': return plain(language.phases, 'phase')
-    case 'hand': return plain(language.hands, 'hand')
-    case 'recording': return texts(words.recordings, 'recording')
-    case 'signer': return texts(words.signers, 'signer')
+    case 'gloss':
+      return [...words.glosses.map(({ gloss, tokens }): Option => ({ label: gloss, insert: quoted(gloss), kind: 'gloss', tokens })), sign('$X')]
+    case 'phase':
+      return plain(language.phases, 'phase')
+    case 'hand':
+      return plain(language.hands, 'hand')
+    case 'recording':
+      return texts(words.recordings, 'recording')
+    case 'signer':
+      return texts(words.signers, 'signer')
     case 'tier': {
-      const labels = words.labels?.get(tier ?? '')?.map(({ label, annotations }): Option => ({ label, insert: quoted(label), kind: 'label', tokens: annotations }))
+      const labels = words.labels
+        ?.get(tier ?? '')
+        ?.map(({ label, annotations }): Option => ({ label, insert: quoted(label), kind: 'label', tokens: annotations }))
       return [...(labels ?? [sign('"…"', '"')]), sign('$X')]
     }
   }
@@ -125,26 +149,42 @@ function values({ of, by, part, tier }: Context & { readonly at: 'value' }, word
 
 function argumentsOf(of: string, index: number, words: Words, rest: string): readonly Option[] {
   const end = /^\s*[,)]/.test(rest) ? '' : ')'
-  const closing = (list: readonly string[], kind: Option['kind'], write = (one: string) => one, last = end) => list.map((label): Option => ({ label, insert: write(label) + last, kind }))
+  const closing = (list: readonly string[], kind: Option['kind'], write = (one: string) => one, last = end) =>
+    list.map((label): Option => ({ label, insert: write(label) + last, kind }))
   switch (of) {
-    case 'tier': return closing(words.tiers, 'tier', quoted)
-    case 'track': case 'mean_track': return closing(words.tracks ?? [], 'track')
-    case 'gaze': case 'mean_gaze': return closing(kAngles, 'word')
-    case 'like': return index > 0 ? closing(words.language.points, 'word') : closing(words.recordings, 'recording', quoted, /^\s*@/.test(rest) ? '' : '@')
-    case 'distance': return closing(words.language.points, 'word', undefined, index === 0 && end ? ', ' : end)
+    case 'tier':
+      return closing(words.tiers, 'tier', quoted)
+    case 'track':
+    case 'mean_track':
+      return closing(words.tracks ?? [], 'track')
+    case 'gaze':
+    case 'mean_gaze':
+      return closing(kAngles, 'word')
+    case 'like':
+      return index > 0 ? closing(words.language.points, 'word') : closing(words.recordings, 'recording', quoted, /^\s*@/.test(rest) ? '' : '@')
+    case 'distance':
+      return closing(words.language.points, 'word', undefined, index === 0 && end ? ', ' : end)
   }
   return words.language.functions.includes(of) ? closing(words.language.points, 'word') : []
 }
 
 function after(open: number): Option[] {
-  return [sign('&', '& '), sign('|', '| '), sign('->', '-> '), sign('->[..]', '->[..500ms] '), ...kRelations.map((name) => word(name, `${name} `)), ...(open > 0 ? [sign(')')] : [])]
+  return [
+    sign('&', '& '),
+    sign('|', '| '),
+    sign('->', '-> '),
+    sign('->[..]', '->[..500ms] '),
+    ...kRelations.map((name) => word(name, `${name} `)),
+    ...(open > 0 ? [sign(')')] : []),
+  ]
 }
 
 /** What begins with what was typed, then what has it inside; accents and case do not count. */
 function matching(options: readonly Option[], typed: string): Option[] {
   const wanted = folded(typed)
   if (!wanted) return options.slice(0, kMost)
-  const first: Option[] = [], then: Option[] = []
+  const first: Option[] = [],
+    then: Option[] = []
   for (const option of options) {
     const at = folded(option.label).indexOf(wanted)
     if (at === 0) first.push(option)

@@ -32,7 +32,8 @@ export function contextAfter(tokens: readonly Token[]): Context {
       open.push(call ? of : '')
       tier = undefined
       here = call ? { at: 'argument', of, index: 0 } : { at: 'condition' }
-    } else if (symbol && kCompare.test(text)) here = here.at === 'compare' ? { at: 'value', of: here.of, by: text, part: here.part, tier: here.tier } : { at: 'nothing' }
+    } else if (symbol && kCompare.test(text))
+      here = here.at === 'compare' ? { at: 'value', of: here.of, by: text, part: here.part, tier: here.tier } : { at: 'nothing' }
     else if (symbol && text === ',') here = here.at === 'argument' ? { at: 'argument', of: here.of, index: here.index + 1 } : here
     else if (here.at === 'argument' && here.of === 'tier') tier = text
     else if (here.at === 'condition') here = begun(here, token, open)

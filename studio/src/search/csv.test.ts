@@ -3,7 +3,12 @@ import { CsvReader } from './csv'
 
 it('gives each record once it is whole, however the text is cut', () => {
   const text = 'recording,name\nmeteo,"A, ""B""\nC"\nvilles,\n"",x\n'
-  const wanted = [['recording', 'name'], ['meteo', 'A, "B"\nC'], ['villes', ''], ['', 'x']]
+  const wanted = [
+    ['recording', 'name'],
+    ['meteo', 'A, "B"\nC'],
+    ['villes', ''],
+    ['', 'x'],
+  ]
   for (let cut = 0; cut <= text.length; ++cut) {
     const reader = new CsvReader()
     expect([...reader.push(text.slice(0, cut)), ...reader.push(text.slice(cut))]).toEqual(wanted)

@@ -9,14 +9,21 @@ export class CsvReader {
     if (!all.includes('"')) {
       const end = all.lastIndexOf('\n') + 1
       this.rest = all.slice(end)
-      return end === 0 ? [] : all.slice(0, end - 1).split('\n').map((line) => line.split(','))
+      return end === 0
+        ? []
+        : all
+            .slice(0, end - 1)
+            .split('\n')
+            .map((line) => line.split(','))
     }
     return this.quoted(all)
   }
 
   private quoted(all: string): string[][] {
     const records: string[][] = []
-    let record: string[] = [], begin = 0, at = 0
+    let record: string[] = [],
+      begin = 0,
+      at = 0
     while (at < all.length) {
       let field: string
       if (all[at] === '"') {

@@ -5,8 +5,11 @@ import type { Answer } from './answers'
 import { eafWith } from './eaf_with'
 
 const kEaf = `<?xml version="1.0" encoding="UTF-8"?>
-<ANNOTATION_DOCUMENT><HEADER/><TIME_ORDER><TIME_SLOT TIME_SLOT_ID="ts1" TIME_VALUE="0"/><TIME_SLOT TIME_SLOT_ID="ts2"/><TIME_SLOT TIME_SLOT_ID="ts5" TIME_VALUE="900"/></TIME_ORDER>
-<TIER LINGUISTIC_TYPE_REF="default" TIER_ID="query 1"><ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="a1" TIME_SLOT_REF1="ts1" TIME_SLOT_REF2="ts5"><ANNOTATION_VALUE>X</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION></TIER>
+<ANNOTATION_DOCUMENT><HEADER/><TIME_ORDER><TIME_SLOT TIME_SLOT_ID="ts1" TIME_VALUE="0"/>
+<TIME_SLOT TIME_SLOT_ID="ts2"/><TIME_SLOT TIME_SLOT_ID="ts5" TIME_VALUE="900"/></TIME_ORDER>
+<TIER LINGUISTIC_TYPE_REF="default" TIER_ID="query 1">
+<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="a1" TIME_SLOT_REF1="ts1" TIME_SLOT_REF2="ts5">
+<ANNOTATION_VALUE>X</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION></TIER>
 <LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="default"/><LOCALE LANGUAGE_CODE="en"/></ANNOTATION_DOCUMENT>`
 const answer = (name: string, begin: number, end: number): Answer => ({ at: 0, recording: 'r', tier: 'Gloss', name, begin, end })
 
@@ -15,7 +18,10 @@ it('puts answers on tiers of their own, none over another, and leaves all else a
   const { tiers } = readEaf(made)
   expect(tiers.map(({ name }) => name)).toEqual(['query 1', 'query 2', 'query 3'])
   expect(tiers[0].annotations).toEqual([{ begin: 0, end: 900, label: 'X' }])
-  expect(tiers[1].annotations).toEqual([{ begin: 0, end: 600, label: 'A' }, { begin: 600, end: 700, label: 'D' }])
+  expect(tiers[1].annotations).toEqual([
+    { begin: 0, end: 600, label: 'A' },
+    { begin: 600, end: 700, label: 'D' },
+  ])
   expect(tiers[2].annotations).toEqual([{ begin: 500, end: 800, label: 'B & <C>' }])
   const order = [...made.matchAll(/<(HEADER|TIME_ORDER|TIER|LINGUISTIC_TYPE|LOCALE)\b/g)].map(([, name]) => name)
   expect(order).toEqual(['HEADER', 'TIME_ORDER', 'TIER', 'TIER', 'TIER', 'LINGUISTIC_TYPE', 'LINGUISTIC_TYPE', 'LOCALE'])
@@ -25,7 +31,8 @@ it('puts answers on tiers of their own, none over another, and leaves all else a
   expect(made).toContain('<PROPERTY NAME="lastUsedAnnotationId">4</PROPERTY>')
   const times = [...made.matchAll(/TIME_VALUE="(\d+)"/g)].map(([, time]) => Number(time))
   expect(times).toEqual(times.toSorted((a, b) => a - b))
-  const kept = made.split('\n'), before = kEaf.split('\n')
+  const kept = made.split('\n'),
+    before = kEaf.split('\n')
   for (const line of [before[0], before[2].slice(0, 300)]) expect(kept).toContain(line)
   expect(kept.length).toBeGreaterThan(20)
 })

@@ -8,7 +8,13 @@ it('has them all where the database has what they name', () => {
 })
 
 it('asks for the most frequent gloss of another database, and for nothing that it does not have', () => {
-  const texts = examplesFor({ glosses: [{ gloss: 'A', tokens: 2 }, { gloss: 'B "C"', tokens: 7 }], recordings: ['x'] }).map(({ text }) => text)
+  const texts = examplesFor({
+    glosses: [
+      { gloss: 'A', tokens: 2 },
+      { gloss: 'B "C"', tokens: 7 },
+    ],
+    recordings: ['x'],
+  }).map(({ text }) => text)
   expect(texts[0]).toBe('gloss = "B \\"C\\""')
   expect(texts).toContain('gloss = $X ->[..20s] gloss = $X')
   expect(texts.join()).not.toMatch(/VANNES|MATIN|villes/)

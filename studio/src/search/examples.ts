@@ -3,7 +3,11 @@ import type { Words } from './complete'
 import { scan } from './scan'
 
 /** Queries for who does not know the language: what they ask, and that in the language. All find something in the demo; docs/query.md tells more. */
-export interface Example { readonly text: string; readonly en: string; readonly fr: string }
+export interface Example {
+  readonly text: string
+  readonly en: string
+  readonly fr: string
+}
 
 export const kExamples: readonly Example[] = [
   { text: 'gloss = "VANNES"', en: 'All tokens of a gloss', fr: 'Toutes les occurrences d’une glose' },
@@ -25,9 +29,14 @@ const kGloss = 'VANNES'
 export function examplesFor(words: Pick<Words, 'glosses' | 'recordings'> | undefined): readonly Example[] {
   if (!words) return kExamples
   const known = new Set([...words.glosses.map(({ gloss }) => gloss), ...words.recordings])
-  const frequent = words.glosses.reduce<{ gloss: string; tokens: number } | undefined>((most, one) => (most && most.tokens >= one.tokens ? most : one), undefined)
+  const frequent = words.glosses.reduce<{ gloss: string; tokens: number } | undefined>(
+    (most, one) => (most && most.tokens >= one.tokens ? most : one),
+    undefined,
+  )
   return kExamples.flatMap((example) => {
-    const names = scan(example.text).filter(({ kind }) => kind === 'text').map(({ text }) => text)
+    const names = scan(example.text)
+      .filter(({ kind }) => kind === 'text')
+      .map(({ text }) => text)
     const unknown = names.filter((name) => !known.has(name))
     if (unknown.length === 0) return [example]
     if (!frequent || unknown.some((name) => name !== kGloss)) return []

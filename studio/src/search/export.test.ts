@@ -3,7 +3,15 @@ import { AnswerReader, type Answer } from './answers'
 import { CsvReader } from './csv'
 import { csvOf, distinct, fileName, jsonOf } from './export'
 
-const answer = (at: number, more: Partial<Answer> = {}): Answer => ({ at, recording: 'meteo', tier: 'Gloss', name: 'LE "MANS", x', begin: 10, end: 20, ...more })
+const answer = (at: number, more: Partial<Answer> = {}): Answer => ({
+  at,
+  recording: 'meteo',
+  tier: 'Gloss',
+  name: 'LE "MANS", x',
+  begin: 10,
+  end: 20,
+  ...more,
+})
 
 it('writes CSV that it reads back', () => {
   const answers = [answer(0, { distance: 0.25, bindings: ['A,B'] }), answer(1, { distance: 1, bindings: [''] })]

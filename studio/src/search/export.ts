@@ -2,9 +2,18 @@ import type { Answer } from './answers'
 
 /** Answers as the server's CSV has them. */
 export function csvOf(answers: readonly Answer[], ranked: boolean, variables: readonly string[]): string {
-  const rows = [['recording', 'tier', 'name', 'begin ms', 'end ms', ...(ranked ? ['distance'] : []), ...variables],
-    ...answers.map(({ recording, tier, name, begin, end, distance, bindings }) =>
-      [recording, tier, name, String(begin), String(end), ...(ranked ? [(distance ?? 0).toFixed(3)] : []), ...(bindings ?? [])])]
+  const rows = [
+    ['recording', 'tier', 'name', 'begin ms', 'end ms', ...(ranked ? ['distance'] : []), ...variables],
+    ...answers.map(({ recording, tier, name, begin, end, distance, bindings }) => [
+      recording,
+      tier,
+      name,
+      String(begin),
+      String(end),
+      ...(ranked ? [(distance ?? 0).toFixed(3)] : []),
+      ...(bindings ?? []),
+    ]),
+  ]
   return rows.map((row) => row.map((field) => (/[",\r\n]/.test(field) ? `"${field.replaceAll('"', '""')}"` : field)).join(',') + '\n').join('')
 }
 

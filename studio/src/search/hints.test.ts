@@ -8,14 +8,22 @@ it('reads what the server suggests', () => {
 })
 
 it('replaces the word at the caret', () => {
-  expect(replacements('glos = "X"', "query:1:1: no condition is called 'glos'; did you mean gloss?; use", { line: 1, column: 1 })).toEqual([{ label: 'gloss', text: 'gloss = "X"' }])
+  expect(replacements('glos = "X"', "query:1:1: no condition is called 'glos'; did you mean gloss?; use", { line: 1, column: 1 })).toEqual([
+    { label: 'gloss', text: 'gloss = "X"' },
+  ])
 })
 
 it('replaces the name that a hint without a place is about, in quotes', () => {
-  expect(replacements('gloss = VANES & phase = stroke', 'no sign has the gloss "VANES"; did you mean VANNES or NANTES?').map(({ text }) => text)).toEqual(
-    ['gloss = "VANNES" & phase = stroke', 'gloss = "NANTES" & phase = stroke'])
-  expect(replacements('like("meto"@0..10)', "like(…): no recording 'meto' in this database; did you mean meteo?")).toEqual([{ label: 'meteo', text: 'like("meteo"@0..10)' }])
-  expect(replacements('track(jawOpn) > 0.2', 'track("jawOpn"): no recording of this database has such a scalar track; did you mean jawOpen?')[0].text).toBe('track("jawOpen") > 0.2')
+  expect(replacements('gloss = VANES & phase = stroke', 'no sign has the gloss "VANES"; did you mean VANNES or NANTES?').map(({ text }) => text)).toEqual([
+    'gloss = "VANNES" & phase = stroke',
+    'gloss = "NANTES" & phase = stroke',
+  ])
+  expect(replacements('like("meto"@0..10)', "like(…): no recording 'meto' in this database; did you mean meteo?")).toEqual([
+    { label: 'meteo', text: 'like("meteo"@0..10)' },
+  ])
+  expect(replacements('track(jawOpn) > 0.2', 'track("jawOpn"): no recording of this database has such a scalar track; did you mean jawOpen?')[0].text).toBe(
+    'track("jawOpen") > 0.2',
+  )
 })
 
 it('suggests nothing where it is not plain what to replace', () => {

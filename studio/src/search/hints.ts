@@ -3,7 +3,10 @@ import { markAt, offsetOf, scan } from './scan'
 import type { FaultPlace } from '../api/fault'
 
 /** Another text of the query that the server's words suggest, where it is plain what to replace by what. */
-export interface Replacement { readonly label: string; readonly text: string }
+export interface Replacement {
+  readonly label: string
+  readonly text: string
+}
 
 /** What `did you mean A, B or C?` names. */
 export function suggested(message: string): string[] {

@@ -8,14 +8,33 @@ const kDirections = ['up', 'down', 'left', 'right', 'forward', 'back']
 /** What a component may be compared with, by name. */
 export const kNamesOf: Readonly<Record<string, readonly string[]>> = {
   '.height': ['below_waist', 'waist', 'chest', 'shoulder', 'chin', 'mouth', 'forehead', 'above_head'],
-  '.x': ['left', 'centre', 'right'], '.forward': ['near', 'far'], '.palm': kDirections, '.fingers': kDirections,
-  '.contact': ['hand', 'head', 'torso'], contact: ['hand', 'head', 'torso'],
+  '.x': ['left', 'centre', 'right'],
+  '.forward': ['near', 'far'],
+  '.palm': kDirections,
+  '.fingers': kDirections,
+  '.contact': ['hand', 'head', 'torso'],
+  contact: ['hand', 'head', 'torso'],
 }
 /** What a number of each quantity looks like. */
 export const kNumberOf: Readonly<Record<string, string>> = {
-  duration: '300ms', begin: '1s', end: '1s', speed: '1 m/s', mean_speed: '1 m/s', acceleration: '10 m/s2', mean_acceleration: '10 m/s2', path: '40 cm',
-  displacement: '20 cm', distance: '30 cm', track: '0.4', mean_track: '0.2', gaze: '15 deg', mean_gaze: '5 deg', '.height': '20 cm', '.x': '20 cm',
-  '.forward': '30 cm', '.openness': '0.5',
+  duration: '300ms',
+  begin: '1s',
+  end: '1s',
+  speed: '1 m/s',
+  mean_speed: '1 m/s',
+  acceleration: '10 m/s2',
+  mean_acceleration: '10 m/s2',
+  path: '40 cm',
+  displacement: '20 cm',
+  distance: '30 cm',
+  track: '0.4',
+  mean_track: '0.2',
+  gaze: '15 deg',
+  mean_gaze: '5 deg',
+  '.height': '20 cm',
+  '.x': '20 cm',
+  '.forward': '30 cm',
+  '.openness': '0.5',
 }
 /** Fields that hold texts, in the order in which they are offered, and how they are begun. */
 export const kTextFields: readonly string[] = ['gloss', 'phase', 'hand', 'recording', 'signer']

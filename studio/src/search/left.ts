@@ -2,7 +2,11 @@ import type { Answer } from './answers'
 import type { Choice } from './choice'
 
 /** What of a search does not stand in the address: how it was left for another page. */
-export interface Left { readonly hash: string; readonly chosen: readonly Answer[]; /** Whether the list had the keys. */ readonly focused: boolean }
+export interface Left {
+  readonly hash: string
+  readonly chosen: readonly Answer[]
+  /** Whether the list had the keys. */ readonly focused: boolean
+}
 
 let left: Left | undefined
 
@@ -18,8 +22,10 @@ export function comeBack(hash: string): Left | undefined {
 
 /** Those of the chosen that are still what they were. */
 export function chosenAgain(chosen: readonly Answer[], answers: readonly Answer[]): Choice {
-  return new Set(chosen.flatMap(({ at, recording, name, begin, end }) => {
-    const one = answers[at] as Answer | undefined
-    return one && one.recording === recording && one.name === name && one.begin === begin && one.end === end ? at : []
-  }))
+  return new Set(
+    chosen.flatMap(({ at, recording, name, begin, end }) => {
+      const one = answers[at] as Answer | undefined
+      return one && one.recording === recording && one.name === name && one.begin === begin && one.end === end ? at : []
+    }),
+  )
 }

@@ -2,8 +2,21 @@ import { expect, it } from 'vitest'
 import type { Answer } from './answers'
 import { filtered, kFound, nextOrder, ordered, orderOf, orderText, type SortKey } from './order'
 
-const answer = (at: number, name: string, begin: number, end: number, more: Partial<Answer> = {}): Answer => ({ at, recording: 'meteo', tier: 'Gloss', name, begin, end, ...more })
-const list = [answer(0, 'été', 500, 900, { distance: 0.5 }), answer(1, 'b10', 100, 900, { distance: 0.2 }), answer(2, 'b9', 300, 400), answer(3, 'été', 0, 50, { recording: 'villes', bindings: ['x'] })]
+const answer = (at: number, name: string, begin: number, end: number, more: Partial<Answer> = {}): Answer => ({
+  at,
+  recording: 'meteo',
+  tier: 'Gloss',
+  name,
+  begin,
+  end,
+  ...more,
+})
+const list = [
+  answer(0, 'été', 500, 900, { distance: 0.5 }),
+  answer(1, 'b10', 100, 900, { distance: 0.2 }),
+  answer(2, 'b9', 300, 400),
+  answer(3, 'été', 0, 50, { recording: 'villes', bindings: ['x'] }),
+]
 const at = (by: SortKey, down = false) => ordered(list, { by, down }, 'fr').map((one) => one.at)
 
 it('orders by every column, up and down, and leaves equal ones as they were found', () => {
@@ -34,11 +47,20 @@ it('keeps what has every word that was typed', () => {
 
 it('orders names word by word, numbers in them as numbers', () => {
   const names = ['VANNES MATIN', 'VANNES', 'ÉTÉ 10', 'ÉTÉ 9', 'VANNES BREST']
-  expect(ordered(names.map((name, i) => answer(i, name, 0, 1)), { by: 'name', down: false }, 'fr').map(({ name }) => name)).toEqual(
-    ['ÉTÉ 9', 'ÉTÉ 10', 'VANNES', 'VANNES BREST', 'VANNES MATIN'])
+  expect(
+    ordered(
+      names.map((name, i) => answer(i, name, 0, 1)),
+      { by: 'name', down: false },
+      'fr',
+    ).map(({ name }) => name),
+  ).toEqual(['ÉTÉ 9', 'ÉTÉ 10', 'VANNES', 'VANNES BREST', 'VANNES MATIN'])
 })
 
 it('says in the address how answers are ordered', () => {
-  for (const order of [{ by: 'name', down: true }, { by: '$1', down: false }] as const) expect(orderOf(orderText(order))).toEqual(order)
+  for (const order of [
+    { by: 'name', down: true },
+    { by: '$1', down: false },
+  ] as const)
+    expect(orderOf(orderText(order))).toEqual(order)
   for (const text of ['', 'x', '--name', undefined]) expect(orderOf(text)).toBe(kFound)
 })

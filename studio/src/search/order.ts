@@ -2,7 +2,10 @@ import type { Answer } from './answers'
 
 /** What answers can be ordered by; `found` is the server's own order. */
 export type SortKey = 'found' | 'recording' | 'tier' | 'name' | 'begin' | 'end' | 'duration' | 'distance' | `$${number}`
-export interface Order { readonly by: SortKey; readonly down: boolean }
+export interface Order {
+  readonly by: SortKey
+  readonly down: boolean
+}
 export const kFound: Order = { by: 'found', down: false }
 
 /** What a click on a column's head asks for: up, then down, then as they were found. */
@@ -60,7 +63,8 @@ function textOf(by: SortKey): ((answer: Answer) => string) | undefined {
  * words are compared, once each, and texts then by the numbers of their words.
  */
 function rankOf(answers: readonly Answer[], text: (answer: Answer) => string, language: string): (answer: Answer) => number {
-  const texts = [...new Set(answers.map(text))], words = texts.map((one) => one.split(' '))
+  const texts = [...new Set(answers.map(text))],
+    words = texts.map((one) => one.split(' '))
   const { compare } = new Intl.Collator(language, { numeric: true })
   const numbers = new Map([...new Set(words.flat())].sort(compare).map((word, n) => [word, String.fromCharCode(1 + (n >> 15), n & 0x7fff)]))
   const keys = words.map((list) => list.map((word) => numbers.get(word)).join(''))

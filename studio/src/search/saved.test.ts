@@ -1,7 +1,8 @@
 import { expect, it } from 'vitest'
 import { asked, keep, kNothingKept, merged, readFile, readKept, remove, rename, restore, writeFile } from './saved'
 
-const one = { name: 'tokens', text: 'gloss = "VANNES"' }, two = { name: 'strokes', text: 'phase = stroke' }
+const one = { name: 'tokens', text: 'gloss = "VANNES"' },
+  two = { name: 'strokes', text: 'phase = stroke' }
 const both = { saved: [one, two], recent: [] }
 
 it('keeps a query under a name, and another in its place', () => {
@@ -35,8 +36,13 @@ it('remembers what was asked lately, each once', () => {
 
 it('reads back what it wrote to a file, and adds it', () => {
   expect(readFile(writeFile([one, two]))).toEqual([one, two])
-  expect(merged({ saved: [one], recent: [] }, [one, { name: 'tokens', text: 'other' }, two]).saved.map(({ name }) => name)).toEqual(['tokens', 'tokens (2)', 'strokes'])
-  for (const wrong of ['', '{}', '[]', '{"signweave queries":1,"queries":[{"name":""}]}', '{"queries":[]}', 'null']) expect(readFile(wrong), wrong).toBeUndefined()
+  expect(merged({ saved: [one], recent: [] }, [one, { name: 'tokens', text: 'other' }, two]).saved.map(({ name }) => name)).toEqual([
+    'tokens',
+    'tokens (2)',
+    'strokes',
+  ])
+  for (const wrong of ['', '{}', '[]', '{"signweave queries":1,"queries":[{"name":""}]}', '{"queries":[]}', 'null'])
+    expect(readFile(wrong), wrong).toBeUndefined()
 })
 
 it('reads what is stored, whatever that is', () => {

@@ -1,5 +1,8 @@
 /** A query that was kept under a name. */
-export interface SavedQuery { readonly name: string; readonly text: string }
+export interface SavedQuery {
+  readonly name: string
+  readonly text: string
+}
 export interface Kept {
   readonly saved: readonly SavedQuery[]
   /** Asked lately, the newest first. */
@@ -14,7 +17,10 @@ const kFile = 'signweave queries'
 export function readKept(stored: string | null | undefined): Kept {
   try {
     const { saved, recent } = JSON.parse(stored ?? '') as Partial<Kept>
-    return { saved: Array.isArray(saved) ? saved.filter(isQuery).map(plain) : [], recent: Array.isArray(recent) ? recent.filter((one) => typeof one === 'string').slice(0, kRecent) : [] }
+    return {
+      saved: Array.isArray(saved) ? saved.filter(isQuery).map(plain) : [],
+      recent: Array.isArray(recent) ? recent.filter((one) => typeof one === 'string').slice(0, kRecent) : [],
+    }
   } catch {
     return kNothingKept
   }

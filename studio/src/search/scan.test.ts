@@ -5,9 +5,31 @@ const kinds = (text: string) => scan(text).map(({ kind, text: value }) => `${kin
 
 it('cuts a query into what the language knows', () => {
   expect(kinds('gloss = "LE \\"M\\"" & !(tier("A")=~/a\\/b|c/i)')).toEqual([
-    'word gloss', 'symbol =', 'text LE "M"', 'symbol &', 'symbol !', 'symbol (', 'word tier', 'symbol (', 'text A', 'symbol )', 'symbol =~', 'regex a/b|c', 'symbol )'])
+    'word gloss',
+    'symbol =',
+    'text LE "M"',
+    'symbol &',
+    'symbol !',
+    'symbol (',
+    'word tier',
+    'symbol (',
+    'text A',
+    'symbol )',
+    'symbol =~',
+    'regex a/b|c',
+    'symbol )',
+  ])
   expect(kinds("gloss = AUJOURD'HUI ->[100ms..500ms] @ gloss=$X")).toEqual([
-    'word gloss', 'symbol =', "word AUJOURD'HUI", 'symbol ->', 'gap 100ms..500ms', 'symbol @', 'word gloss', 'symbol =', 'variable $X'])
+    'word gloss',
+    'symbol =',
+    "word AUJOURD'HUI",
+    'symbol ->',
+    'gap 100ms..500ms',
+    'symbol @',
+    'word gloss',
+    'symbol =',
+    'variable $X',
+  ])
   expect(kinds('speed(right_hand) > 1.5 m/s')).toEqual(['word speed', 'symbol (', 'word right_hand', 'symbol )', 'symbol >', 'word 1.5', 'word m', 'word /s'])
   expect(kinds('end(hand).height')).toEqual(['word end', 'symbol (', 'word hand', 'symbol )', 'word .height'])
 })

@@ -47,11 +47,13 @@ function tokenFrom(text: string, begin: number, before: Token | undefined): Toke
 }
 
 function enclosed(kind: 'text' | 'regex' | 'gap', text: string, begin: number, last: string): Token {
-  let value = '', at = begin + 1
+  let value = '',
+    at = begin + 1
   for (; at < text.length && text[at] !== last; ++at) {
     if (text[at] === '\\' && kind !== 'gap' && at + 1 < text.length) {
       const escaped = text[++at]
-      value += kind === 'regex' && escaped !== '/' ? `\\${escaped}` : kind === 'text' && escaped === 'n' ? '\n' : kind === 'text' && escaped === 't' ? '\t' : escaped
+      value +=
+        kind === 'regex' && escaped !== '/' ? `\\${escaped}` : kind === 'text' && escaped === 'n' ? '\n' : kind === 'text' && escaped === 't' ? '\t' : escaped
     } else value += text[at]
   }
   const closed = at < text.length

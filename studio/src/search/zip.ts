@@ -1,5 +1,8 @@
 /** A file in an archive. */
-export interface Packed { readonly name: string; readonly bytes: Uint8Array<ArrayBuffer> }
+export interface Packed {
+  readonly name: string
+  readonly bytes: Uint8Array<ArrayBuffer>
+}
 
 const kTable = Uint32Array.from({ length: 256 }, (_, n) => {
   let c = n
@@ -16,10 +19,12 @@ export function crc32(bytes: Uint8Array): number {
 
 /** Files in one archive, not compressed; names are UTF-8. At most 65535 of them, and 4 GB together. */
 export function zipOf(files: readonly Packed[]): Blob {
-  const parts: Uint8Array<ArrayBuffer>[] = [], directory: Uint8Array<ArrayBuffer>[] = []
+  const parts: Uint8Array<ArrayBuffer>[] = [],
+    directory: Uint8Array<ArrayBuffer>[] = []
   let at = 0
   for (const { name, bytes } of files) {
-    const called = new TextEncoder().encode(name), crc = crc32(bytes)
+    const called = new TextEncoder().encode(name),
+      crc = crc32(bytes)
     const local = header(0x04034b50, 30, called, crc, bytes.length, 4)
     const central = header(0x02014b50, 46, called, crc, bytes.length, 6)
     new DataView(central.buffer).setUint32(42, at, true)
@@ -39,7 +44,8 @@ export function zipOf(files: readonly Packed[]): Blob {
 
 /** What stands before a file, and again in the directory; `fields` is where what both have begins. */
 function header(mark: number, length: number, name: Uint8Array, crc: number, size: number, fields: number): Uint8Array<ArrayBuffer> {
-  const bytes = new Uint8Array(length + name.length), view = new DataView(bytes.buffer)
+  const bytes = new Uint8Array(length + name.length),
+    view = new DataView(bytes.buffer)
   view.setUint32(0, mark, true)
   if (fields === 6) view.setUint16(4, 20, true)
   view.setUint16(fields, 20, true)

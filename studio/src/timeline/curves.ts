@@ -10,11 +10,15 @@ export function valueAt(store: FrameStore, curve: Curve, frame: number, hand: 0 
   return curve === 'handSpeed' ? store.speed(frame, hand) : store.hand(frame, hand, kAxis[curve])
 }
 
-export interface Extent { readonly low: number; readonly high: number }
+export interface Extent {
+  readonly low: number
+  readonly high: number
+}
 
 /** The least and greatest value of both hands over the frames that have come, looked at every `stride` frames, with a margin. */
 export function extentOf(store: FrameStore, curve: Curve, stride = Math.max(1, Math.floor(store.length / 2000))): Extent {
-  let low = curve === 'handSpeed' ? 0 : Infinity, high = curve === 'handSpeed' ? 0.5 : -Infinity
+  let low = curve === 'handSpeed' ? 0 : Infinity,
+    high = curve === 'handSpeed' ? 0.5 : -Infinity
   for (let frame = 0; frame < store.length; frame += stride) {
     for (const hand of [0, 1] as const) {
       const value = valueAt(store, curve, frame, hand)

@@ -11,8 +11,23 @@ export const kCurveHeight = 50
 
 /** The colours of the theme, read where the theme changes. */
 export type Colors = Readonly<Record<string, string>>
-const kColorNames = ['panel', 'raised', 'line', 'ink', 'soft', 'preparation', 'stroke', 'retraction', 'other', 'gloss', 'chip-ink', 'stroke-ink',
-  'curve-left', 'curve-right', 'focus'] as const
+const kColorNames = [
+  'panel',
+  'raised',
+  'line',
+  'ink',
+  'soft',
+  'preparation',
+  'stroke',
+  'retraction',
+  'other',
+  'gloss',
+  'chip-ink',
+  'stroke-ink',
+  'curve-left',
+  'curve-right',
+  'focus',
+] as const
 
 export function colorsOf(element: Element): Colors {
   const style = getComputedStyle(element)
@@ -20,7 +35,13 @@ export function colorsOf(element: Element): Colors {
 }
 
 const kFill: Readonly<Record<BoxKind, string>> = {
-  gloss: 'gloss', preparation: 'preparation', stroke: 'stroke', retraction: 'retraction', source: 'other', junction: 'retraction', other: 'other',
+  gloss: 'gloss',
+  preparation: 'preparation',
+  stroke: 'stroke',
+  retraction: 'retraction',
+  source: 'other',
+  junction: 'retraction',
+  other: 'other',
 }
 
 export interface Drawing {
@@ -82,10 +103,12 @@ function drawTier(context: CanvasRenderingContext2D, { window, colors, originMs 
   let from = firstEndingAfter(tier, window.begin * 1000 + originMs)
   for (; from < tier.annotations.length; ++from) {
     const { begin, end, label, state, current } = tier.annotations[from]
-    const left = window.x((begin - originMs) / 1000), right = window.x((end - originMs) / 1000)
+    const left = window.x((begin - originMs) / 1000),
+      right = window.x((end - originMs) / 1000)
     if (left > window.pixels) break
     const kind = kindOf(tier.name, tier.depth, label)
-    const width = Math.max(1.5, right - left - 1), isFull = state === undefined || state === 'accepted'
+    const width = Math.max(1.5, right - left - 1),
+      isFull = state === undefined || state === 'accepted'
     context.fillStyle = context.strokeStyle = colors[kFill[kind]]
     if (isFull) box(context, left + 0.5, y + 3, width, kTierHeight - 6)
     else outline(context, left + 1.5, y + 4, Math.max(1, width - 2), kTierHeight - 8, state === 'rejected' ? [3, 3] : [], 2)
@@ -103,7 +126,8 @@ function drawTier(context: CanvasRenderingContext2D, { window, colors, originMs 
 
 function drawCurve(context: CanvasRenderingContext2D, { window, colors, store, language }: Drawing, curve: Curve, y: number): void {
   const { low, high } = extentOf(store, curve)
-  const top = y + 6, bottom = y + kCurveHeight - 6
+  const top = y + 6,
+    bottom = y + kCurveHeight - 6
   const place = (value: number) => bottom - ((value - low) / (high - low)) * (bottom - top)
   line(context, 0, y + 0.5, window.pixels, y + 0.5, colors.line, 1)
   const step = tickStep((high - low) / 3)
@@ -136,14 +160,22 @@ function drawCurve(context: CanvasRenderingContext2D, { window, colors, store, l
 const kOfPixel = 8
 
 /** Where there are more frames than pixels, the least and greatest of each pixel. */
-function drawFrames(context: CanvasRenderingContext2D, store: FrameStore, curve: Curve, hand: 0 | 1, { first, last }: { first: number; last: number },
-                    window: TimeWindow, place: (value: number) => number): void {
+function drawFrames(
+  context: CanvasRenderingContext2D,
+  store: FrameStore,
+  curve: Curve,
+  hand: 0 | 1,
+  { first, last }: { first: number; last: number },
+  window: TimeWindow,
+  place: (value: number) => number,
+): void {
   const perPixel = Math.max(1, Math.floor(((last - first) / window.pixels) * 0.75))
   const stride = Math.ceil(perPixel / kOfPixel)
   let drawing = false
   // From a whole multiple, so that the same frames are looked at wherever the window begins.
   for (let frame = first - (first % perPixel); frame <= last; frame += perPixel) {
-    let low = Infinity, high = -Infinity
+    let low = Infinity,
+      high = -Infinity
     for (let f = frame; f < frame + perPixel && f <= last; f += stride) {
       const value = valueAt(store, curve, f, hand)
       if (value < low) low = value
@@ -163,7 +195,8 @@ function drawFrames(context: CanvasRenderingContext2D, store: FrameStore, curve:
 
 /** The first annotation of a tier that ends after `ms`, by binary search. */
 export function firstEndingAfter(tier: Tier, ms: number): number {
-  let low = 0, high = tier.annotations.length
+  let low = 0,
+    high = tier.annotations.length
   while (low < high) {
     const middle = (low + high) >> 1
     if (tier.annotations[middle].end <= ms) low = middle + 1

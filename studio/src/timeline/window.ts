@@ -3,7 +3,10 @@ export class TimeWindow {
   begin = 0
   end = 1
 
-  constructor(public duration = 1, public pixels = 1) {
+  constructor(
+    public duration = 1,
+    public pixels = 1,
+  ) {
     this.fit()
   }
 

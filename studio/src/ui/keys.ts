@@ -2,12 +2,49 @@ import type { Text } from '../text/en'
 
 /** What a key does. */
 export type Action =
-  | 'play' | 'back' | 'on' | 'leapBack' | 'leapOn' | 'signBefore' | 'signAfter' | 'begin' | 'end' | 'slower' | 'faster' | 'repeat'
-  | 'select' | 'loopBegin' | 'loopEnd' | 'clear' | 'front' | 'left' | 'right' | 'hands' | 'face' | 'whole' | 'orbitLeft' | 'orbitRight'
-  | 'orbitUp' | 'orbitDown' | 'nearer' | 'farther' | 'trails' | 'bones' | 'signer' | 'zoomIn' | 'zoomOut' | 'fit' | 'full' | 'help'
+  | 'play'
+  | 'back'
+  | 'on'
+  | 'leapBack'
+  | 'leapOn'
+  | 'signBefore'
+  | 'signAfter'
+  | 'begin'
+  | 'end'
+  | 'slower'
+  | 'faster'
+  | 'repeat'
+  | 'select'
+  | 'loopBegin'
+  | 'loopEnd'
+  | 'clear'
+  | 'front'
+  | 'left'
+  | 'right'
+  | 'hands'
+  | 'face'
+  | 'whole'
+  | 'orbitLeft'
+  | 'orbitRight'
+  | 'orbitUp'
+  | 'orbitDown'
+  | 'nearer'
+  | 'farther'
+  | 'trails'
+  | 'bones'
+  | 'signer'
+  | 'zoomIn'
+  | 'zoomOut'
+  | 'fit'
+  | 'full'
+  | 'help'
 
 /** One line of the help: the keys as they are printed, what they do, in the same order. */
-export interface KeyRow { readonly keys: readonly string[]; readonly actions: readonly Action[]; readonly text: keyof Text }
+export interface KeyRow {
+  readonly keys: readonly string[]
+  readonly actions: readonly Action[]
+  readonly text: keyof Text
+}
 
 export const kKeys: readonly KeyRow[] = [
   { keys: ['Space'], actions: ['play'], text: 'key_play' },
@@ -33,8 +70,18 @@ export const kKeys: readonly KeyRow[] = [
 ]
 
 const kPrinted: Readonly<Record<string, string>> = {
-  ' ': 'Space', ArrowLeft: '←', ArrowRight: '→', ArrowUp: '↑', ArrowDown: '↓', Escape: 'Esc', PageUp: 'Page ↑', PageDown: 'Page ↓',
-  '=': '+', '-': '−', h: '?', H: '?',
+  ' ': 'Space',
+  ArrowLeft: '←',
+  ArrowRight: '→',
+  ArrowUp: '↑',
+  ArrowDown: '↓',
+  Escape: 'Esc',
+  PageUp: 'Page ↑',
+  PageDown: 'Page ↓',
+  '=': '+',
+  '-': '−',
+  h: '?',
+  H: '?',
 }
 
 /** What a key pressed does; none where it does nothing here. Without `characters` only keys that type nothing do, and Space. */

@@ -1,13 +1,25 @@
 /** What is shown, as the address says it behind `#`, so that every view can be linked and the back key works. */
 export type Route =
   | { readonly page: 'recordings'; readonly database?: string }
-  | { readonly page: 'recording'; readonly database: string; readonly recording: string; readonly beside?: string; readonly at: number; /** Selected, in ms of annotation time. */ readonly span?: readonly [number, number] }
+  | {
+      readonly page: 'recording'
+      readonly database: string
+      readonly recording: string
+      readonly beside?: string
+      readonly at: number
+      /** Selected, in ms of annotation time. */ readonly span?: readonly [number, number]
+    }
   | { readonly page: 'sign'; readonly database: string; readonly utterance: string; readonly pace: 'fast' | 'live' }
   | Working
   | { readonly page: 'edit'; readonly database: string; readonly recording: string; readonly replace: readonly string[]; readonly swap?: string }
 
 /** A page that one works on. What it holds stands in the address as the page itself writes it, so that it can be linked, too. */
-export interface Working { readonly page: WorkPage; readonly database: string; /** Of `phases`, the recording. */ readonly recording?: string; readonly state: WorkState }
+export interface Working {
+  readonly page: WorkPage
+  readonly database: string
+  /** Of `phases`, the recording. */ readonly recording?: string
+  readonly state: WorkState
+}
 export type WorkState = Readonly<Record<string, string>>
 export type WorkPage = (typeof kWorkPages)[number]
 export const kWorkPages = ['compose', 'search', 'import', 'phases', 'evaluate', 'compare', 'guide'] as const
@@ -23,7 +35,14 @@ export function parseRoute(hash: string): Route {
   }
   const [database, page, name] = parts
   if (database && page === 'recording' && name) {
-    return { page, database, recording: name, beside: parameters.get('beside') ?? undefined, at: Math.max(0, Number(parameters.get('at')) || 0), span: spanOf(parameters.get('span')) }
+    return {
+      page,
+      database,
+      recording: name,
+      beside: parameters.get('beside') ?? undefined,
+      at: Math.max(0, Number(parameters.get('at')) || 0),
+      span: spanOf(parameters.get('span')),
+    }
   }
   if (database && page === 'sign' && name) {
     return { page, database, utterance: name, pace: parameters.get('pace') === 'live' ? 'live' : 'fast' }
@@ -40,8 +59,15 @@ export function addressOf(route: Route): string {
   const parts = (...names: string[]) => '#/' + names.map(encodeURIComponent).join('/')
   const query = new URLSearchParams()
   switch (route.page) {
-    case 'recordings': return parts(...(route.database ? [route.database] : []))
-    case 'compose': case 'search': case 'import': case 'phases': case 'evaluate': case 'compare': case 'guide':
+    case 'recordings':
+      return parts(...(route.database ? [route.database] : []))
+    case 'compose':
+    case 'search':
+    case 'import':
+    case 'phases':
+    case 'evaluate':
+    case 'compare':
+    case 'guide':
       return withQuery(parts(route.database, route.page, ...(route.recording ? [route.recording] : [])), new URLSearchParams(route.state))
     case 'recording':
       if (route.beside) query.set('beside', route.beside)

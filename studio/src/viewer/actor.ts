@@ -18,7 +18,11 @@ export class Actor {
   private readonly lights: Lights
   private readonly root = new Vector3()
 
-  constructor(readonly signer: Proportions, facing: Facing, detail: Detail) {
+  constructor(
+    readonly signer: Proportions,
+    facing: Facing,
+    detail: Detail,
+  ) {
     this.model = new Kinematics(signer.skeleton)
     this.body = new DrawnBody(signer, detail)
     this.lights = new Lights(this.scene, facing)
@@ -39,7 +43,8 @@ export class Actor {
   show(pose: Pose): void {
     this.model.update(pose)
     this.body.show(pose)
-    const at = 3 * Math.max(0, this.signer.joint('pelvis')), { positions } = this.model
+    const at = 3 * Math.max(0, this.signer.joint('pelvis')),
+      { positions } = this.model
     this.lights.follow(this.root.set(positions[at], positions[at + 1], positions[at + 2]))
   }
 

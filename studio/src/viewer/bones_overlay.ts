@@ -10,11 +10,17 @@ export class BonesOverlay {
   private readonly lines: LineSegments
   private readonly points: Points
 
-  constructor(skeleton: Skeleton, private readonly model: Kinematics) {
+  constructor(
+    skeleton: Skeleton,
+    private readonly model: Kinematics,
+  ) {
     this.pairs = skeleton.joints.flatMap(({ parent }, j) => (parent < 0 ? [] : [parent, j]))
     this.ends = new Float32Array(3 * this.pairs.length)
     this.lines = new LineSegments(dynamic(this.ends), new LineBasicMaterial({ color: 0x2ee6c0, depthTest: false, transparent: true }))
-    this.points = new Points(dynamic(model.positions), new PointsMaterial({ color: 0xffffff, size: 4, sizeAttenuation: false, depthTest: false, transparent: true }))
+    this.points = new Points(
+      dynamic(model.positions),
+      new PointsMaterial({ color: 0xffffff, size: 4, sizeAttenuation: false, depthTest: false, transparent: true }),
+    )
     for (const one of [this.lines, this.points]) {
       one.frustumCulled = false
       one.renderOrder = 2
@@ -33,7 +39,10 @@ export class BonesOverlay {
   }
 
   dispose(): void {
-    for (const one of [this.lines, this.points]) one.geometry.dispose(), (one.material as LineBasicMaterial).dispose()
+    for (const one of [this.lines, this.points]) {
+      one.geometry.dispose()
+      ;(one.material as LineBasicMaterial).dispose()
+    }
   }
 }
 

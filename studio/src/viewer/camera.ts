@@ -46,13 +46,18 @@ export class SignerCamera {
   private readonly knuckles: number
 
   /** With a hand (0 left, 1 right) the view of the hands is of that one alone. */
-  constructor(private readonly signer: Proportions, private readonly facing: Facing, hand?: 0 | 1) {
+  constructor(
+    private readonly signer: Proportions,
+    private readonly facing: Facing,
+    hand?: 0 | 1,
+  ) {
     const at = (part: string) => signer.at(part)?.dot(signer.up)
     const feet = Math.min(at('left_foot') ?? 0, at('right_foot') ?? 0)
     const pelvis = at('pelvis') ?? 0.9 * signer.scale
     const top = at('head_top') ?? (at('head') ?? pelvis + 0.6 * signer.scale) + 0.19 * signer.scale
     // Relative to the pelvis, which the camera follows slowly and level.
-    const low = Math.min(-0.16 * signer.scale, this.hanging() - pelvis), high = top - pelvis + 0.13 * signer.scale
+    const low = Math.min(-0.16 * signer.scale, this.hanging() - pelvis),
+      high = top - pelvis + 0.13 * signer.scale
     this.height = (low + high) / 2
     this.half = { width: 0.56 * signer.scale, height: (high - low) / 2 }
     this.wholeHeight = (feet - pelvis - 0.13 * signer.scale + high) / 2
@@ -93,7 +98,7 @@ export class SignerCamera {
   }
 
   orbit(azimuth: number, elevation: number): void {
-    this.azimuth = ((this.azimuth + azimuth + Math.PI) % (2 * Math.PI) + 2 * Math.PI) % (2 * Math.PI) - Math.PI
+    this.azimuth = ((((this.azimuth + azimuth + Math.PI) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI)) - Math.PI
     this.elevation = Math.min(1.4, Math.max(-1.2, this.elevation + elevation))
   }
 
@@ -101,7 +106,8 @@ export class SignerCamera {
   update(model: Kinematics, aspect: number, elapsed: number): void {
     const { signer, facing, wanted } = this
     const place = model.positions
-    let halfHeight = this.half.height, halfWidth = this.half.width
+    let halfHeight = this.half.height,
+      halfWidth = this.half.width
     if (this.view === 'hands' && this.knuckles >= 0) {
       const at = 3 * this.knuckles
       wanted.set(place[at], place[at + 1], place[at + 2])
@@ -141,7 +147,8 @@ export class SignerCamera {
     this.away = Math.abs(distance - this.distance)
     this.fresh = false
     const flat = Math.cos(this.elevation)
-    this.offset.set(0, 0, 0)
+    this.offset
+      .set(0, 0, 0)
       .addScaledVector(facing.left, Math.sin(this.azimuth) * flat)
       .addScaledVector(facing.front, Math.cos(this.azimuth) * flat)
       .addScaledVector(facing.up, Math.sin(this.elevation))

@@ -3,7 +3,11 @@ import type { Pose } from '../motion/pose'
 import type { Skeleton } from '../motion/skeleton'
 import type { Body } from './body'
 
-interface Morph { readonly influences: number[]; readonly target: number; readonly track: number }
+interface Morph {
+  readonly influences: number[]
+  readonly target: number
+  readonly track: number
+}
 
 /**
  * A skinned character. Poses are ready to apply: local rotations of its own joints, found by name (`userData.joint`); face weights
@@ -17,7 +21,11 @@ export class CharacterBody implements Body {
   private readonly moved: ReadonlySet<number>
 
   /** `release` gives back the surfaces, which it may share. Throws where the motion moves none of its joints. */
-  constructor(readonly object: Group, skeleton: Skeleton, private readonly release: () => void) {
+  constructor(
+    readonly object: Group,
+    skeleton: Skeleton,
+    private readonly release: () => void,
+  ) {
     const names = new Map<string, Object3D>()
     object.traverse((one) => {
       const name = one.userData.joint as string | undefined

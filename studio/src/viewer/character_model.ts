@@ -40,7 +40,8 @@ export class CharacterModel {
   /** Joints and meshes of its own; surfaces, and of the meshes that share one their skin, stay shared. */
   private copy(): Group {
     const copy = clone(this.scene) as Group
-    const mine: SkinnedMesh[] = [], own: SkinnedMesh[] = []
+    const mine: SkinnedMesh[] = [],
+      own: SkinnedMesh[] = []
     this.scene.traverse((one) => void ((one as SkinnedMesh).isSkinnedMesh && mine.push(one as SkinnedMesh)))
     copy.traverse((one) => void ((one as SkinnedMesh).isSkinnedMesh && own.push(one as SkinnedMesh)))
     const skins = new Map<Bones, Bones>()

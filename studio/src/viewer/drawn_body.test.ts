@@ -8,14 +8,30 @@ import { Proportions } from './proportions'
 /** A signer who lies along x and looks up, so that no direction is taken for granted. */
 const kLying: Skeleton = {
   joints: [
-    { name: 'p', parent: -1, offset: [0, 1, 0] }, { name: 'n', parent: 0, offset: [0.5, 0, 0] }, { name: 'h', parent: 1, offset: [0.1, 0, 0] },
-    { name: 'l', parent: 1, offset: [-0.05, 0, 0.2] }, { name: 'le', parent: 3, offset: [0, 0, 0.28] }, { name: 'lh', parent: 4, offset: [0, 0, 0.25] },
-    { name: 'r', parent: 1, offset: [-0.05, 0, -0.2] }, { name: 're', parent: 6, offset: [0, 0, -0.28] }, { name: 'rh', parent: 7, offset: [0, 0, -0.25] },
+    { name: 'p', parent: -1, offset: [0, 1, 0] },
+    { name: 'n', parent: 0, offset: [0.5, 0, 0] },
+    { name: 'h', parent: 1, offset: [0.1, 0, 0] },
+    { name: 'l', parent: 1, offset: [-0.05, 0, 0.2] },
+    { name: 'le', parent: 3, offset: [0, 0, 0.28] },
+    { name: 'lh', parent: 4, offset: [0, 0, 0.25] },
+    { name: 'r', parent: 1, offset: [-0.05, 0, -0.2] },
+    { name: 're', parent: 6, offset: [0, 0, -0.28] },
+    { name: 'rh', parent: 7, offset: [0, 0, -0.25] },
   ],
-  translated: [0], tracks: [],
+  translated: [0],
+  tracks: [],
 }
-const kRig = { pelvis: { joint: 0 }, neck: { joint: 1 }, head: { joint: 2 }, left_upper_arm: { joint: 3 }, left_forearm: { joint: 4 }, left_hand: { joint: 5 },
-  right_upper_arm: { joint: 6 }, right_forearm: { joint: 7 }, right_hand: { joint: 8 } }
+const kRig = {
+  pelvis: { joint: 0 },
+  neck: { joint: 1 },
+  head: { joint: 2 },
+  left_upper_arm: { joint: 3 },
+  left_forearm: { joint: 4 },
+  left_hand: { joint: 5 },
+  right_upper_arm: { joint: 6 },
+  right_forearm: { joint: 7 },
+  right_hand: { joint: 8 },
+}
 
 it('knows where up, left and front are from the skeleton alone', () => {
   const p = new Proportions(kLying, kRig)
@@ -34,17 +50,25 @@ it('draws a body that moves with its joints, with faces outward, and says that i
   body.object.updateMatrixWorld(true)
   const mesh = body.object.children.find((one): one is SkinnedMesh => (one as SkinnedMesh).isSkinnedMesh)!
   mesh.skeleton.update()
-  const places = mesh.geometry.getAttribute('position'), normals = mesh.geometry.getAttribute('normal')
-  const at = new Vector3(), normal = new Vector3()
-  let low = Infinity, volume = 0
+  const places = mesh.geometry.getAttribute('position'),
+    normals = mesh.geometry.getAttribute('normal')
+  const at = new Vector3(),
+    normal = new Vector3()
+  let low = Infinity,
+    volume = 0
   for (let v = 0; v < places.count; ++v) {
     mesh.applyBoneTransform(v, at.fromBufferAttribute(places, v))
     low = Math.min(low, at.y)
   }
   expect(low).toBeGreaterThan(2.5)
-  const index = mesh.geometry.index!, a = new Vector3(), b = new Vector3(), c = new Vector3()
+  const index = mesh.geometry.index!,
+    a = new Vector3(),
+    b = new Vector3(),
+    c = new Vector3()
   for (let i = 0; i < index.count; i += 3) {
-    a.fromBufferAttribute(places, index.getX(i)), b.fromBufferAttribute(places, index.getX(i + 1)), c.fromBufferAttribute(places, index.getX(i + 2))
+    a.fromBufferAttribute(places, index.getX(i))
+    b.fromBufferAttribute(places, index.getX(i + 1))
+    c.fromBufferAttribute(places, index.getX(i + 2))
     volume += a.dot(b.cross(c)) / 6
   }
   expect(volume).toBeGreaterThan(0.02)

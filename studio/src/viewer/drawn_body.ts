@@ -31,7 +31,10 @@ export class DrawnBody implements Body {
     skeleton.joints.forEach(({ parent }, j) => (parent < 0 ? this.object : this.bones[parent]).add(this.bones[j]))
     const material = new MeshLambertMaterial({ vertexColors: true })
     this.surface = JSON.stringify([detail, rig, skeleton.joints.map(({ parent }) => parent), ...proportions.stance.rotations, ...proportions.stance.positions])
-    this.mesh = new SkinnedMesh(kSurfaces.take(this.surface, () => drawnGeometry(proportions, detail)), material)
+    this.mesh = new SkinnedMesh(
+      kSurfaces.take(this.surface, () => drawnGeometry(proportions, detail)),
+      material,
+    )
     const inverses = skeleton.joints.map((_, j) => proportions.matrixOf(j).invert())
     this.mesh.bind(new SkinSkeleton(this.bones, inverses), new Matrix4())
     this.mesh.frustumCulled = false

@@ -9,10 +9,13 @@ import { Proportions } from './proportions'
 
 const kSkeleton: Skeleton = {
   joints: [
-    { name: 'p', parent: -1, offset: [0, 1, 0] }, { name: 'n', parent: 0, offset: [0, 0.5, 0] },
-    { name: 'l', parent: 1, offset: [0.2, 0, 0] }, { name: 'r', parent: 1, offset: [-0.2, 0, 0] },
+    { name: 'p', parent: -1, offset: [0, 1, 0] },
+    { name: 'n', parent: 0, offset: [0, 0.5, 0] },
+    { name: 'l', parent: 1, offset: [0.2, 0, 0] },
+    { name: 'r', parent: 1, offset: [-0.2, 0, 0] },
   ],
-  translated: [0], tracks: [],
+  translated: [0],
+  tracks: [],
 }
 const kRig = { pelvis: { joint: 0 }, neck: { joint: 1 }, left_upper_arm: { joint: 2 }, right_upper_arm: { joint: 3 } }
 

@@ -7,7 +7,12 @@ import type { Proportions } from './proportions'
 import { someFrames } from './stance'
 
 /** Which way a signer faces: unit vectors in model space, level, and how large the signer is. */
-export interface Facing { readonly up: Vector3; readonly left: Vector3; readonly front: Vector3; readonly scale: number }
+export interface Facing {
+  readonly up: Vector3
+  readonly left: Vector3
+  readonly front: Vector3
+  readonly scale: number
+}
 
 /**
  * Which way the shoulders face in the mean of the frames that are here, at most some of them: captures face where they were made,
@@ -15,16 +20,23 @@ export interface Facing { readonly up: Vector3; readonly left: Vector3; readonly
  */
 export function facingOf(motion: OpenedMotion, signer: Proportions): Facing {
   const { store, rig } = motion
-  const left = rig.left_upper_arm?.joint, right = rig.right_upper_arm?.joint
+  const left = rig.left_upper_arm?.joint,
+    right = rig.right_upper_arm?.joint
   if (left === undefined || right === undefined) return signer
   const frames = someFrames(motion)
   const joints = [...new Set([...chainTo(store.skeleton, left), ...chainTo(store.skeleton, right)])].sort((a, b) => a - b)
-  const pose = restPose(store.skeleton), model = new Kinematics(store.skeleton), place = model.positions
-  const across = new Vector3(), one = new Vector3()
+  const pose = restPose(store.skeleton),
+    model = new Kinematics(store.skeleton),
+    place = model.positions
+  const across = new Vector3(),
+    one = new Vector3()
   for (const frame of frames) {
     store.sample(frame / store.rate, pose)
     model.update(pose, joints)
-    one.fromArray(place, 3 * left).sub(new Vector3().fromArray(place, 3 * right)).setY(0)
+    one
+      .fromArray(place, 3 * left)
+      .sub(new Vector3().fromArray(place, 3 * right))
+      .setY(0)
     if (one.lengthSq() > 1e-4) across.add(one.normalize())
   }
   if (across.length() <= 0.1 * frames.length) return signer

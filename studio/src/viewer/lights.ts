@@ -9,7 +9,10 @@ export class Lights {
   private readonly sky = new HemisphereLight(0xe8f0ff, 0x6b6058, 1.25)
   private readonly from: Vector3
 
-  constructor(scene: Scene, private readonly signer: Facing) {
+  constructor(
+    scene: Scene,
+    private readonly signer: Facing,
+  ) {
     const { up, left, front, scale } = signer
     const { key, fill, rim, sky } = this
     this.from = new Vector3().addScaledVector(left, 0.9).addScaledVector(up, 1.5).addScaledVector(front, 1.9)

@@ -2,8 +2,18 @@ import { expect, it } from 'vitest'
 import { isSoftware, Pace } from './pace'
 
 function rig() {
-  const gl = { SYNC_STATUS: 1, SIGNALED: 2, SYNC_GPU_COMMANDS_COMPLETE: 3, done: false, deleted: 0,
-    fenceSync: () => ({}), flush: () => {}, isContextLost: () => false, deleteSync: () => void ++gl.deleted, getSyncParameter: () => (gl.done ? 2 : 0) }
+  const gl = {
+    SYNC_STATUS: 1,
+    SIGNALED: 2,
+    SYNC_GPU_COMMANDS_COMPLETE: 3,
+    done: false,
+    deleted: 0,
+    fenceSync: () => ({}),
+    flush: () => {},
+    isContextLost: () => false,
+    deleteSync: () => void ++gl.deleted,
+    getSyncParameter: () => (gl.done ? 2 : 0),
+  }
   return { gl, pace: new Pace(gl as unknown as WebGL2RenderingContext) }
 }
 
@@ -27,6 +37,7 @@ it('rests after a picture that took long', () => {
 })
 
 it('knows renderers that need no card', () => {
-  for (const name of ['ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero)), SwiftShader driver)', 'llvmpipe (LLVM 15)', 'Microsoft Basic Render Driver']) expect(isSoftware(name), name).toBe(true)
+  for (const name of ['ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero)), SwiftShader driver)', 'llvmpipe (LLVM 15)', 'Microsoft Basic Render Driver'])
+    expect(isSoftware(name), name).toBe(true)
   for (const name of ['ANGLE (Intel, Mesa Intel(R) UHD Graphics 620)', 'Apple GPU']) expect(isSoftware(name), name).toBe(false)
 })

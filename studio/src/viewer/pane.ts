@@ -47,7 +47,8 @@ export class Pane {
     this.facing = facingOf(motion, this.signer)
     this.camera = new SignerCamera(this.signer, this.facing)
     this.cameras = this.alone = [this.camera]
-    this.hands = motion.store.hasHand[0] && motion.store.hasHand[1] ? [new SignerCamera(this.signer, this.facing, 1), new SignerCamera(this.signer, this.facing, 0)] : []
+    this.hands =
+      motion.store.hasHand[0] && motion.store.hasHand[1] ? [new SignerCamera(this.signer, this.facing, 1), new SignerCamera(this.signer, this.facing, 0)] : []
     this.pose = restPose(skeleton)
     this.model = new Kinematics(skeleton)
     this.trails = new Trails(motion.store)

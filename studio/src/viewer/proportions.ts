@@ -14,11 +14,17 @@ export class Proportions {
   private readonly model: Kinematics
 
   /** `stance` is at rest where not given; see `stanceOf`. */
-  constructor(readonly skeleton: Skeleton, readonly rig: Rig, readonly stance: Pose = restPose(skeleton)) {
+  constructor(
+    readonly skeleton: Skeleton,
+    readonly rig: Rig,
+    readonly stance: Pose = restPose(skeleton),
+  ) {
     this.model = new Kinematics(skeleton)
     this.model.update(stance)
-    const pelvis = this.at('pelvis'), neck = this.at('neck') ?? this.at('head')
-    const left = this.at('left_upper_arm'), right = this.at('right_upper_arm')
+    const pelvis = this.at('pelvis'),
+      neck = this.at('neck') ?? this.at('head')
+    const left = this.at('left_upper_arm'),
+      right = this.at('right_upper_arm')
     if (pelvis && neck && neck.distanceTo(pelvis) > 0.05) this.up.copy(neck).sub(pelvis).normalize()
     if (left && right && left.distanceTo(right) > 0.05) this.left.copy(left).sub(right)
     this.left.addScaledVector(this.up, -this.left.dot(this.up)).normalize()
@@ -54,6 +60,10 @@ export class Proportions {
   /** A place told by steps to the left, up and to the front, in metres of a signer of scale 1. */
   from(origin: Vector3, left: number, up: number, front: number): Vector3 {
     const s = this.scale
-    return origin.clone().addScaledVector(this.left, left * s).addScaledVector(this.up, up * s).addScaledVector(this.front, front * s)
+    return origin
+      .clone()
+      .addScaledVector(this.left, left * s)
+      .addScaledVector(this.up, up * s)
+      .addScaledVector(this.front, front * s)
   }
 }

@@ -3,7 +3,8 @@ import { Shared } from './shared'
 
 it('makes a thing once, and gives it up when the last has left', () => {
   const shared = new Shared<{ dispose(): void }>()
-  let made = 0, gone = 0
+  let made = 0,
+    gone = 0
   const make = () => (++made, { dispose: () => void ++gone })
   const first = shared.take('a', make)
   expect(shared.take('a', make)).toBe(first)

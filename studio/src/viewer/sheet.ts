@@ -23,7 +23,11 @@ export class SheetCell {
   seen = false
   readonly pose: Pose
 
-  constructor(readonly motion: OpenedMotion, readonly actor: Actor, readonly camera: SignerCamera) {
+  constructor(
+    readonly motion: OpenedMotion,
+    readonly actor: Actor,
+    readonly camera: SignerCamera,
+  ) {
     this.pose = restPose(motion.store.skeleton)
   }
 }

@@ -55,20 +55,42 @@ export class SolidBuilder {
       rings.push({ at: b.clone().addScaledVector(axis, radiusB * Math.sin(angle)), radius: radiusB * Math.cos(angle) })
     }
     const factor = flat?.factor ?? 1
-    this.loft(rings.map(({ at, radius }) => ({ at, side: radius * factor, front: radius, joints: [joint, joint], part: 0 })), side, front, color, shape.around)
+    this.loft(
+      rings.map(({ at, radius }) => ({ at, side: radius * factor, front: radius, joints: [joint, joint], part: 0 })),
+      side,
+      front,
+      color,
+      shape.around,
+    )
   }
 
-  ellipsoid(center: Vector3, radii: Vector3, side: Vector3, up: Vector3, joint: number, color: Color | ((at: Vector3) => Color),
-            shape: (latitude: number) => { side: number; front: number; shift: number } = () => ({ side: 1, front: 1, shift: 0 })): void {
+  ellipsoid(
+    center: Vector3,
+    radii: Vector3,
+    side: Vector3,
+    up: Vector3,
+    joint: number,
+    color: Color | ((at: Vector3) => Color),
+    shape: (latitude: number) => { side: number; front: number; shift: number } = () => ({ side: 1, front: 1, shift: 0 }),
+  ): void {
     const front = side.clone().cross(up)
     const rings: Ring[] = []
     const shaped = Math.min(radii.x, radii.y, radii.z) < kThin ? this.detail.thin : this.detail.thick
     const steps = shaped.rings
     for (let i = 0; i <= steps; ++i) {
-      const y = -Math.cos((i / steps) * Math.PI), r = Math.sin((i / steps) * Math.PI)
+      const y = -Math.cos((i / steps) * Math.PI),
+        r = Math.sin((i / steps) * Math.PI)
       const bent = shape(y)
-      rings.push({ at: center.clone().addScaledVector(up, y * radii.y).addScaledVector(front, bent.shift * radii.z),
-                   side: r * radii.x * bent.side, front: r * radii.z * bent.front, joints: [joint, joint], part: 0 })
+      rings.push({
+        at: center
+          .clone()
+          .addScaledVector(up, y * radii.y)
+          .addScaledVector(front, bent.shift * radii.z),
+        side: r * radii.x * bent.side,
+        front: r * radii.z * bent.front,
+        joints: [joint, joint],
+        part: 0,
+      })
     }
     this.loft(rings, side, front, color, shaped.around)
   }
@@ -80,7 +102,9 @@ export class SolidBuilder {
     for (const ring of rings) {
       for (let i = 0; i < around; ++i) {
         const angle = (i / around) * 2 * Math.PI
-        at.copy(ring.at).addScaledVector(side, Math.cos(angle) * ring.side).addScaledVector(front, Math.sin(angle) * ring.front)
+        at.copy(ring.at)
+          .addScaledVector(side, Math.cos(angle) * ring.side)
+          .addScaledVector(front, Math.sin(angle) * ring.front)
         const tint = typeof color === 'function' ? color(at) : color
         this.positions.push(at.x, at.y, at.z)
         this.colors.push(tint.r, tint.g, tint.b)
@@ -88,12 +112,22 @@ export class SolidBuilder {
         this.skinWeights.push(1 - ring.part, ring.part, 0, 0)
       }
     }
-    const outward = rings.length > 1 ? Math.sign(side.clone().cross(front).dot(rings[rings.length - 1].at.clone().sub(rings[0].at))) || 1 : 1
+    const outward =
+      rings.length > 1
+        ? Math.sign(
+            side
+              .clone()
+              .cross(front)
+              .dot(rings[rings.length - 1].at.clone().sub(rings[0].at)),
+          ) || 1
+        : 1
     for (let r = 0; r + 1 < rings.length; ++r) {
       for (let i = 0; i < around; ++i) {
         const next = (i + 1) % around
-        const p = base + r * around + i, q = base + r * around + next
-        const u = p + around, v = q + around
+        const p = base + r * around + i,
+          q = base + r * around + next
+        const u = p + around,
+          v = q + around
         if (outward > 0) this.indices.push(p, q, u, q, v, u)
         else this.indices.push(p, u, q, q, u, v)
       }

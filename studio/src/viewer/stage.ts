@@ -5,7 +5,11 @@ import type { Pane } from './pane'
 import type { Transport } from './transport'
 
 /** What a picture took, in ms of the main thread, over the last second or so. */
-export interface FrameCost { mean: number; most: number; pictures: number }
+export interface FrameCost {
+  mean: number
+  most: number
+  pictures: number
+}
 
 /** Draws signers on a canvas the way all of the studio's pictures are drawn. Throws where the browser cannot. */
 export function signerRenderer(canvas: HTMLCanvasElement, antialias = true): WebGLRenderer {
@@ -42,7 +46,10 @@ export class Stage {
   private width = 1
   private height = 1
 
-  constructor(private readonly canvas: HTMLCanvasElement, readonly transport: Transport) {
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    readonly transport: Transport,
+  ) {
     this.renderer = signerRenderer(canvas)
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio))
     this.observer = new ResizeObserver(() => this.resize())
@@ -84,8 +91,12 @@ export class Stage {
   /** Mean and most of the last pictures. */
   cost(): FrameCost {
     const count = Math.min(this.pictures, this.costs.length)
-    let sum = 0, most = 0
-    for (let i = 0; i < count; ++i) (sum += this.costs[i]), (most = Math.max(most, this.costs[i]))
+    let sum = 0,
+      most = 0
+    for (let i = 0; i < count; ++i) {
+      sum += this.costs[i]
+      most = Math.max(most, this.costs[i])
+    }
     return { mean: count ? sum / count : 0, most, pictures: this.pictures }
   }
 
@@ -133,14 +144,17 @@ export class Stage {
     }
     let waiting = false
     const stacked = this.stacked
-    const w = stacked ? width : width / count, h = stacked ? height / count : height
+    const w = stacked ? width : width / count,
+      h = stacked ? height / count : height
     renderer.setScissorTest(true)
     for (let i = 0; i < count; ++i) {
       const pane = panes[i]
       pane.update(seconds)
       waiting ||= pane.waiting
-      const x = stacked ? 0 : i * w, y = stacked ? (count - 1 - i) * h : 0
-      const shots = pane.cameras.length, part = w / shots
+      const x = stacked ? 0 : i * w,
+        y = stacked ? (count - 1 - i) * h : 0
+      const shots = pane.cameras.length,
+        part = w / shots
       for (let k = 0; k < shots; ++k) {
         const camera = pane.cameras[k]
         pane.aim(camera, part / h, elapsed)

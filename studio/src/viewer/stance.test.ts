@@ -12,15 +12,35 @@ import { stanceOf } from './stance'
 /** Collars at whose rest both arms point to the front, as some exporters write them: turned outward by a quarter they are a person's. */
 const kFolded: Skeleton = {
   joints: [
-    { name: 'p', parent: -1, offset: [0, 1, 0] }, { name: 'n', parent: 0, offset: [0, 0.5, 0] }, { name: 'h', parent: 1, offset: [0, 0.1, 0] },
-    { name: 'lc', parent: 1, offset: [0.03, -0.05, 0] }, { name: 'l', parent: 3, offset: [0, 0, 0.15] }, { name: 'le', parent: 4, offset: [0, 0, 0.28] }, { name: 'lh', parent: 5, offset: [0, 0, 0.25] },
-    { name: 'rc', parent: 1, offset: [-0.03, -0.05, 0] }, { name: 'r', parent: 7, offset: [0, 0, 0.15] }, { name: 're', parent: 8, offset: [0, 0, 0.28] }, { name: 'rh', parent: 9, offset: [0, 0, 0.25] },
+    { name: 'p', parent: -1, offset: [0, 1, 0] },
+    { name: 'n', parent: 0, offset: [0, 0.5, 0] },
+    { name: 'h', parent: 1, offset: [0, 0.1, 0] },
+    { name: 'lc', parent: 1, offset: [0.03, -0.05, 0] },
+    { name: 'l', parent: 3, offset: [0, 0, 0.15] },
+    { name: 'le', parent: 4, offset: [0, 0, 0.28] },
+    { name: 'lh', parent: 5, offset: [0, 0, 0.25] },
+    { name: 'rc', parent: 1, offset: [-0.03, -0.05, 0] },
+    { name: 'r', parent: 7, offset: [0, 0, 0.15] },
+    { name: 're', parent: 8, offset: [0, 0, 0.28] },
+    { name: 'rh', parent: 9, offset: [0, 0, 0.25] },
   ],
-  translated: [0], tracks: [],
+  translated: [0],
+  tracks: [],
 }
-const kRig = { pelvis: { joint: 0 }, neck: { joint: 1 }, head: { joint: 2 }, head_top: { joint: 2, offset: [0, 0.2, 0] as const },
-  left_clavicle: { joint: 3 }, left_upper_arm: { joint: 4 }, left_forearm: { joint: 5 }, left_hand: { joint: 6 },
-  right_clavicle: { joint: 7 }, right_upper_arm: { joint: 8 }, right_forearm: { joint: 9 }, right_hand: { joint: 10 } }
+const kRig = {
+  pelvis: { joint: 0 },
+  neck: { joint: 1 },
+  head: { joint: 2 },
+  head_top: { joint: 2, offset: [0, 0.2, 0] as const },
+  left_clavicle: { joint: 3 },
+  left_upper_arm: { joint: 4 },
+  left_forearm: { joint: 5 },
+  left_hand: { joint: 6 },
+  right_clavicle: { joint: 7 },
+  right_upper_arm: { joint: 8 },
+  right_forearm: { joint: 9 },
+  right_hand: { joint: 10 },
+}
 
 function motion(poses: ReturnType<typeof restPose>[], length = poses.length) {
   const store = new FrameStore(kFolded, 50, kRig, length)
@@ -29,8 +49,12 @@ function motion(poses: ReturnType<typeof restPose>[], length = poses.length) {
 }
 /** Both collars turned outward; one of two quaternions of the same rotation, in turn. */
 function outward(k: number) {
-  const pose = restPose(kFolded), sign = k % 2 ? -1 : 1
-  for (const [joint, angle] of [[3, 1], [7, -1]]) {
+  const pose = restPose(kFolded),
+    sign = k % 2 ? -1 : 1
+  for (const [joint, angle] of [
+    [3, 1],
+    [7, -1],
+  ]) {
     const { x, y, z, w } = new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), (angle * Math.PI) / 2 + 0.1 * Math.sin(k))
     pose.rotations.set([sign * x, sign * y, sign * z, sign * w], 4 * joint)
   }
@@ -51,15 +75,19 @@ it('is what was captured where rest is none of a person', () => {
 })
 
 it('draws a body that is where its joints are, however they were turned when it was made', () => {
-  const poses = Array.from({ length: 10 }, (_, k) => outward(k)), signer = new Proportions(kFolded, kRig, stanceOf(motion(poses)))
-  const body = new DrawnBody(signer), model = new Kinematics(kFolded)
+  const poses = Array.from({ length: 10 }, (_, k) => outward(k)),
+    signer = new Proportions(kFolded, kRig, stanceOf(motion(poses)))
+  const body = new DrawnBody(signer),
+    model = new Kinematics(kFolded)
   body.show(poses[3])
   model.update(poses[3])
   body.object.updateMatrixWorld(true)
   const mesh = body.object.children.find((one) => 'isSkinnedMesh' in one) as import('three').SkinnedMesh
   mesh.skeleton.update()
   // Of what each joint carries alone, the nearest point is no further from it than flesh is thick.
-  const places = mesh.geometry.getAttribute('position'), carriers = mesh.geometry.getAttribute('skinIndex'), at = new Vector3()
+  const places = mesh.geometry.getAttribute('position'),
+    carriers = mesh.geometry.getAttribute('skinIndex'),
+    at = new Vector3()
   const nearest = kFolded.joints.map(() => Infinity)
   for (let v = 0; v < places.count; ++v) {
     const j = carriers.getX(v)

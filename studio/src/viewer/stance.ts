@@ -5,7 +5,12 @@ import type { OpenedMotion } from '../motion/source'
 /** Frames that are looked at. */
 const kLooked = 40
 /** Distances that a body keeps, whatever it does. */
-const kKept = [['left_upper_arm', 'right_upper_arm'], ['left_thigh', 'right_thigh'], ['pelvis', 'neck'], ['pelvis', 'head']] as const
+const kKept = [
+  ['left_upper_arm', 'right_upper_arm'],
+  ['left_thigh', 'right_thigh'],
+  ['pelvis', 'neck'],
+  ['pelvis', 'head'],
+] as const
 /** As much longer or shorter than captured such a distance may be at rest. */
 const kNear = 1.3
 
@@ -22,9 +27,11 @@ export function someFrames({ store }: Pick<OpenedMotion, 'store'>): number[] {
  */
 export function stanceOf(motion: Pick<OpenedMotion, 'store' | 'rig'>): Pose {
   const { store, rig } = motion
-  const rest = restPose(store.skeleton), frames = someFrames(motion)
+  const rest = restPose(store.skeleton),
+    frames = someFrames(motion)
   if (frames.length === 0) return rest
-  const mean = restPose(store.skeleton), pose = restPose(store.skeleton)
+  const mean = restPose(store.skeleton),
+    pose = restPose(store.skeleton)
   mean.rotations.fill(0)
   mean.positions.fill(0)
   for (const frame of frames) {
@@ -40,12 +47,14 @@ export function stanceOf(motion: Pick<OpenedMotion, 'store' | 'rig'>): Pose {
     const length = Math.hypot(...mean.rotations.subarray(4 * j, 4 * j + 4))
     for (let k = 0; k < 4; ++k) mean.rotations[4 * j + k] = length > 1e-6 ? mean.rotations[4 * j + k] / length : Number(k === 3)
   }
-  const atRest = new Kinematics(store.skeleton), captured = new Kinematics(store.skeleton)
+  const atRest = new Kinematics(store.skeleton),
+    captured = new Kinematics(store.skeleton)
   atRest.update(rest)
   captured.update(mean)
   const distance = ({ positions: p }: Kinematics, a: number, b: number) => Math.hypot(...[0, 1, 2].map((k) => p[3 * a + k] - p[3 * b + k]))
   const odd = kKept.some(([one, other]) => {
-    const a = rig[one]?.joint, b = rig[other]?.joint
+    const a = rig[one]?.joint,
+      b = rig[other]?.joint
     if (a === undefined || b === undefined) return false
     const ratio = (distance(atRest, a, b) + 1e-6) / (distance(captured, a, b) + 1e-6)
     return ratio > kNear || ratio < 1 / kNear

@@ -1,4 +1,16 @@
-import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Group, InstancedMesh, Line, LineBasicMaterial, Matrix4, MeshBasicMaterial, SphereGeometry } from 'three'
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DynamicDrawUsage,
+  Group,
+  InstancedMesh,
+  Line,
+  LineBasicMaterial,
+  Matrix4,
+  MeshBasicMaterial,
+  SphereGeometry,
+} from 'three'
 import type { FrameStore } from '../motion/frame_store'
 
 const kPoints = 64
@@ -43,9 +55,11 @@ export class Trails {
       const at = this.places[hand]
       for (let i = 0; i < kPoints; ++i) {
         const back = Math.max(0, (seconds - (kReach * i) / (kPoints - 1)) * store.rate)
-        const frame = Math.min(store.length - 1, Math.floor(back)), part = Math.min(1, back - frame)
+        const frame = Math.min(store.length - 1, Math.floor(back)),
+          part = Math.min(1, back - frame)
         for (let k = 0 as 0 | 1 | 2; k < 3; k = (k + 1) as 0 | 1 | 2) {
-          const a = store.hand(frame, hand, k), b = store.hand(Math.min(store.length - 1, frame + 1), hand, k)
+          const a = store.hand(frame, hand, k),
+            b = store.hand(Math.min(store.length - 1, frame + 1), hand, k)
           const place = Number.isNaN(b) ? a : a + (b - a) * part
           at[3 * i + k] = Number.isNaN(place) ? (i > 0 ? at[3 * (i - 1) + k] : 0) : place
         }
@@ -61,7 +75,14 @@ export class Trails {
   }
 
   dispose(): void {
-    for (const line of this.lines) line.geometry.dispose(), (line.material as LineBasicMaterial).dispose()
-    for (const beads of this.beads) beads.geometry.dispose(), (beads.material as MeshBasicMaterial).dispose(), beads.dispose()
+    for (const line of this.lines) {
+      line.geometry.dispose()
+      ;(line.material as LineBasicMaterial).dispose()
+    }
+    for (const beads of this.beads) {
+      beads.geometry.dispose()
+      ;(beads.material as MeshBasicMaterial).dispose()
+      beads.dispose()
+    }
   }
 }

@@ -1,5 +1,8 @@
 /** Seconds from frame 0; half-open. */
-export interface Loop { readonly begin: number; readonly end: number }
+export interface Loop {
+  readonly begin: number
+  readonly end: number
+}
 
 export const kSlowest = 0.1
 export const kFastest = 2
@@ -36,7 +39,8 @@ export class Transport {
     if (!this.playing || elapsed === 0) return false
     if (this.live) return this.follow(elapsed)
     if (this.held) return false
-    const begin = this.loop?.begin ?? 0, end = this.loop?.end ?? this.duration
+    const begin = this.loop?.begin ?? 0,
+      end = this.loop?.end ?? this.duration
     let time = this.time + elapsed * this.speed
     if (time >= end) {
       if (this.loop || (this.repeat && !this.growing)) time = end > begin ? begin + ((time - begin) % (end - begin)) : begin
@@ -85,7 +89,8 @@ export class Transport {
 
   /** A span to repeat; none where it is shorter than a frame. */
   setLoop(begin: number, end: number): void {
-    const low = Math.max(0, Math.min(begin, end)), high = Math.min(this.duration, Math.max(begin, end))
+    const low = Math.max(0, Math.min(begin, end)),
+      high = Math.min(this.duration, Math.max(begin, end))
     this.loop = high - low >= 1 / this.rate ? { begin: low, end: high } : null
   }
 }

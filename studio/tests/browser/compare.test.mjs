@@ -3,6 +3,7 @@ import assert from 'node:assert/strict'
 import { readFileSync } from 'node:fs'
 import { axeFaults, transport } from './page_tools.mjs'
 import { address, context, kDeclared, page, test, visit } from './suite.mjs'
+import { frames, until } from './waits.mjs'
 
 const button = (name) => page.getByRole('button', { name, exact: true })
 const kept = () => page.evaluate(() => JSON.parse(localStorage.getItem('signweave.study.demo')))
@@ -10,10 +11,13 @@ const forget = () => page.evaluate(() => (localStorage.removeItem('signweave.stu
 /** What only who runs a study should look at is closed. */
 const forMaker = () => page.locator('summary', { hasText: 'For whoever runs the study' }).click()
 /** Until both signers of a trial are drawn. */
-const seen = (count = 2) => page.waitForFunction((n) => window.signweaveStage?.panes.length === n && window.signweaveStage.panes.every((pane) => pane.seen), count, { timeout: 60_000 })
+const seen = (count = 2) =>
+  page.waitForFunction((n) => window.signweaveStage?.panes.length === n && window.signweaveStage.panes.every((pane) => pane.seen), count)
 /** The parts of a file that Wilson's table and CSV are made of: fields may be quoted. */
 function parsed(text) {
-  const rows = [...text.matchAll(/((?:"(?:[^"]|"")*"|[^",\r\n]*)(?:,(?:"(?:[^"]|"")*"|[^",\r\n]*))*)\r\n/g)].map(([, line]) => [...line.matchAll(/(?:^|,)("(?:[^"]|"")*"|[^",]*)/g)].map(([, field]) => field.replace(/^"|"$/g, '').replaceAll('""', '"')))
+  const rows = [...text.matchAll(/((?:"(?:[^"]|"")*"|[^",\r\n]*)(?:,(?:"(?:[^"]|"")*"|[^",\r\n]*))*)\r\n/g)].map(([, line]) =>
+    [...line.matchAll(/(?:^|,)("(?:[^"]|"")*"|[^",]*)/g)].map(([, field]) => field.replace(/^"|"$/g, '').replaceAll('""', '"')),
+  )
   return rows.slice(1).map((row) => Object.fromEntries(row.map((field, i) => [rows[0][i], field])))
 }
 async function saved(name) {
@@ -35,7 +39,7 @@ async function setUp({ methods = ['hermite', 'sine'], trials = 4, still = true, 
   await more()
   await page.waitForFunction(() => document.querySelector('form button.primary')?.disabled === false)
   await button('Set up the study').click()
-  await button('Begin').waitFor({ timeout: 60_000 })
+  await button('Begin').waitFor()
 }
 async function begin(fluency = 'Deaf signer') {
   await page.getByLabel(fluency).check()
@@ -43,16 +47,23 @@ async function begin(fluency = 'Deaf signer') {
 }
 /** A dialog tells only later that it was closed. */
 const closed = () => page.waitForFunction(() => !document.querySelector('dialog'))
-const answered = (count) => page.waitForFunction((n) => JSON.parse(localStorage.getItem('signweave.study.demo')).sessions.reduce((sum, { answers }) => sum + answers.length, 0) === n, count)
+const answered = (count) =>
+  page.waitForFunction(
+    (n) => JSON.parse(localStorage.getItem('signweave.study.demo')).sessions.reduce((sum, { answers }) => sum + answers.length, 0) === n,
+    count,
+  )
 
 test('a viewer takes part by keyboard alone, a reload goes on with the same trial, and the votes are saved', async () => {
-  await setUp({ trials: 4, more: async () => {
-    await page.getByLabel('with the capture twice').fill('1')
-    await page.getByLabel('Which looks more natural').check()
-    await page.getByLabel('Seed').fill('5')
-    await page.locator('summary').click()
-    await page.getByLabel('Question: natural, English').fill('Which do you like?')
-  } })
+  await setUp({
+    trials: 4,
+    more: async () => {
+      await page.getByLabel('with the capture twice').fill('1')
+      await page.getByLabel('Which looks more natural').check()
+      await page.getByLabel('Seed').fill('5')
+      await page.locator('summary').click()
+      await page.getByLabel('Question: natural, English').fill('Which do you like?')
+    },
+  })
   const { items, settings } = await kept()
   assert.deepEqual(items.map(({ method }) => method).toSorted(), ['', 'hermite', 'hermite', 'sine', 'sine'])
   assert.equal(new Set(items.map(({ from, recording }) => `${recording} ${from}`)).size, 5)
@@ -63,27 +74,35 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   await page.keyboard.press('Space')
   await page.keyboard.press('Enter')
   await seen()
-  assert.match((await page.locator('[role=status]').allTextContents()).join(), kDeclared)
+  await until(async () => assert.match((await page.locator('[role=status]').allTextContents()).join(), kDeclared))
   await page.getByText('Which do you like?').waitFor()
-  assert.equal((await transport(page)).playing, false)
+  await until(async () => assert.equal((await transport(page)).playing, false))
   await page.keyboard.press('Space')
   await page.waitForFunction(() => window.signweaveStage.transport.time > 0)
   await page.keyboard.press('Space')
   const before = await kept()
   assert.deepEqual([before.current, before.sessions[0].fluency], [undefined, 'deaf']) // whose turn it is only this tab knows
   // Nothing leads away but Pause.
-  assert.equal(await page.locator('nav:visible').count(), 0)
+  await until(async () => assert.equal(await page.locator('nav:visible').count(), 0))
   await page.keyboard.press('?')
-  assert.equal(await page.getByRole('dialog').count(), 0)
-  assert.deepEqual(await page.locator('.title').allTextContents().then((all) => all.map((one) => one.trim())), ['A', 'B'])
+  await until(async () => assert.equal(await page.getByRole('dialog').count(), 0))
+  await until(async () =>
+    assert.deepEqual(
+      await page
+        .locator('.title')
+        .allTextContents()
+        .then((all) => all.map((one) => one.trim())),
+      ['A', 'B'],
+    ),
+  )
   await page.keyboard.press('1') // the first question
   await page.keyboard.press('Enter')
   await page.keyboard.press('ArrowRight') // the second
   await page.waitForFunction(() => JSON.parse(localStorage.getItem('signweave.study.demo')).sessions[0].draft?.natural === 'right')
   await page.reload()
   await seen()
-  assert.equal(await page.locator('[aria-pressed=true]').filter({ hasText: /^A$/ }).count(), 1)
-  assert.equal((await kept()).sessions[0].answers.length, 0)
+  await until(async () => assert.equal(await page.locator('[aria-pressed=true]').filter({ hasText: /^A$/ }).count(), 1))
+  await until(async () => assert.equal((await kept()).sessions[0].answers.length, 0))
   await page.keyboard.press('4') // the rating has the keys now
   await page.keyboard.press('Enter')
   await page.keyboard.type('Elbow 1') // the comment has them
@@ -102,8 +121,14 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   // The others by mouse, with a comment.
   for (let n = 2; n <= 5; ++n) {
     await seen()
-    await page.locator('.choice').nth(n % 2).click()
-    await page.locator('.choice').nth(2 + (n % 2)).click()
+    await page
+      .locator('.choice')
+      .nth(n % 2)
+      .click()
+    await page
+      .locator('.choice')
+      .nth(2 + (n % 2))
+      .click()
     await button('2').click()
     await page.getByRole('textbox', { name: 'What did you see' }).fill(n === 3 ? 'He said "no", or\nso' : '')
     for (let i = 0; i < 4 && (await kept()).sessions[0].answers.length < n; ++i) await page.locator('button.next').click()
@@ -113,11 +138,17 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   await button('Finish').click()
 
   await forMaker()
-  const study = await kept(), rows = parsed(await saved('Votes as CSV'))
+  const study = await kept(),
+    rows = parsed(await saved('Votes as CSV'))
   assert.equal(rows.length, 10)
   for (const [i, row] of rows.entries()) {
-    const { item, side } = study.sessions[0].trials[Math.floor(i / 2)], answer = study.sessions[0].answers[Math.floor(i / 2)], { method, recording, from } = study.items[item]
-    assert.deepEqual([row.study_seed, row.participant, row.fluency, row.recording, Number(row.from_ms), row.method], ['5', 'P01', 'deaf', recording, from, method || 'captured'])
+    const { item, side } = study.sessions[0].trials[Math.floor(i / 2)],
+      answer = study.sessions[0].answers[Math.floor(i / 2)],
+      { method, recording, from } = study.items[item]
+    assert.deepEqual(
+      [row.study_seed, row.participant, row.fluency, row.recording, Number(row.from_ms), row.method],
+      ['5', 'P01', 'deaf', recording, from, method || 'captured'],
+    )
     const choice = answer[row.question]
     assert.equal(row.answer, choice === 'left' ? 'A' : 'B')
     assert.equal(row.correct, method ? String(Number(choice === side)) : '')
@@ -141,32 +172,51 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
     if (calls.length === 2) await held
     await route.fallback()
   })
+  const first = page.waitForResponse(/\/motion\?/)
   await begin()
   await page.waitForFunction(() => document.querySelector('.over'))
-  while (calls.length < 2) await page.waitForTimeout(50)
-  await page.waitForTimeout(600)
-  assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 0)
+  await until(() => assert.equal(calls.length, 2))
+  await (await first).finished()
+  await frames(page)
+  await until(async () => assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 0))
   free()
   await seen()
-  const { items, sessions: [{ trials }] } = await kept()
-  const { side } = trials[0], { from, to, begin: start } = items[trials[0].item]
+  const {
+    items,
+    sessions: [{ trials }],
+  } = await kept()
+  const { side } = trials[0],
+    { from, to, begin: start } = items[trials[0].item]
   // In the order of the sides: over a study as often the one as the other.
-  assert.deepEqual(calls.slice(0, 2).map(({ remake }) => Boolean(remake)), side === 'left' ? [false, true] : [true, false])
+  assert.deepEqual(
+    calls.slice(0, 2).map(({ remake }) => Boolean(remake)),
+    side === 'left' ? [false, true] : [true, false],
+  )
   assert.equal(trials.filter((one) => one.side === 'left').length, 4)
   const said = await page.evaluate(() => document.documentElement.outerHTML + location.href + document.title)
   for (const word of ['hermite', 'remake', 'meteo', 'villes', 'capture', 'original', 'Recorded', 'Made ']) assert.ok(!said.includes(word), `${word} is told`)
 
   // The two are alike but for the gap, seen through one camera, and go in step.
-  const apart = await page.evaluate(([low, high]) => {
-    const { panes } = window.signweaveStage, [a, b] = panes
-    const far = Array.from({ length: a.store.length }, (_, frame) => {
-      let most = 0
-      for (const hand of [0, 1]) for (const axis of [0, 1, 2]) most = Math.max(most, Math.abs(a.store.hand(frame, hand, axis) - b.store.hand(frame, hand, axis)))
-      return most
-    })
-    const inside = (frame) => frame / a.store.rate > low && frame / a.store.rate < high
-    return { lengths: [a.store.length, b.store.length], inside: Math.max(...far.filter((_, i) => inside(i))), outside: Math.max(...far.filter((_, i) => !inside(i))), cameras: a.cameras[0] === b.cameras[0] }
-  }, [(from - start) / 1000 - 0.011, (to - start) / 1000 + 0.011])
+  const apart = await page.evaluate(
+    ([low, high]) => {
+      const { panes } = window.signweaveStage,
+        [a, b] = panes
+      const far = Array.from({ length: a.store.length }, (_, frame) => {
+        let most = 0
+        for (const hand of [0, 1])
+          for (const axis of [0, 1, 2]) most = Math.max(most, Math.abs(a.store.hand(frame, hand, axis) - b.store.hand(frame, hand, axis)))
+        return most
+      })
+      const inside = (frame) => frame / a.store.rate > low && frame / a.store.rate < high
+      return {
+        lengths: [a.store.length, b.store.length],
+        inside: Math.max(...far.filter((_, i) => inside(i))),
+        outside: Math.max(...far.filter((_, i) => !inside(i))),
+        cameras: a.cameras[0] === b.cameras[0],
+      }
+    },
+    [(from - start) / 1000 - 0.011, (to - start) / 1000 + 0.011],
+  )
   assert.equal(apart.lengths[0], apart.lengths[1])
   assert.ok(apart.inside > 0.005, `made and captured are ${apart.inside} m apart`)
   assert.ok(apart.outside < 1e-4, `${apart.outside} m apart where nothing was made`)
@@ -174,21 +224,29 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   const { playing, repeat, speed, loop } = await transport(page)
   assert.deepEqual({ playing, repeat, speed, loop }, { playing: true, repeat: true, speed: 1, loop: null })
   await page.keyboard.press('Space')
-  assert.equal((await transport(page)).playing, false)
+  await until(async () => assert.equal((await transport(page)).playing, false))
   // No views, no speed, no other signer; the signer cannot be turned.
-  assert.equal(await page.locator('.tools:visible, input[type=range]:visible, select:visible').filter({ hasNot: page.locator('option', { hasText: 'demo' }) }).count(), 0)
+  await until(async () =>
+    assert.equal(
+      await page
+        .locator('.tools:visible, input[type=range]:visible, select:visible')
+        .filter({ hasNot: page.locator('option', { hasText: 'demo' }) })
+        .count(),
+      0,
+    ),
+  )
   await page.mouse.move(200, 300)
   await page.mouse.down()
   await page.mouse.move(300, 300)
   await page.mouse.up()
-  assert.equal(await page.evaluate(() => window.signweaveStage.panes[0].camera.azimuth), 0)
+  await until(async () => assert.equal(await page.evaluate(() => window.signweaveStage.panes[0].camera.azimuth), 0))
   // Replay begins again.
   await page.evaluate(() => (window.signweaveStage.transport.seek(1.2), window.signweaveStage.touch()))
   await page.keyboard.press('r')
   await page.waitForFunction(() => window.signweaveStage.transport.playing && window.signweaveStage.transport.time < 1.1)
   await page.keyboard.press('Space')
   // What comes next is fetched while one looks, and is there at once.
-  while (calls.length < 4) await page.waitForTimeout(50)
+  await until(() => assert.equal(calls.length, 4))
   await page.keyboard.press('2')
   await page.keyboard.press('Enter')
   await page.keyboard.press('3')
@@ -196,15 +254,22 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   await page.keyboard.press('Enter') // no comment
   await answered(1)
   await seen()
-  while (calls.length < 6) await page.waitForTimeout(50)
-  assert.deepEqual(calls.slice(2, 4).map(({ remake }) => Boolean(remake)), trials[1].side === 'left' ? [false, true] : [true, false])
+  await until(() => assert.equal(calls.length, 6))
+  assert.deepEqual(
+    calls.slice(2, 4).map(({ remake }) => Boolean(remake)),
+    trials[1].side === 'left' ? [false, true] : [true, false],
+  )
 })
 
 test('viewers follow each other, what came out is shown on purpose, and deleting is asked for', async () => {
-  await setUp({ methods: ['hermite'], trials: 1, more: async () => {
-    await page.getByLabel('A comment').uncheck()
-    await page.getByLabel('A rating').uncheck()
-  } })
+  await setUp({
+    methods: ['hermite'],
+    trials: 1,
+    more: async () => {
+      await page.getByLabel('A comment').uncheck()
+      await page.getByLabel('A rating').uncheck()
+    },
+  })
   for (const [n, fluency] of ['Deaf signer', 'Learner'].entries()) {
     await begin(fluency)
     await seen()
@@ -217,31 +282,31 @@ test('viewers follow each other, what came out is shown on purpose, and deleting
   const said = await page.locator('main').innerText()
   for (const word of ['hermite', 'capture', 'P01', 'Votes', 'what came out', 'Delete']) assert.ok(!said.includes(word), `${word} is told`)
   await forMaker()
-  assert.deepEqual(await page.locator('tbody th').allTextContents(), ['P01', 'P02'])
-  assert.equal(await page.getByLabel('Your code').inputValue(), 'P03')
+  await until(async () => assert.deepEqual(await page.locator('tbody th').allTextContents(), ['P01', 'P02']))
+  await until(async () => assert.equal(await page.getByLabel('Your code').inputValue(), 'P03'))
   await page.getByLabel('Your code').fill('P01')
-  assert.ok(await button('Begin').isDisabled())
-  assert.equal(await page.locator('#outcome-title').count(), 0)
+  await until(async () => assert.ok(await button('Begin').isDisabled()))
+  await until(async () => assert.equal(await page.locator('#outcome-title').count(), 0))
   await button('Show what came out').click()
   await button('Not now').click()
   await closed()
-  assert.equal(await page.locator('#outcome-title').count(), 0)
+  await until(async () => assert.equal(await page.locator('#outcome-title').count(), 0))
   await button('Show what came out').click()
   await button('Show it').click()
   await page.locator('#outcome-title').waitFor()
   const cells = () => page.locator('[aria-labelledby=outcome-title] tbody tr').first().locator('td, th').allTextContents()
-  assert.deepEqual((await cells()).slice(1, 5), ['hermite', '2', '100 % (2/2)', '34–100 %'])
+  await until(async () => assert.deepEqual((await cells()).slice(1, 5), ['hermite', '2', '100 % (2/2)', '34–100 %']))
   await page.getByLabel('Votes of').selectOption({ label: 'Deaf signer' })
-  assert.deepEqual((await cells()).slice(1, 5), ['hermite', '1', '100 % (1/1)', '21–100 %'])
+  await until(async () => assert.deepEqual((await cells()).slice(1, 5), ['hermite', '1', '100 % (1/1)', '21–100 %']))
   await button('Delete the study').click()
-  assert.match(await page.getByRole('dialog').textContent(), /its 2 votes/)
+  await until(async () => assert.match(await page.getByRole('dialog').textContent(), /its 2 votes/))
   await page.keyboard.press('Escape')
   await closed()
-  assert.ok(await kept())
+  await until(async () => assert.ok(await kept()))
   await button('Delete the study').click()
   await button('Delete').click()
   await button('Set up the study').waitFor()
-  assert.equal(await kept(), null)
+  await until(async () => assert.equal(await kept(), null))
 })
 
 test('shows one at a time, opens a study that was saved, and says what is none', async () => {
@@ -250,13 +315,13 @@ test('shows one at a time, opens a study that was saved, and says what is none',
   const json = await saved('Study and votes as JSON')
   await begin()
   await seen(1)
-  assert.equal(await page.locator('.title').count(), 0)
+  await until(async () => assert.equal(await page.locator('.title').count(), 0))
   await button('Made by a computer').click()
   await page.getByText('How natural does it look?').waitFor()
   await button('5').click()
   await button('Next').click()
   await answered(1)
-  assert.equal((await kept()).sessions[0].answers[0].recorded, 'right')
+  await until(async () => assert.equal((await kept()).sessions[0].answers[0].recorded, 'right'))
   await forget()
   await page.reload()
   const choose = async (text) => {
@@ -264,10 +329,10 @@ test('shows one at a time, opens a study that was saved, and says what is none',
     await chooser.setFiles({ name: 'study.json', mimeType: 'application/json', buffer: Buffer.from(text) })
   }
   await choose('{"format":"something"}')
-  assert.match(await page.getByRole('alert').textContent(), /This is no study/)
+  await until(async () => assert.match(await page.getByRole('alert').textContent(), /This is no study/))
   await choose(json)
   await button('Begin').waitFor()
-  assert.deepEqual(await kept(), JSON.parse(json))
+  await until(async () => assert.deepEqual(await kept(), JSON.parse(json)))
   await forget()
 })
 
@@ -294,12 +359,20 @@ test('a study in two tabs keeps the votes of both, and shows what the other did'
     await votes(other, 2)
     await seen()
     await votes(page, 3)
-    assert.deepEqual((await kept()).sessions.map(({ participant, answers }) => [participant, answers.length]), [['P01', 2], ['P02', 1]])
+    await until(async () =>
+      assert.deepEqual(
+        (await kept()).sessions.map(({ participant, answers }) => [participant, answers.length]),
+        [
+          ['P01', 2],
+          ['P02', 1],
+        ],
+      ),
+    )
     // Deleted in one it is gone in the other.
     await button('Finish').click()
     await forMaker()
     await button('Delete the study').click()
-    assert.match(await page.getByRole('dialog').textContent(), /its 3 votes/)
+    await until(async () => assert.match(await page.getByRole('dialog').textContent(), /its 3 votes/))
     await button('Delete').click()
     await other.getByRole('button', { name: 'Set up the study' }).waitFor()
   } finally {
@@ -313,21 +386,33 @@ test('a kept study that cannot be shown stays until it is deleted, and can be sa
   await page.evaluate((text) => localStorage.setItem('signweave.study.demo', text), odd)
   await page.reload()
   assert.equal(await saved('Save as it is (JSON)'), odd)
-  assert.equal(await button('Set up the study').count(), 0)
+  await until(async () => assert.equal(await button('Set up the study').count(), 0))
   assert.deepEqual(await axeFaults(page), [])
   await button('Delete the study').click()
   await button('Delete').click()
   await button('Set up the study').waitFor()
-  assert.equal(await kept(), null)
+  await until(async () => assert.equal(await kept(), null))
 })
 
-for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
-  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+for (const [theme, language] of [
+  ['dark', 'en'],
+  ['light', 'fr'],
+]) {
+  for (const size of [
+    { width: 1280, height: 720 },
+    { width: 390, height: 844 },
+  ]) {
     test(`an accessibility checker finds nothing in a study, ${theme}, ${language}, ${size.width} wide`, async () => {
       const found = []
       const look = async (name) => {
         found.push(...(await axeFaults(page)).map((fault) => `${name}: ${fault}`))
-        assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth), `${name} is wider than the screen`)
+        assert.ok(
+          await page.evaluate(
+            () =>
+              document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth,
+          ),
+          `${name} is wider than the screen`,
+        )
       }
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
       await visit('#/demo/compare', { size })

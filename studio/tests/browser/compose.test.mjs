@@ -3,36 +3,37 @@ import assert from 'node:assert/strict'
 import { button, cards, compose, field, pause, pick, saved, shown } from './compose_tools.mjs'
 import { axeFaults, transport } from './page_tools.mjs'
 import { decoded, readWebm } from './render_webm.mjs'
-import { context, kDeclared, page, test, visit } from './suite.mjs'
+import { context, kDeclared, mainTest, page, test, visit } from './suite.mjs'
+import { until } from './waits.mjs'
 
 const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not ${wanted}`)
 const kScenario1 = 'LE-TEMPS-PREVU#1 VANNES MATIN#1 NUAGES#1 APRES-MIDI#1 PLUIE#1 MARSEILLE SOLEIL-BRILLER#1'
 
-test('signs glosses that are typed and completed, by keyboard alone', async () => {
+mainTest('signs glosses that are typed and completed, by keyboard alone', async () => {
   await visit('#/demo/compose')
   await button('Scenario 1: four words replaced by city signs').waitFor() // the glosses are there
   await field().focus()
   await page.keyboard.type('van')
   const options = page.locator('.box [role=option]')
-  assert.deepEqual(await options.allTextContents(), ['VANNES 3 tokens'])
+  await until(async () => assert.deepEqual(await options.allTextContents(), ['VANNES 3 tokens']))
   await page.keyboard.press('ArrowDown')
-  assert.equal(await options.first().getAttribute('aria-selected'), 'true')
+  await until(async () => assert.equal(await options.first().getAttribute('aria-selected'), 'true'))
   await page.keyboard.press('Enter')
-  assert.equal(await field().inputValue(), 'VANNES ')
+  await until(async () => assert.equal(await field().inputValue(), 'VANNES '))
   await shown('VANNES')
   await pause()
   await page.keyboard.type('main')
-  assert.deepEqual((await options.locator('span:first-child').allTextContents()), ['DEMAIN'])
+  await until(async () => assert.deepEqual(await options.locator('span:first-child').allTextContents(), ['DEMAIN']))
   await page.keyboard.press('Escape')
-  assert.equal(await options.count(), 0)
+  await until(async () => assert.equal(await options.count(), 0))
   for (let i = 0; i < 4; ++i) await page.keyboard.press('Backspace')
   await page.keyboard.type('MATIN , "LE MANS" PLUIE ')
   await shown('VANNES MATIN , "LE MANS" PLUIE')
-  assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'LE MANS', 'PLUIE'])
-  assert.ok((await page.locator('.names li').allTextContents()).includes('Junction'))
+  await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'LE MANS', 'PLUIE']))
+  await until(async () => assert.ok((await page.locator('.names li').allTextContents()).includes('Junction')))
   const { duration } = await transport(page)
   assert.ok(duration > 3 && duration < 12, `${duration} s`)
-  assert.match(await page.locator('.declarations').textContent(), kDeclared)
+  await until(async () => assert.match(await page.locator('.declarations').textContent(), kDeclared))
 })
 
 test('tells what cannot be signed, and keeps what is shown', async () => {
@@ -40,15 +41,15 @@ test('tells what cannot be signed, and keeps what is shown', async () => {
   await field().press('End')
   await page.keyboard.type(' VANES ')
   await page.getByRole('alert').filter({ hasText: "no sign 'VANES'" }).waitFor()
-  assert.match(await page.locator('.card').nth(1).textContent(), /not in this database/)
-  assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 1)
+  await until(async () => assert.match(await page.locator('.card').nth(1).textContent(), /not in this database/))
+  await until(async () => assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 1))
   await page.keyboard.press('Control+z')
   await page.waitForFunction(() => !document.querySelector('[role=alert]'))
-  assert.deepEqual(await cards(), ['VANNES'])
+  await until(async () => assert.deepEqual(await cards(), ['VANNES']))
   await page.keyboard.type(' "LE MA')
   await page.keyboard.press('Enter')
-  assert.match(await page.getByRole('alert').textContent(), /never closed: "LE MA/)
-  assert.deepEqual(await cards(), ['VANNES'])
+  await until(async () => assert.match(await page.getByRole('alert').textContent(), /never closed: "LE MA/))
+  await until(async () => assert.deepEqual(await cards(), ['VANNES']))
 })
 
 test('moves signs by mouse and by keyboard, takes them out, and takes every step back', async () => {
@@ -58,40 +59,41 @@ test('moves signs by mouse and by keyboard, takes them out, and takes every step
   await page.mouse.down()
   await page.mouse.move(last.x + last.width - 5, last.y + 20, { steps: 4 })
   await page.mouse.up()
-  assert.equal(await field().inputValue(), 'MATIN PLUIE BONJOUR')
+  await until(async () => assert.equal(await field().inputValue(), 'MATIN PLUIE BONJOUR'))
   await page.locator('.card').last().focus()
   await page.keyboard.press('Enter') // no click followed the drag: this one is meant
-  assert.equal(await page.locator('aside h2').textContent(), 'BONJOUR')
+  await until(async () => assert.equal(await page.locator('aside h2').textContent(), 'BONJOUR'))
   await page.keyboard.press('Alt+ArrowLeft')
-  assert.equal(await field().inputValue(), 'MATIN BONJOUR PLUIE')
-  const isLeft = () => page.evaluate(() => document.activeElement.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft', altKey: true, bubbles: true, cancelable: true })))
+  await until(async () => assert.equal(await field().inputValue(), 'MATIN BONJOUR PLUIE'))
+  const isLeft = () =>
+    page.evaluate(() => document.activeElement.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft', altKey: true, bubbles: true, cancelable: true })))
   await page.locator('.junction').first().focus()
   assert.equal(await isLeft(), false) // the browser does not go back
   await page.locator('.card').nth(1).focus()
-  assert.equal(await page.evaluate(() => document.activeElement.textContent.includes('BONJOUR')), true)
+  await until(async () => assert.equal(await page.evaluate(() => document.activeElement.textContent.includes('BONJOUR')), true))
   await page.keyboard.press('Delete')
-  assert.equal(await field().inputValue(), 'MATIN PLUIE')
+  await until(async () => assert.equal(await field().inputValue(), 'MATIN PLUIE'))
   await page.keyboard.press('Enter')
   await button('Duplicate').click()
   const another = page.getByRole('combobox', { name: 'Another sign' })
   await another.fill('"VANNES')
   await button('Replace').click()
-  assert.match(await page.locator('#other-fault').textContent(), /never closed/)
+  await until(async () => assert.match(await page.locator('#other-fault').textContent(), /never closed/))
   await another.fill('"VANNES"')
   await button('Replace').click()
-  assert.equal(await field().inputValue(), 'MATIN PLUIE VANNES')
+  await until(async () => assert.equal(await field().inputValue(), 'MATIN PLUIE VANNES'))
   await another.pressSequentially('P')
   await page.keyboard.press('Control+z') // takes the typing back, not the sign
-  assert.deepEqual([await another.inputValue(), await field().inputValue()], ['', 'MATIN PLUIE VANNES'])
+  await until(async () => assert.deepEqual([await another.inputValue(), await field().inputValue()], ['', 'MATIN PLUIE VANNES']))
   await page.locator('.card').last().focus()
   for (const before of ['MATIN PLUIE PLUIE', 'MATIN PLUIE', 'MATIN BONJOUR PLUIE', 'MATIN PLUIE BONJOUR', 'BONJOUR MATIN PLUIE']) {
     await page.keyboard.press('Control+z')
-    assert.equal(await field().inputValue(), before)
+    await until(async () => assert.equal(await field().inputValue(), before))
   }
-  assert.equal(await button('Undo').isDisabled(), true)
+  await until(async () => assert.equal(await button('Undo').isDisabled(), true))
   await button('Redo').click()
   await page.keyboard.press('Control+Shift+z')
-  assert.equal(await field().inputValue(), 'MATIN BONJOUR PLUIE')
+  await until(async () => assert.equal(await field().inputValue(), 'MATIN BONJOUR PLUIE'))
   await shown('MATIN BONJOUR PLUIE')
 })
 
@@ -105,29 +107,31 @@ test('shows the tokens of a place with what they cost, and signs the one that is
   assert.match(said[0], /least cost/)
   assert.match(said[0], /handshape \d\.\d\d/)
   const [, token, source] = /^#(\d) (meteo \d+\.\d s)/.exec(said[1])
-  assert.notEqual(await page.locator('.card').nth(1).locator('.source').textContent(), source)
+  await until(async () => assert.notEqual(await page.locator('.card').nth(1).locator('.source').textContent(), source))
   await rows.nth(1).click()
   await shown(`VANNES MATIN#${token}`)
-  assert.equal(await page.locator('.card').nth(1).locator('.source').textContent(), source)
-  assert.equal(await field().inputValue(), `VANNES MATIN#${token}`)
+  await until(async () => assert.equal(await page.locator('.card').nth(1).locator('.source').textContent(), source))
+  await until(async () => assert.equal(await field().inputValue(), `VANNES MATIN#${token}`))
   await page.waitForFunction(() => /pinned/.test(document.querySelector('aside .token[aria-pressed=true]')?.textContent))
   await button('Least cost again').click()
-  assert.equal(await field().inputValue(), 'VANNES MATIN')
+  await until(async () => assert.equal(await field().inputValue(), 'VANNES MATIN'))
 })
 
 test('goes from junction to junction, and repeats what lies around each', async () => {
   await compose('VANNES MATIN PLUIE')
   await page.locator('.junction').first().click()
   const first = (await transport(page)).loop
-  assert.match(await page.locator('aside h2').textContent(), /Junction 1: VANNES – MATIN/)
+  await until(async () => assert.match(await page.locator('aside h2').textContent(), /Junction 1: VANNES – MATIN/))
   const junctions = await page.evaluate(async () => {
     const body = JSON.stringify({ utterance: 'VANNES MATIN PLUIE' })
-    const { junctions, frames_per_second: rate } = await (await fetch('api/databases/demo/sign', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body })).json()
+    const { junctions, frames_per_second: rate } = await (
+      await fetch('api/databases/demo/sign', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body })
+    ).json()
     return junctions.map(({ frames, method }) => ({ begin: frames.begin / rate, end: frames.end / rate, method }))
   })
   near(first.begin, junctions[0].begin - 0.4)
   near(first.end, junctions[0].end + 0.4)
-  assert.match(await page.locator('aside .fact').textContent(), new RegExp(junctions[0].method))
+  await until(async () => assert.match(await page.locator('aside .fact').textContent(), new RegExp(junctions[0].method)))
   await button('Junction after').click()
   near((await transport(page)).loop.begin, junctions[1].begin - 0.4)
   await pause()
@@ -136,7 +140,7 @@ test('goes from junction to junction, and repeats what lies around each', async 
   const longer = (await transport(page)).loop
   near(longer.end - longer.begin, junctions[1].end - junctions[1].begin + 0.8 + 0.35, 0.02)
   await button('Repeat it').click()
-  assert.equal((await transport(page)).loop, null)
+  await until(async () => assert.equal((await transport(page)).loop, null))
   await page.keyboard.press('Escape')
 })
 
@@ -146,20 +150,29 @@ test('compares two methods in step: the same signs, other transitions', async ()
   await page.getByRole('combobox', { name: 'With' }).selectOption('sine')
   await page.waitForFunction(() => window.signweaveStage.panes.length === 2 && window.signweaveStage.panes.every(({ store }) => store.arrived >= store.length))
   await pause()
-  assert.deepEqual((await page.locator('.title').allTextContents()).map((one) => one.trim()), ['As composed', 'sine'])
+  await until(async () =>
+    assert.deepEqual(
+      (await page.locator('.title').allTextContents()).map((one) => one.trim()),
+      ['As composed', 'sine'],
+    ),
+  )
   const { loop } = await transport(page)
-  const apart = await page.evaluate(({ begin, end }) => {
-    const [one, other] = window.signweaveStage.panes.map(({ store }) => store)
-    const at = (store, frame) => [0, 1, 2].map((axis) => store.hand(frame, 1, axis))
-    let inside = 0, outside = 0
-    for (let frame = 0; frame < one.length; ++frame) {
-      const far = Math.hypot(...at(one, frame).map((value, k) => value - at(other, frame)[k]))
-      const time = frame / one.rate
-      if (time > begin - 0.02 && time < end + 0.02) inside = Math.max(inside, far)
-      else outside = Math.max(outside, far)
-    }
-    return { inside, outside, same: one.length === other.length, time: window.signweaveStage.panes[1].timeOf(1.5) }
-  }, { begin: loop.begin + 0.4, end: loop.end - 0.4 })
+  const apart = await page.evaluate(
+    ({ begin, end }) => {
+      const [one, other] = window.signweaveStage.panes.map(({ store }) => store)
+      const at = (store, frame) => [0, 1, 2].map((axis) => store.hand(frame, 1, axis))
+      let inside = 0,
+        outside = 0
+      for (let frame = 0; frame < one.length; ++frame) {
+        const far = Math.hypot(...at(one, frame).map((value, k) => value - at(other, frame)[k]))
+        const time = frame / one.rate
+        if (time > begin - 0.02 && time < end + 0.02) inside = Math.max(inside, far)
+        else outside = Math.max(outside, far)
+      }
+      return { inside, outside, same: one.length === other.length, time: window.signweaveStage.panes[1].timeOf(1.5) }
+    },
+    { begin: loop.begin + 0.4, end: loop.end - 0.4 },
+  )
   assert.ok(apart.same && apart.inside > 0.02 && apart.outside < 1e-4, JSON.stringify(apart))
   near(apart.time, 1.5, 0.02)
   await button('sine for all').click()
@@ -184,19 +197,19 @@ test('gives one junction a method, a duration and a tempo of its own, also where
   await page.getByRole('combobox', { name: 'Tempo' }).selectOption('own')
   await page.getByRole('slider', { name: 'Of its own' }).fill('1.5')
   await fact('gap, 300 ms')
-  assert.match(await page.locator('.junction').last().getAttribute('aria-label'), /learned/)
+  await until(async () => assert.match(await page.locator('.junction').last().getAttribute('aria-label'), /learned/))
   await page.waitForFunction(() => decodeURIComponent(location.hash).includes('junctions=1=gap,450ms,x1.5'))
   await button('As for all again').click()
   await fact('The recorded transition')
   await page.getByRole('combobox', { name: 'With' }).selectOption('sine') // beside what was recorded, what the method makes of it
   await page.waitForFunction(() => window.signweaveStage.panes.length === 2)
-  assert.ok(await page.evaluate(() => window.signweaveStage.panes[0].store.length !== window.signweaveStage.panes[1].store.length))
+  await until(async () => assert.ok(await page.evaluate(() => window.signweaveStage.panes[0].store.length !== window.signweaveStage.panes[1].store.length)))
 })
 
 test('says for all how long transitions are, and how fast it goes', async () => {
   await compose('VANNES MATIN', { duration: '300' })
   const { duration } = await transport(page)
-  assert.equal(await page.locator('.junction .ms').textContent(), '300')
+  await until(async () => assert.equal(await page.locator('.junction .ms').textContent(), '300'))
   await page.getByLabel('Tempo').fill('2')
   await page.waitForFunction((before) => Math.abs(window.signweaveStage.transport.duration - before / 2) < 0.05, duration)
   await page.getByLabel('Frames a second').fill('50')
@@ -205,31 +218,32 @@ test('says for all how long transitions are, and how fast it goes', async () => 
   await page.waitForFunction(() => /duration=300&tempo=2&rate=50/.test(location.hash))
   await page.reload()
   await page.waitForFunction(() => window.signweaveStage?.transport.rate === 50)
-  assert.equal(await page.locator('aside input[type=number]').inputValue(), '300')
+  await until(async () => assert.equal(await page.locator('aside input[type=number]').inputValue(), '300'))
 })
 
-test('saves a project and opens it again by button and by drop; what is none is told, and nothing is lost', async () => {
+mainTest('saves a project and opens it again by button and by drop; what is none is told, and nothing is lost', async () => {
   await compose('VANNES MATIN#2 , "LE MANS"', { tempo: '1.5' })
   const file = await saved(() => button('Save project').click())
   assert.equal(file.name, 'VANNES_MATIN_2_LE_MANS.signweave.json')
   assert.equal(JSON.parse(file.bytes).places[2].pause, 'comma')
   await pick('Open', 'Start anew')
-  assert.deepEqual(await cards(), [])
+  await until(async () => assert.deepEqual(await cards(), []))
   await page.locator('input[type=file]').setInputFiles({ name: file.name, mimeType: 'application/json', buffer: file.bytes })
   await shown('VANNES MATIN#2 , "LE MANS"')
   await page.waitForFunction(() => /tempo=1.5/.test(location.hash))
-  const drop = (text) => page.evaluate((content) => {
-    const files = new DataTransfer()
-    files.items.add(new File([content], 'x.signweave.json'))
-    document.querySelector('.compose').dispatchEvent(new DragEvent('drop', { bubbles: true, cancelable: true, dataTransfer: files }))
-  }, text)
+  const drop = (text) =>
+    page.evaluate((content) => {
+      const files = new DataTransfer()
+      files.items.add(new File([content], 'x.signweave.json'))
+      document.querySelector('.compose').dispatchEvent(new DragEvent('drop', { bubbles: true, cancelable: true, dataTransfer: files }))
+    }, text)
   await drop(JSON.stringify({ ...JSON.parse(file.bytes), colour: 'red' }))
   await page.getByText('a field that this studio does not know: colour').waitFor()
-  assert.deepEqual(await cards(), ['VANNES', 'MATIN#2', 'LE MANS'])
+  await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN#2', 'LE MANS']))
   await drop(String(file.bytes).replace('VANNES', 'PLUIE'))
   await shown('PLUIE MATIN#2 , "LE MANS"')
   await page.keyboard.press('Control+z')
-  assert.deepEqual(await cards(), ['VANNES', 'MATIN#2', 'LE MANS'])
+  await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN#2', 'LE MANS']))
 })
 
 test('copies a link that opens the same', async () => {
@@ -241,15 +255,15 @@ test('copies a link that opens the same', async () => {
   await page.goto('about:blank')
   await page.goto(link)
   await shown('VANNES PLUIE')
-  assert.equal(await page.getByRole('combobox', { name: 'Transition' }).inputValue(), 'gap')
+  await until(async () => assert.equal(await page.getByRole('combobox', { name: 'Transition' }).inputValue(), 'gap'))
   await page.evaluate(() => (location.hash = '#/demo/compose?utterance=A&tempo=fast'))
   await page.getByText('does not understand: tempo').waitFor()
-  assert.deepEqual(await cards(), ['A'])
+  await until(async () => assert.deepEqual(await cards(), ['A']))
   await page.getByRole('link', { name: 'Recordings' }).click()
   await page.locator('tbody').first().waitFor()
   await page.getByRole('link', { name: 'Compose' }).click() // whoever comes back goes on with what was there
   await page.locator('.card').waitFor()
-  assert.deepEqual(await cards(), ['A'])
+  await until(async () => assert.deepEqual(await cards(), ['A']))
 })
 
 test('opens the paper’s scenarios, the original beside them, and starts from a recording', async () => {
@@ -259,29 +273,39 @@ test('opens the paper’s scenarios, the original beside them, and starts from a
   await pause()
   const text = await field().inputValue()
   assert.ok(text.includes(kScenario1) && text.endsWith('"LE MANS" BROUILLARD#1'), text)
-  assert.equal((await cards()).length, 36)
-  assert.deepEqual((await page.locator('.title').allTextContents()).map((one) => one.trim().slice(0, 14)), ['Recorded meteo', 'Made BONJOUR#1'])
-  assert.equal(await page.locator('.junction:not(.kept)').count(), 8)
+  await until(async () => assert.equal((await cards()).length, 36))
+  await until(async () =>
+    assert.deepEqual(
+      (await page.locator('.title').allTextContents()).map((one) => one.trim().slice(0, 14)),
+      ['Recorded meteo', 'Made BONJOUR#1'],
+    ),
+  )
+  await until(async () => assert.equal(await page.locator('.junction:not(.kept)').count(), 8))
   const steps = await page.evaluate(() => [5, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
   near(steps[0], 6.2, 0.05) // what was made begins with the first sign
   assert.ok(Math.abs(steps[1] - 40) > 0.05)
   await button('Undo').click()
-  assert.deepEqual([await cards(), await button('Undo').isDisabled()], [[], true])
+  await until(async () => assert.deepEqual([await cards(), await button('Undo').isDisabled()], [[], true]))
   await pick('Open', 'Scenario 2: the predictions of two days change places')
   await page.waitForFunction(() => /#1 NUAGES#2 NUIT#1 EN-MER#1 MATIN#2 BROUILLARD#1 DEMAIN#1/.test(document.querySelector('.compose').dataset.made))
   await button('Original beside').click()
   await page.waitForFunction(() => window.signweaveStage.panes.length === 1)
   await pick('Open', 'villes')
   await page.waitForFunction(() => /^VANNES#1 /.test(document.querySelector('.compose').dataset.made))
-  assert.equal(await page.locator('.junction:not(.kept)').count(), 4) // where the signer rests for a second
-  assert.ok((await field().inputValue()).includes('BREST#1 . NANTES#1'))
+  await until(async () => assert.equal(await page.locator('.junction:not(.kept)').count(), 4)) // where the signer rests for a second
+  await until(async () => assert.ok((await field().inputValue()).includes('BREST#1 . NANTES#1')))
 })
 
-test('downloads motion and annotation', async () => {
+mainTest('downloads motion and annotation', async () => {
   await compose('VANNES MATIN')
   const get = (name) => saved(() => pick('Download', name))
-  const bvh = await get(/^BVH/), glb = await get(/^GLB/), eaf = await get(/^EAF/)
-  assert.deepEqual([bvh, glb, eaf].map(({ name }) => name), ['VANNES_MATIN.bvh', 'VANNES_MATIN.glb', 'VANNES_MATIN.eaf'])
+  const bvh = await get(/^BVH/),
+    glb = await get(/^GLB/),
+    eaf = await get(/^EAF/)
+  assert.deepEqual(
+    [bvh, glb, eaf].map(({ name }) => name),
+    ['VANNES_MATIN.bvh', 'VANNES_MATIN.glb', 'VANNES_MATIN.eaf'],
+  )
   assert.match(String(bvh.bytes.subarray(0, 9)), /HIERARCHY/)
   assert.match(String(glb.bytes.subarray(0, 4)), /glTF/)
   assert.match(String(eaf.bytes), /placeholder shapes, not LSF[^]*learned \d+ ms: VANNES -&gt; MATIN/)
@@ -302,21 +326,30 @@ test('makes a film in the page, every picture of it with what the recordings dec
   assert.equal(webm.blocks.length, Math.floor(seconds * 30 + 1e-6) + 1)
   const pictures = await decoded(page, webm, webm.codec === 'V_VP9' ? 'vp09.00.21.08' : 'vp8')
   assert.deepEqual([...new Set(pictures.map(({ width, height }) => `${width} ${height}`))], ['640 360'])
-  assert.ok(pictures.every(({ caption }) => caption > 300), `${pictures.map(({ caption }) => caption)}`)
-  assert.equal(await page.locator('dialog').count(), 0)
-  assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 1)
+  assert.ok(
+    pictures.every(({ caption }) => caption > 300),
+    `${pictures.map(({ caption }) => caption)}`,
+  )
+  await until(async () => assert.equal(await page.locator('dialog').count(), 0))
+  await until(async () => assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 1))
 })
 
 test('says where the browser can make no film', async () => {
   await compose('VANNES')
   await page.evaluate(() => delete window.VideoEncoder)
   await pick('Download', /^WebM/)
-  assert.match(await page.locator('dialog [role=alert]').textContent(), /no WebCodecs/)
+  await until(async () => assert.match(await page.locator('dialog [role=alert]').textContent(), /no WebCodecs/))
   await page.keyboard.press('Escape')
 })
 
-for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
-  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+for (const [theme, language] of [
+  ['dark', 'en'],
+  ['light', 'fr'],
+]) {
+  for (const size of [
+    { width: 1280, height: 720 },
+    { width: 390, height: 844 },
+  ]) {
     test(`an accessibility checker finds nothing where one composes, ${theme}, ${language}, ${size.width} wide`, async () => {
       if (!page) await visit('')
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])

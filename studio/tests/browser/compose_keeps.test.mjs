@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict'
 import { button, cards, compose, field, pick, shown } from './compose_tools.mjs'
 import { page, test, visit } from './suite.mjs'
+import { until } from './waits.mjs'
 
 test('loses no text that has a fault: not by moving signs, not by undo, not of a link', async () => {
   await compose('VANNES MATIN')
@@ -10,23 +11,23 @@ test('loses no text that has a fault: not by moving signs, not by undo, not of a
   await page.locator('.card').last().focus()
   await page.getByText(/never closed: "LE MANS/).waitFor()
   await page.keyboard.press('Alt+ArrowLeft')
-  assert.deepEqual([await cards(), await field().inputValue()], [['MATIN', 'VANNES'], typed])
+  await until(async () => assert.deepEqual([await cards(), await field().inputValue()], [['MATIN', 'VANNES'], typed]))
   await field().press('Control+z')
-  assert.equal(await field().inputValue(), 'MATIN VANNES')
+  await until(async () => assert.equal(await field().inputValue(), 'MATIN VANNES'))
   await field().press('Control+y')
-  assert.equal(await field().inputValue(), typed)
+  await until(async () => assert.equal(await field().inputValue(), typed))
   await page.getByRole('link', { name: 'Recordings' }).click()
   await page.locator('tbody').first().waitFor()
   await page.goBack()
   await page.locator('.card').first().waitFor()
-  assert.equal(await field().inputValue(), typed)
+  await until(async () => assert.equal(await field().inputValue(), typed))
   await button('Take the text back').click()
-  assert.deepEqual([await field().inputValue(), await page.getByText(/never closed/).count()], ['MATIN VANNES', 0])
+  await until(async () => assert.deepEqual([await field().inputValue(), await page.getByText(/never closed/).count()], ['MATIN VANNES', 0]))
   await button('Undo').click() // what was done before the other page was looked at
-  assert.deepEqual(await cards(), ['VANNES', 'MATIN'])
+  await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN']))
   await visit('#/demo/compose?utterance=VANNES+%22LE+MANS')
   await page.getByText(/never closed: "LE MANS/).waitFor()
-  assert.equal(await field().inputValue(), 'VANNES "LE MANS')
+  await until(async () => assert.equal(await field().inputValue(), 'VANNES "LE MANS'))
 })
 
 test('keeps what was done last: where the page is left at once, and where something slow comes after it', async () => {
@@ -34,13 +35,13 @@ test('keeps what was done last: where the page is left at once, and where someth
   await page.locator('.card').click()
   await button('Duplicate').waitFor()
   await page.evaluate(() => {
-    [...document.querySelectorAll('aside button')].find(({ textContent }) => textContent === 'Duplicate').click()
+    ;[...document.querySelectorAll('aside button')].find(({ textContent }) => textContent === 'Duplicate').click()
     location.hash = '#/demo'
   })
   await page.locator('tbody').first().waitFor()
   await page.goBack()
   await page.locator('.card').nth(1).waitFor()
-  assert.deepEqual(await cards(), ['VANNES', 'VANNES'])
+  await until(async () => assert.deepEqual(await cards(), ['VANNES', 'VANNES']))
   let go
   const held = new Promise((resolve) => (go = resolve))
   await page.route('**/recordings/villes', async (route) => (await held, route.continue()))
@@ -49,7 +50,7 @@ test('keeps what was done last: where the page is left at once, and where someth
   await page.keyboard.press('Delete')
   go()
   await page.getByText('villes was not opened, for the signs were changed meanwhile').waitFor()
-  assert.deepEqual(await cards(), ['VANNES'])
+  await until(async () => assert.deepEqual(await cards(), ['VANNES']))
 })
 
 test('makes files side by side, and says so', async () => {
@@ -81,7 +82,7 @@ test('tells what tokens cost beside a sign that the database does not know, and 
   broken = true
   await page.locator('.card').nth(2).click()
   await page.locator('aside .fault:not([hidden])').waitFor()
-  assert.equal(await page.locator('aside .token').count(), 0) // costs of the other VANNES are none of this one
+  await until(async () => assert.equal(await page.locator('aside .token').count(), 0)) // costs of the other VANNES are none of this one
 })
 
 test('signs live: each word at once, and tells what cannot be', async () => {
@@ -91,17 +92,18 @@ test('signs live: each word at once, and tells what cannot be', async () => {
   await page.keyboard.type('NOBODY MATIN MATIN ') // while the stream is opened
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.store.arrived > 0)
   await page.keyboard.type('NOBODY2 MATIN ') // long enough to be seen where pictures are slow
-  await page.waitForFunction(() => document.querySelector('.viewer .gloss')?.textContent === 'MATIN', null, { timeout: 60_000 })
+  await page.waitForFunction(() => document.querySelector('.viewer .gloss')?.textContent === 'MATIN')
   await page.waitForFunction(() => document.querySelectorAll('.card').length === 4)
-  assert.match(await page.getByRole('alert').textContent(), /no sign 'NOBODY'[^]*no sign 'NOBODY2'/)
-  assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'MATIN', 'MATIN'])
+  await until(async () => assert.match(await page.getByRole('alert').textContent(), /no sign 'NOBODY'[^]*no sign 'NOBODY2'/))
+  await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'MATIN', 'MATIN']))
   await page.locator('.card').first().click() // what is chosen ends it, and has its panel
   await page.locator('aside .token').first().waitFor()
   await shown('VANNES MATIN MATIN MATIN')
 })
 
 test('loses no word where the stream breaks', async () => {
-  let gone = () => {}, whole = true
+  let gone = () => {},
+    whole = true
   await visit('')
   await page.routeWebSocket(/stream/, (socket) => {
     if (!whole) return socket.close({ code: 1001 })
@@ -118,19 +120,19 @@ test('loses no word where the stream breaks', async () => {
   await page.locator('.trouble').waitFor()
   await live.pressSequentially('PLUIE NUAGES ')
   await page.getByText('stands in the field again').waitFor()
-  assert.deepEqual([await live.inputValue(), await cards()], ['PLUIE NUAGES ', ['VANNES']])
+  await until(async () => assert.deepEqual([await live.inputValue(), await cards()], ['PLUIE NUAGES ', ['VANNES']]))
   whole = true
   await page.locator('.trouble').getByRole('button', { name: 'Try again' }).click()
   await page.waitForFunction(() => !document.querySelector('.trouble, .waits'))
-  assert.equal(await live.inputValue(), 'PLUIE NUAGES ')
+  await until(async () => assert.equal(await live.inputValue(), 'PLUIE NUAGES '))
   await button('Sign').click()
   await page.waitForFunction(() => document.querySelectorAll('.card').length === 3)
-  assert.deepEqual([await live.inputValue(), await cards()], ['', ['VANNES', 'PLUIE', 'NUAGES']])
+  await until(async () => assert.deepEqual([await live.inputValue(), await cards()], ['', ['VANNES', 'PLUIE', 'NUAGES']]))
   whole = false
   gone()
   await page.locator('.trouble').waitFor()
   await live.pressSequentially('MATIN ')
   await page.getByText('stands in the field again').waitFor()
   await button('Live').click() // what was not signed joins the row
-  assert.deepEqual(await cards(), ['VANNES', 'PLUIE', 'NUAGES', 'MATIN'])
+  await until(async () => assert.deepEqual(await cards(), ['VANNES', 'PLUIE', 'NUAGES', 'MATIN']))
 })

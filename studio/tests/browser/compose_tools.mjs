@@ -5,13 +5,17 @@ import { page, visit } from './suite.mjs'
 export const button = (name) => page.getByRole('button', { name, exact: true })
 export const field = () => page.getByRole('combobox', { name: 'Glosses in order' })
 export const cards = () => page.locator('.card .gloss').allTextContents()
-export const pause = () => page.evaluate(() => { window.signweaveStage.transport.pause() })
+export const pause = () =>
+  page.evaluate(() => {
+    window.signweaveStage.transport.pause()
+  })
 
 /** Until what was made of a text is on the screen. */
-export const shown = (text) => page.waitForFunction((wanted) => {
-  const { made, busy } = document.querySelector('.compose')?.dataset ?? {}
-  return busy === 'false' && made === wanted && window.signweaveStage?.panes.length > 0
-}, text, { timeout: 60_000 })
+export const shown = (text) =>
+  page.waitForFunction((wanted) => {
+    const { made, busy } = document.querySelector('.compose')?.dataset ?? {}
+    return busy === 'false' && made === wanted && window.signweaveStage?.panes.length > 0
+  }, text)
 /** Opens the page with an utterance, and stops the picture, which software draws slowly. */
 export async function compose(utterance, more = {}, options = {}) {
   await visit(`#/demo/compose?${new URLSearchParams({ utterance, ...more })}`, options)

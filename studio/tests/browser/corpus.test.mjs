@@ -2,18 +2,18 @@
 import assert from 'node:assert/strict'
 import { copyFileSync, existsSync, mkdirSync, readdirSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import {
-  annotation, asBefore, begin, button, choose, faultsOf, files, kThanks, kWays, look, row, settled, store, stored, storedOne,
-} from './corpus_tools.mjs'
+import { annotation, asBefore, begin, button, choose, faultsOf, files, kThanks, kWays, look, row, settled, store, stored, storedOne } from './corpus_tools.mjs'
 import { withServer } from './server.mjs'
-import { address, context, folder, page, test, visit } from './suite.mjs'
+import { address, context, folder, mainTest, page, test, visit } from './suite.mjs'
+import { until } from './waits.mjs'
 
 /** Drops files on the page, made there. */
-const drop = (list) => page.evaluate((all) => {
-  const transfer = new DataTransfer()
-  for (const [name, text] of all) transfer.items.add(new File([text], name))
-  document.querySelector('main').dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }))
-}, list)
+const drop = (list) =>
+  page.evaluate((all) => {
+    const transfer = new DataTransfer()
+    for (const [name, text] of all) transfer.items.add(new File([text], name))
+    document.querySelector('main').dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }))
+  }, list)
 /** Drags files and folders of the disk over the page and drops them there, as from a desktop. */
 const dropFromDisk = async (paths) => {
   const mouse = await context.newCDPSession(page)
@@ -31,24 +31,29 @@ test('takes files that are dropped and folders, and says at once what cannot be 
   const walk = ['walk.bvh', 'HIERARCHY\nROOT']
   await drop([walk, ['film.mp4', 'x'], ['notes.txt', 'x'], ['a:b.bvh', 'x'], ['.hidden.bvh', 'x']])
   await page.getByText('Files that cannot be sent: 4.').waitFor()
-  assert.match(await page.locator('main').textContent(), /the server reads \.bvh .*\.eaf/)
-  assert.match(await page.locator('main').textContent(), /films are not stored/)
+  await until(async () => assert.match(await page.locator('main').textContent(), /the server reads \.bvh .*\.eaf/))
+  await until(async () => assert.match(await page.locator('main').textContent(), /films are not stored/))
   await button('Remove them').click()
-  assert.deepEqual(await names(), ['walk.bvh'])
+  await until(async () => assert.deepEqual(await names(), ['walk.bvh']))
   // By keyboard, too.
   await page.getByRole('grid', { name: 'Files' }).focus()
   await page.keyboard.press('Delete')
-  assert.deepEqual(await names(), [])
+  await until(async () => assert.deepEqual(await names(), []))
   const days = join(folder, 'days')
   for (const day of ['one', 'two']) files('same', { into: join(days, day), seconds: 1 })
   writeFileSync(join(days, '.DS_Store'), 'x')
   await page.locator('input[webkitdirectory]').setInputFiles(days)
   await page.getByText('Files of the same name lie in several folders').waitFor()
   await button('Put their folders’ names in front').click()
-  assert.deepEqual((await names()).map((name) => name.replace(/.*\//, '')), ['days_one_same.bvh', 'days_one_same.eaf', 'days_two_same.bvh', 'days_two_same.eaf'])
+  await until(async () =>
+    assert.deepEqual(
+      (await names()).map((name) => name.replace(/.*\//, '')),
+      ['days_one_same.bvh', 'days_one_same.eaf', 'days_two_same.bvh', 'days_two_same.eaf'],
+    ),
+  )
 })
 
-test('takes a folder that is dropped, with all that is in it', async () => {
+mainTest('takes a folder that is dropped, with all that is in it', async () => {
   await begin()
   const week = join(folder, 'week')
   const [, eaf] = files('monday', { into: join(week, 'early'), seconds: 1 })
@@ -60,16 +65,18 @@ test('takes a folder that is dropped, with all that is in it', async () => {
   await dropFromDisk([week, files('alone', { seconds: 1 })[0]])
   await page.getByText(/^Files: 135,/).waitFor()
   await page.getByText('Hidden files of folders that were left out: 1.').waitFor()
-  assert.equal(await page.locator('.drop.over').count(), 0)
-  assert.deepEqual((await names()).slice(0, 4), ['alone.bvh', 'week/early/monday.bvh', 'week/early/monday.eaf', 'week/late/evening/tuesday.bvh'])
+  await until(async () => assert.equal(await page.locator('.drop.over').count(), 0))
+  await until(async () =>
+    assert.deepEqual((await names()).slice(0, 4), ['alone.bvh', 'week/early/monday.bvh', 'week/early/monday.eaf', 'week/late/evening/tuesday.bvh']),
+  )
   // They are the files themselves: what is in them is what is sent.
   rmSync(join(week, 'many'), { recursive: true })
   await button('Begin anew').click()
   await dropFromDisk([week])
   await page.getByText(/^Files: 4,/).waitFor()
   await look()
-  assert.deepEqual(await page.locator('.report .name').allTextContents(), ['monday', 'tuesday'])
-  assert.match(await row('monday').textContent(), /monday\s*new\s*1\.0 s\s*36/)
+  await until(async () => assert.deepEqual(await page.locator('.report .name').allTextContents(), ['monday', 'tuesday']))
+  await until(async () => assert.match(await row('monday').textContent(), /monday\s*new\s*1\.0 s\s*36/))
 })
 
 test('sends with a progress in bytes, and again only what failed', async () => {
@@ -84,7 +91,7 @@ test('sends with a progress in bytes, and again only what failed', async () => {
   })
   await button('Send and look').click()
   await button('Send the rest').waitFor()
-  assert.match(await page.locator('.list').textContent(), /not sent: The server does not answer/)
+  await until(async () => assert.match(await page.locator('.list').textContent(), /not sent: The server does not answer/))
   assert.deepEqual(put.toSorted(), ['first.bvh', 'first.eaf', 'second.bvh', 'second.eaf'])
   broken = false
   put.length = 0
@@ -93,38 +100,52 @@ test('sends with a progress in bytes, and again only what failed', async () => {
   const speed = (uploadThroughput) => line.send('Network.emulateNetworkConditions', { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput })
   await speed(200_000)
   await button('Send the rest').click()
-  await page.waitForFunction(() => /second\.bvh\s*motion\s*927 kB\s*[1-9]\d? %/.test(document.querySelector('.list').textContent) && /Sending: 1\.\d MB of 1\.9 MB/.test(document.querySelector('.acts').textContent))
+  await page.waitForFunction(
+    () =>
+      /second\.bvh\s*motion\s*927 kB\s*[1-9]\d? %/.test(document.querySelector('.list').textContent) &&
+      /Sending: 1\.\d MB of 1\.9 MB/.test(document.querySelector('.acts').textContent),
+  )
   await button('Cancel').click()
   await button('Send the rest').waitFor()
   await speed(-1)
   await look()
   assert.deepEqual(put, ['second.bvh', 'second.bvh'])
-  assert.deepEqual(await page.locator('.report .name').allTextContents(), ['first', 'second'])
-  assert.equal((await stored()).length, 0)
+  await until(async () => assert.deepEqual(await page.locator('.report .name').allTextContents(), ['first', 'second']))
+  await until(async () => assert.equal((await stored()).length, 0))
 })
 
-test('reports what was guessed, and stores what was corrected', async () => {
+mainTest('reports what was guessed, and stores what was corrected', async () => {
   await begin()
   const turned = (text) => text.replaceAll('Gloss"', 'Words"').replaceAll('Phase"', 'Parts"')
   writeFileSync(join(folder, 'broken.bvh'), 'HIERARCHY\nROOT')
   await choose([...files('plain'), ...files('other', { change: turned }), join(folder, 'broken.bvh')])
   await look()
-  assert.match(await row('plain').textContent(), /plain\s*new\s*8\.0 s/)
-  assert.match(await row('broken').textContent(), /cannot be read/)
+  await until(async () => assert.match(await row('plain').textContent(), /plain\s*new\s*8\.0 s/))
+  await until(async () => assert.match(await row('broken').textContent(), /cannot be read/))
   await row('broken').click()
-  assert.match(await page.locator('article').textContent(), /broken\.bvh:2: expected '\{'/)
+  await until(async () => assert.match(await page.locator('article').textContent(), /broken\.bvh:2: expected '\{'/))
   await row('plain').click()
   const article = page.locator('article')
-  for (const fact of [/Frames\s*800/, /Frames a second\s*100/, /Vertical axis\s*Y/, /Unit, m\s*0\.01/, /Mirrored\s*no/, /sign tier 'Gloss' guessed/, /frozen joint · 3 frames 171 to 287, RightHandRing3/, /Names as MotionBuilder has them/, /synthetic motion: placeholder shapes/]) {
-    assert.match(await article.textContent(), fact)
+  for (const fact of [
+    /Frames\s*800/,
+    /Frames a second\s*100/,
+    /Vertical axis\s*Y/,
+    /Unit, m\s*0\.01/,
+    /Mirrored\s*no/,
+    /sign tier 'Gloss' guessed/,
+    /frozen joint · 3 frames 171 to 287, RightHandRing3/,
+    /Names as MotionBuilder has them/,
+    /synthetic motion: placeholder shapes/,
+  ]) {
+    await until(async () => assert.match(await article.textContent(), fact))
   }
   // One recording: who signs, what a tier is, which joint is what; all: the unit.
   await page.locator('#one-signer').fill('Zoé')
   await page.getByLabel('Joint: left wrist').fill('LeftForeArm')
   await page.keyboard.press('Tab')
   await settled()
-  assert.match(await article.textContent(), /LeftForeArm.*(two parts|already|before)|forearm/i)
-  assert.equal(await page.getByLabel('Joint: left wrist').inputValue(), 'LeftForeArm', 'what was typed is lost by a fault')
+  await until(async () => assert.match(await article.textContent(), /LeftForeArm.*(two parts|already|before)|forearm/i))
+  await until(async () => assert.equal(await page.getByLabel('Joint: left wrist').inputValue(), 'LeftForeArm', 'what was typed is lost by a fault'))
   await button('As the server tells it').click()
   await page.getByLabel('Joint: jaw').fill('')
   await page.keyboard.press('Tab')
@@ -136,14 +157,25 @@ test('reports what was guessed, and stores what was corrected', async () => {
   await page.locator('#all-unit').fill('0.02')
   await page.keyboard.press('Tab')
   await settled()
-  assert.match(await article.textContent(), /Unit, m\s*0\.02/)
-  assert.match(await article.textContent(), /Signs\s*36/)
+  await until(async () => assert.match(await article.textContent(), /Unit, m\s*0\.02/))
+  await until(async () => assert.match(await article.textContent(), /Signs\s*36/))
   await page.getByRole('button', { name: /^Import 2$/ }).click()
-  await page.getByText('Stored: 2').waitFor({ timeout: 60_000 })
-  assert.deepEqual((await stored()).map(({ name, signer }) => [name, signer]), [['other', 'synthetic'], ['plain', 'Zoé']])
+  await page.getByText('Stored: 2').waitFor()
+  await until(async () =>
+    assert.deepEqual(
+      (await stored()).map(({ name, signer }) => [name, signer]),
+      [
+        ['other', 'synthetic'],
+        ['plain', 'Zoé'],
+      ],
+    ),
+  )
   const plain = await storedOne('plain')
   assert.equal(plain.rig.parts.jaw, undefined)
-  assert.ok(plain.defects.some(({ kind }) => kind === 'scale'), 'it is not twice as tall')
+  assert.ok(
+    plain.defects.some(({ kind }) => kind === 'scale'),
+    'it is not twice as tall',
+  )
   await row('other').click()
   await page.getByRole('link', { name: 'Open' }).click()
   await page.waitForFunction(() => /recording\/other/.test(location.hash))
@@ -155,23 +187,26 @@ test('reports what was guessed, and stores what was corrected', async () => {
 test('takes a table of pairs and a mapping file, as a person wrote them', async () => {
   await begin()
   await choose([...files('day1', { seconds: 2 }), ...files('notes', { motion: false })])
-  await drop([['pairs.csv', 'motion,annotation,signer\nfar/day1.bvh,eaf\\notes.eaf,Ada\ngone.bvh,\n'], ['map.rig', '# none\njaw =\npelvis = nope\n']])
+  await drop([
+    ['pairs.csv', 'motion,annotation,signer\nfar/day1.bvh,eaf\\notes.eaf,Ada\ngone.bvh,\n'],
+    ['map.rig', '# none\njaw =\npelvis = nope\n'],
+  ])
   await page.getByText('Table of pairs, line 3: “gone.bvh” was not chosen.').waitFor()
   await look()
   await row('day1').click()
   await settled()
   // What the mapping file says of a joint that is none can be mended here.
   await page.locator('article').getByRole('alert').getByText('nope').waitFor()
-  assert.equal(await page.getByLabel('Joint: pelvis').inputValue(), 'nope')
+  await until(async () => assert.equal(await page.getByLabel('Joint: pelvis').inputValue(), 'nope'))
   await page.getByLabel('Joint: pelvis').fill('Hips')
   await page.keyboard.press('Tab')
   await settled()
-  assert.match(await row('day1').textContent(), /new/)
-  assert.deepEqual(await page.locator('.report .name').allTextContents(), ['day1'])
-  assert.equal(await page.getByLabel('Annotation', { exact: true }).inputValue(), 'notes.eaf')
+  await until(async () => assert.match(await row('day1').textContent(), /new/))
+  await until(async () => assert.deepEqual(await page.locator('.report .name').allTextContents(), ['day1']))
+  await until(async () => assert.equal(await page.getByLabel('Annotation', { exact: true }).inputValue(), 'notes.eaf'))
   await page.getByText('In no recording, and not stored: day1.eaf').waitFor()
   await page.getByRole('button', { name: /^Import 1$/ }).click()
-  await page.getByText('Stored: 1').waitFor({ timeout: 60_000 })
+  await page.getByText('Stored: 1').waitFor()
   const one = await storedOne('day1')
   assert.deepEqual([one.signer, one.annotation_file, one.rig.parts.jaw], ['Ada', 'notes.eaf', undefined])
 })
@@ -184,19 +219,19 @@ test('says what becomes of a recording that is known, and pairs files as it is t
   await row('plain').click()
   await page.getByText('The database has a recording of this name').waitFor()
   await row('alone').click()
-  assert.match(await page.locator('article').textContent(), /it can be searched, not signed/)
+  await until(async () => assert.match(await page.locator('article').textContent(), /it can be searched, not signed/))
   // The motion gets the annotation of another name, and is split from it again; what no recording has is told.
   await page.getByLabel('Motion', { exact: true }).selectOption('plain.bvh')
   await settled()
-  assert.deepEqual(await page.locator('.report .name').allTextContents(), ['plain'])
-  assert.equal(await page.getByLabel('Annotation', { exact: true }).inputValue(), 'alone.eaf')
+  await until(async () => assert.deepEqual(await page.locator('.report .name').allTextContents(), ['plain']))
+  await until(async () => assert.equal(await page.getByLabel('Annotation', { exact: true }).inputValue(), 'alone.eaf'))
   await page.getByText('In no recording, and not stored: plain.eaf').waitFor()
   await button('Split into two recordings').click()
   await settled()
   await row('plain').click()
   await page.getByLabel('Annotation', { exact: true }).selectOption('plain.eaf')
   await settled()
-  assert.deepEqual(await page.locator('.report .name').allTextContents(), ['alone', 'plain'])
+  await until(async () => assert.deepEqual(await page.locator('.report .name').allTextContents(), ['alone', 'plain']))
   await row('alone').getByRole('checkbox').uncheck()
   // Read with another unit than it was, it is another motion: that is taken only when told so.
   await row('plain').click()
@@ -204,22 +239,23 @@ test('says what becomes of a recording that is known, and pairs files as it is t
   await page.keyboard.press('Tab')
   await settled()
   await page.getByRole('button', { name: /^Import 1$/ }).click()
-  await page.getByText('Not stored: 1').waitFor({ timeout: 60_000 })
-  assert.match(await page.locator('article').textContent(), /is not the motion that recording 'plain' was imported from/)
+  await page.getByText('Not stored: 1').waitFor()
+  await until(async () => assert.match(await page.locator('article').textContent(), /is not the motion that recording 'plain' was imported from/))
   await page.locator('article').getByLabel('Replace motion and face that are stored').check()
   await settled()
   await page.getByText('annotation, motion and face are replaced by these files').waitFor()
   await page.getByRole('button', { name: /^Import 1$/ }).click()
-  await page.getByText('Stored: 1').waitFor({ timeout: 60_000 })
-  assert.match(await row('plain').textContent(), /motion replaced/)
-  assert.match(await annotation('plain'), />SALUT</)
-  assert.equal((await stored()).length, 3)
+  await page.getByText('Stored: 1').waitFor()
+  await until(async () => assert.match(await row('plain').textContent(), /motion replaced/))
+  await until(async () => assert.match(await annotation('plain'), />SALUT</))
+  await until(async () => assert.equal((await stored()).length, 3))
 })
 
 /** Holds calls whose address fits until told to let them go on. */
 async function held(what) {
   let go
-  const gone = new Promise((resolve) => (go = resolve)), came = page.waitForRequest(what)
+  const gone = new Promise((resolve) => (go = resolve)),
+    came = page.waitForRequest(what)
   await page.route(what, async (route) => (await gone, route.continue()), { times: 1 })
   return { came, go }
 }
@@ -246,7 +282,8 @@ test('loses no correction, whether it is made meanwhile, wrong, or the server is
   await button('Send and look').click()
   await page.getByText('Not looked at yet: “Look again” goes on.').waitFor()
   await look()
-  const article = page.locator('article'), importing = page.locator('.foot .primary')
+  const article = page.locator('article'),
+    importing = page.locator('.foot .primary')
   // While the one is looked at again, the other is mirrored.
   const first = await held(/\/inspect$/)
   await row('one').click()
@@ -257,30 +294,30 @@ test('loses no correction, whether it is made meanwhile, wrong, or the server is
   await article.getByLabel('Mirror: the file’s space is left-handed').check()
   first.go()
   await settled()
-  assert.match(await article.textContent(), /Mirrored\s*yes/)
+  await until(async () => assert.match(await article.textContent(), /Mirrored\s*yes/))
   // A joint that is none stays as it was typed beside what is wrong with it, and can be mended.
   await page.getByLabel('Joint: pelvis').fill('nope')
   await page.keyboard.press('Tab')
   await settled()
   await article.getByRole('alert').getByText('nope').waitFor()
-  assert.match(await row('two').textContent(), /not taken/)
-  assert.match(await article.textContent(), /Mirrored\s*yes/)
-  assert.equal(await page.getByLabel('Joint: pelvis').inputValue(), 'nope')
+  await until(async () => assert.match(await row('two').textContent(), /not taken/))
+  await until(async () => assert.match(await article.textContent(), /Mirrored\s*yes/))
+  await until(async () => assert.equal(await page.getByLabel('Joint: pelvis').inputValue(), 'nope'))
   await button('As the server tells it').click()
   await settled()
-  assert.match(await row('two').textContent(), /new/)
+  await until(async () => assert.match(await row('two').textContent(), /new/))
   // The server is away: nothing is imported that it did not look at.
   await page.route(/\/inspect$/, (route) => route.abort(), { times: 1 })
   await page.locator('#one-unit').fill('0.02')
   await page.keyboard.press('Tab')
   await page.getByText('Corrected, and not looked at since: 1.').waitFor()
-  assert.match(await row('two').textContent(), /not looked at/)
-  assert.ok(await importing.isDisabled())
+  await until(async () => assert.match(await row('two').textContent(), /not looked at/))
+  await until(async () => assert.ok(await importing.isDisabled()))
   assert.deepEqual(await faultsOf('the server is away'), [])
   await button('Try again').click()
   await settled()
-  assert.match(await article.textContent(), /Unit, m\s*0\.02/)
-  assert.ok(await importing.isEnabled())
+  await until(async () => assert.match(await article.textContent(), /Unit, m\s*0\.02/))
+  await until(async () => assert.ok(await importing.isEnabled()))
   // An upload of which nothing is imported goes with the window.
   await page.goto('about:blank')
   await given(seen)
@@ -305,19 +342,19 @@ test('imports the others where one is not taken, takes no files meanwhile, and g
   await page.locator('summary', { hasText: 'Files: 6' }).click()
   await page.getByRole('grid', { name: 'Files' }).focus()
   await page.keyboard.press('Delete')
-  assert.equal(await page.getByRole('grid', { name: 'Files' }).locator('.line:not(.head)').count(), 6)
-  assert.ok(await page.locator('input[webkitdirectory]').isDisabled())
+  await until(async () => assert.equal(await page.getByRole('grid', { name: 'Files' }).locator('.line:not(.head)').count(), 6))
+  await until(async () => assert.ok(await page.locator('input[webkitdirectory]').isDisabled()))
   assert.deepEqual(await faultsOf('something is under way'), [])
   stores.go()
-  await page.getByText('Stored: 1').waitFor({ timeout: 60_000 })
-  assert.ok((await stored()).some(({ name }) => name === 'two'))
+  await page.getByText('Stored: 1').waitFor()
+  await until(async () => assert.ok((await stored()).some(({ name }) => name === 'two')))
   await page.getByRole('link', { name: 'Recordings of mine' }).click()
   await given(seen)
   // What was left out is still known, and is sent anew where it is wanted.
   await page.goBack()
   await row('three').getByRole('checkbox').check()
   await page.getByRole('button', { name: /^Import 1$/ }).click()
-  await page.getByText('Stored: 2').waitFor({ timeout: 60_000 })
+  await page.getByText('Stored: 2').waitFor()
 })
 
 test('takes recordings of signs, with a mend that the server names', async () => {
@@ -325,13 +362,13 @@ test('takes recordings of signs, with a mend that the server names', async () =>
   await begin()
   await choose(readdirSync(kThanks).map((name) => join(kThanks, name)))
   await look()
-  assert.deepEqual(await page.locator('.report .name').allTextContents(), ['ISL Thanks', 'NGT Thanks', 'VGT Thanks'])
+  await until(async () => assert.deepEqual(await page.locator('.report .name').allTextContents(), ['ISL Thanks', 'NGT Thanks', 'VGT Thanks']))
   await page.locator('article').getByRole('button', { name: 'Mend all 3 that have it' }).click()
   await settled()
-  assert.doesNotMatch(await page.locator('article').textContent(), /permuted/)
+  await until(async () => assert.doesNotMatch(await page.locator('article').textContent(), /permuted/))
   await page.getByRole('button', { name: /^Import 3$/ }).click()
-  await page.getByText('Stored: 3').waitFor({ timeout: 60_000 })
-  assert.ok((await storedOne('ISL Thanks')).defects.every(({ kind }) => kind !== 'permuted root'))
+  await page.getByText('Stored: 3').waitFor()
+  await until(async () => assert.ok((await storedOne('ISL Thanks')).defects.every(({ kind }) => kind !== 'permuted root')))
 })
 
 test('stores nothing where it may only read', async () => {
@@ -340,12 +377,12 @@ test('stores nothing where it may only read', async () => {
     try {
       await reader.goto(`${at}/#/demo/import`)
       await reader.getByText('demo is served for reading only').waitFor()
-      assert.equal(await reader.locator('input[type=file]').count(), 0)
+      await until(async () => assert.equal(await reader.locator('input[type=file]').count(), 0))
       await reader.goto(`${at}/#/demo`)
       await reader.getByRole('button', { name: /Details of meteo/ }).click()
       await reader.getByRole('link', { name: 'Phases' }).waitFor()
-      assert.equal(await reader.getByRole('button', { name: /Remove|Change storage/ }).count(), 0)
-      assert.equal(await reader.getByRole('link', { name: 'Import' }).count(), 0)
+      await until(async () => assert.equal(await reader.getByRole('button', { name: /Remove|Change storage/ }).count(), 0))
+      await until(async () => assert.equal(await reader.getByRole('link', { name: 'Import' }).count(), 0))
     } finally {
       await reader.close()
     }
@@ -356,15 +393,20 @@ test('finds recordings, sorts them, and opens the player where something is wron
   await visit('#/mine')
   const shown = () => page.locator('tbody th a').allTextContents()
   await page.getByRole('searchbox').fill('O')
-  assert.ok((await shown()).includes('other') && !(await shown()).includes('plain'))
+  await until(async () => assert.ok((await shown()).includes('other') && !(await shown()).includes('plain')))
   await page.getByRole('searchbox').fill('')
   await page.getByLabel('Signer', { exact: true }).selectOption('Zoé')
-  assert.deepEqual(await shown(), ['plain'])
+  await until(async () => assert.deepEqual(await shown(), ['plain']))
   await page.getByLabel('Signer', { exact: true }).selectOption('*')
   await page.getByRole('button', { name: 'Name', exact: false }).first().focus()
   await page.keyboard.press('Enter')
-  assert.deepEqual(await shown(), (await stored()).map(({ name }) => name).toSorted((a, b) => b.localeCompare(a)))
-  assert.equal(await page.locator('th[aria-sort=descending]').count(), 1)
+  await until(async () =>
+    assert.deepEqual(
+      await shown(),
+      (await stored()).map(({ name }) => name).toSorted((a, b) => b.localeCompare(a)),
+    ),
+  )
+  await until(async () => assert.equal(await page.locator('th[aria-sort=descending]').count(), 1))
   await page.getByRole('button', { name: 'Details of plain' }).click()
   await page.getByRole('link', { name: 'frames 333 to 521' }).click()
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen && Math.abs(window.signweaveStage.transport.time - 3.33) < 1e-6)
@@ -374,24 +416,32 @@ test('changes how recordings are stored, and removes only what is confirmed', as
   await visit('#/mine')
   await page.getByLabel('Choose plain').check()
   await button('Change storage').click()
-  assert.ok(await page.getByLabel('Those that are chosen: 1').isChecked())
+  await until(async () => assert.ok(await page.getByLabel('Those that are chosen: 1').isChecked()))
   await page.getByLabel('How motion is cut').selectOption('by_joint_and_frame')
   await page.getByLabel('Frames in a piece').fill('many')
-  assert.ok(await button('Change').isDisabled())
+  await until(async () => assert.ok(await button('Change').isDisabled()))
   await page.getByLabel('Frames in a piece').fill('50')
   await button('Change').click()
-  await page.getByText('Stored anew: 1 of 1').waitFor({ timeout: 60_000 })
+  await page.getByText('Stored anew: 1 of 1').waitFor()
   await button('Close').click()
   await page.locator('tr', { hasText: 'plain' }).getByText('by_joint_and_frame:50').waitFor()
-  assert.deepEqual((await stored()).filter(({ access_mode: mode }) => mode === 'by_joint_and_frame:50').map(({ name }) => name), ['plain'])
+  await until(async () =>
+    assert.deepEqual(
+      (await stored()).filter(({ access_mode: mode }) => mode === 'by_joint_and_frame:50').map(({ name }) => name),
+      ['plain'],
+    ),
+  )
   await page.getByRole('button', { name: 'Details of other' }).click()
   const before = (await stored()).length
-  for (const [answer, after] of [['Cancel', before], ['Remove', before - 1]]) {
+  for (const [answer, after] of [
+    ['Cancel', before],
+    ['Remove', before - 1],
+  ]) {
     await page.getByRole('button', { name: 'Remove other' }).click()
-    assert.match(await page.getByRole('dialog').textContent(), /Remove from mine\?\s*other/)
+    await until(async () => assert.match(await page.getByRole('dialog').textContent(), /Remove from mine\?\s*other/))
     await page.getByRole('dialog').getByRole('button', { name: answer }).click()
     await page.waitForFunction(() => !document.querySelector('dialog'))
-    assert.equal((await stored()).length, after)
+    await until(async () => assert.equal((await stored()).length, after))
   }
   await page.waitForFunction(() => !/other/.test(document.querySelector('tbody').textContent))
 })
@@ -399,7 +449,11 @@ test('changes how recordings are stored, and removes only what is confirmed', as
 test('cancels a change of storage while it goes, and says what was done', async () => {
   // Pieces of a single frame take seconds.
   const kPieces = 'by_joint_and_frame:1'
-  for (const [name, seconds] of [['brief', 1], ['long', 50]]) await store(name, { seconds })
+  for (const [name, seconds] of [
+    ['brief', 1],
+    ['long', 50],
+  ])
+    await store(name, { seconds })
   const modes = async () => Object.fromEntries((await stored()).map(({ name, access_mode: mode }) => [name, mode]))
   const before = await modes()
   await visit('#/mine')
@@ -411,15 +465,15 @@ test('cancels a change of storage while it goes, and says what was done', async 
   // Until it is under way: the brief one is done soon.
   await page.waitForFunction(() => document.querySelector('dialog progress')?.value >= 50)
   await button('Cancel').click()
-  await page.getByText('Cancelled: what was stored anew until then stays so, the others are as they were.').waitFor({ timeout: 60_000 })
+  await page.getByText('Cancelled: what was stored anew until then stays so, the others are as they were.').waitFor()
   await page.getByText('Stored anew: 1 of 2').waitFor()
-  assert.deepEqual(await modes(), { ...before, brief: kPieces })
+  await until(async () => assert.deepEqual(await modes(), { ...before, brief: kPieces }))
   // At once, by keyboard: nothing is done.
   await button('Change').click()
   await button('Cancel').focus()
   await page.keyboard.press('Enter')
-  await page.getByText('Cancelled: everything is as it was.').waitFor({ timeout: 60_000 })
-  assert.deepEqual(await modes(), { ...before, brief: kPieces })
+  await page.getByText('Cancelled: everything is as it was.').waitFor()
+  await until(async () => assert.deepEqual(await modes(), { ...before, brief: kPieces }))
   await button('Close').click()
   await page.locator('tr', { hasText: 'brief' }).getByText(kPieces).waitFor()
   const { faults } = await (await fetch(`${address}/api/databases/mine/check`)).json()
@@ -430,19 +484,22 @@ test('shows thousands of recordings without drawing them', async () => {
   // What the server would answer for so many: none is made here.
   await visit('')
   await page.route(/\/api\/databases\/demo$/, async (route) => {
-    const answer = await (await route.fetch()).json(), [one] = answer.recordings
-    await route.fulfill({ json: { ...answer, recordings: Array.from({ length: 20_000 }, (_, k) => ({ ...one, name: `take ${k + 1}`, signer: `signer ${k % 7}`, defects: k % 5 })) } })
+    const answer = await (await route.fetch()).json(),
+      [one] = answer.recordings
+    await route.fulfill({
+      json: { ...answer, recordings: Array.from({ length: 20_000 }, (_, k) => ({ ...one, name: `take ${k + 1}`, signer: `signer ${k % 7}`, defects: k % 5 })) },
+    })
   })
   await page.evaluate(() => (location.hash = '#/mine'))
   await page.waitForFunction(() => /plain/.test(document.querySelector('tbody')?.textContent))
   await page.evaluate(() => (location.hash = '#/demo'))
   await page.waitForFunction(() => /take 1\b/.test(document.querySelector('tbody')?.textContent))
-  assert.ok((await page.locator('tbody tr').count()) < 60)
+  await until(async () => assert.ok((await page.locator('tbody tr').count()) < 60))
   const list = page.getByRole('region', { name: 'All recordings', exact: true })
   await list.focus()
   await page.keyboard.press('End')
   await page.getByRole('link', { name: 'take 20000', exact: true }).waitFor()
-  assert.ok((await page.locator('tbody tr').count()) < 60)
+  await until(async () => assert.ok((await page.locator('tbody tr').count()) < 60))
   await page.getByRole('searchbox').fill('take 1999')
   await page.getByText('11 of 20,000').waitFor()
 })
@@ -458,7 +515,7 @@ for (const { name, size, set } of kWays) {
     await page.waitForFunction(() => document.querySelectorAll('.list .line').length === 5)
     found.push(...(await faultsOf('files')))
     await page.locator('.acts .primary').click()
-    await page.locator('article').waitFor({ timeout: 60_000 })
+    await page.locator('article').waitFor()
     await page.locator('.report .name').first().click()
     await page.locator('.report > details > summary').click()
     found.push(...(await faultsOf('report')))
@@ -479,6 +536,6 @@ test('leaves the database as it was', async () => {
   await page.getByLabel('Choose all that are shown').check()
   await button('Remove').click()
   await page.getByRole('dialog').getByRole('button', { name: 'Remove' }).click()
-  await page.getByText('Nothing here yet').waitFor({ timeout: 60_000 })
-  assert.deepEqual(await stored(), [])
+  await page.getByText('Nothing here yet').waitFor()
+  await until(async () => assert.deepEqual(await stored(), []))
 })

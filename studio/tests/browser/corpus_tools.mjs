@@ -22,13 +22,13 @@ export async function begin() {
 export const choose = (list) => page.locator('input[type=file]:not([webkitdirectory])').setInputFiles(list)
 export async function look() {
   await page.getByRole('button', { name: /^(Send and look|Send the rest|Look again)$/ }).click()
-  await page.getByRole('heading', { name: 'What would be stored' }).waitFor({ timeout: 60_000 })
+  await page.getByRole('heading', { name: 'What would be stored' }).waitFor()
 }
 /** A recording in the report. */
 export const row = (name) => page.getByRole('row', { name: new RegExp(`Import ${name} `) })
 /** Until reports are as they were corrected. */
 export const settled = () =>
-  page.waitForFunction(() => !/looking again/.test(document.querySelector('main').textContent) && !document.querySelector('.acts progress'), null, { timeout: 60_000 })
+  page.waitForFunction(() => !/looking again/.test(document.querySelector('main').textContent) && !document.querySelector('.acts progress'))
 
 /** Files of a recording of the demo's first seconds, under another name; `change` may change the texts. */
 export function files(name, { seconds = 8, into = join(folder, 'files'), motion = true, change = (text) => text } = {}) {
@@ -65,11 +65,27 @@ export async function empty() {
 
 /** What a checker finds on the page, and what is wider than the screen; `what` stands before it. */
 export async function faultsOf(what) {
-  const wide = await page.evaluate(() => (document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= innerWidth ? []
-    : [...document.querySelectorAll('main *')].filter((element) => element.getBoundingClientRect().right > innerWidth && !element.closest('.scroll, .rows')).map(({ outerHTML }) => outerHTML.slice(0, 100))))
+  const wide = await page.evaluate(() =>
+    document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= innerWidth
+      ? []
+      : [...document.querySelectorAll('main *')]
+          .filter((element) => element.getBoundingClientRect().right > innerWidth && !element.closest('.scroll, .rows'))
+          .map(({ outerHTML }) => outerHTML.slice(0, 100)),
+  )
   return [...(await axeFaults(page)).map((fault) => `${what}: ${fault}`), ...wide.map((element) => `${what} is wider than the screen: ${element}`)]
 }
 /** The ways in which everything must be accessible. */
-export const kWays = [['dark', 'en', 1280, 720], ['dark', 'en', 390, 844], ['light', 'fr', 1280, 720], ['light', 'fr', 390, 844]].map(([theme, language, width, height]) =>
-  ({ size: { width, height }, name: `${theme}, ${language}, ${width} wide`, set: () => page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language]) }))
-export const asBefore = () => page.evaluate(() => { for (const key of ['theme', 'language', 'checker', 'keys', 'review.mine/plain']) localStorage.removeItem(`signweave.${key}`) })
+export const kWays = [
+  ['dark', 'en', 1280, 720],
+  ['dark', 'en', 390, 844],
+  ['light', 'fr', 1280, 720],
+  ['light', 'fr', 390, 844],
+].map(([theme, language, width, height]) => ({
+  size: { width, height },
+  name: `${theme}, ${language}, ${width} wide`,
+  set: () => page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language]),
+}))
+export const asBefore = () =>
+  page.evaluate(() => {
+    for (const key of ['theme', 'language', 'checker', 'keys', 'review.mine/plain']) localStorage.removeItem(`signweave.${key}`)
+  })

@@ -4,7 +4,8 @@ import { execFileSync } from 'node:child_process'
 import { readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { axeFaults } from './page_tools.mjs'
-import { context, folder, kDeclared, page, test, visit } from './suite.mjs'
+import { context, folder, kDeclared, mainTest, page, test, visit } from './suite.mjs'
+import { until } from './waits.mjs'
 
 const kBin = process.env.SIGNWEAVE_BIN ?? new URL('../../../build/release/bin', import.meta.url).pathname
 const button = (name) => page.getByRole('button', { name, exact: true })
@@ -12,12 +13,17 @@ const result = () => page.waitForSelector('#result-title', { timeout: 120_000 })
 /** What a button gives to be saved. */
 async function saved(press) {
   const [download] = await Promise.all([page.waitForEvent('download'), press()])
-  const name = download.suggestedFilename(), text = readFileSync(await download.path(), 'utf8')
+  const name = download.suggestedFilename(),
+    text = readFileSync(await download.path(), 'utf8')
   // Tables begin with the mark by which Excel knows UTF-8.
   assert.equal(text.startsWith('\ufeff'), name.endsWith('.csv'))
   return { name, text: text.replace('\ufeff', '') }
 }
-const rows = (text) => text.trimEnd().split('\r\n').map((line) => line.split(','))
+const rows = (text) =>
+  text
+    .trimEnd()
+    .split('\r\n')
+    .map((line) => line.split(','))
 /** The methods of a table, from above. */
 const methods = (table) => page.locator(`[aria-labelledby=${table}] tbody th button`).allTextContents()
 
@@ -29,14 +35,14 @@ async function evaluated() {
   await button('Evaluate').click()
 }
 
-test('evaluates a method, goes on while one looks at something else, and keeps the result', async () => {
+mainTest('evaluates a method, goes on while one looks at something else, and keeps the result', async () => {
   await evaluated()
   await page.getByRole('progressbar', { name: 'Evaluating' }).waitFor()
   await page.evaluate(() => (location.hash = '#/demo'))
   await page.waitForSelector('#recordings-title')
   await page.evaluate(() => (location.hash = '#/demo/evaluate'))
   await result()
-  assert.match((await page.locator('[role=status]').allTextContents()).join(), kDeclared)
+  await until(async () => assert.match((await page.locator('[role=status]').allTextContents()).join(), kDeclared))
   const json = await saved(() => button('JSON').click())
   const evaluation = JSON.parse(json.text)
   assert.equal(json.name, 'evaluation_demo.json')
@@ -44,19 +50,26 @@ test('evaluates a method, goes on while one looks at something else, and keeps t
   const group = (task, name) => evaluation.tasks.find((one) => one.task === task).groups.find((one) => one.group === name)
 
   // The table is what the JSON says, with the best marked that is no bound.
-  assert.deepEqual(await methods('by-group'), ['hermite', 'slerp', 'nearest', 'ceiling'])
+  await until(async () => assert.deepEqual(await methods('by-group'), ['hermite', 'slerp', 'nearest', 'ceiling']))
   const { value, low, high } = group('given', '170 ms').hands.moving.hermite.wrist.over_slerp
   const cell = page.locator('[aria-labelledby=by-group] tbody tr').first().locator('td').nth(1)
-  assert.equal((await cell.innerText()).replace(/\s+/g, ' '), `★ best ${value.toFixed(3)} ${low.toFixed(3)}–${high.toFixed(3)}`)
+  await until(async () => assert.equal((await cell.innerText()).replace(/\s+/g, ' '), `★ best ${value.toFixed(3)} ${low.toFixed(3)}–${high.toFixed(3)}`))
 
   // Sorted by a column, up and down.
   const sort = page.getByRole('button', { name: 'Sort by 170 ms' })
   await sort.click()
-  const figures = Object.entries(group('given', '170 ms').hands.moving).map(([method, { wrist }]) => [method, wrist.over_slerp.value]).sort((a, b) => a[1] - b[1])
-  assert.deepEqual(await methods('by-group'), figures.map(([method]) => method))
+  const figures = Object.entries(group('given', '170 ms').hands.moving)
+    .map(([method, { wrist }]) => [method, wrist.over_slerp.value])
+    .sort((a, b) => a[1] - b[1])
+  await until(async () =>
+    assert.deepEqual(
+      await methods('by-group'),
+      figures.map(([method]) => method),
+    ),
+  )
   await sort.click()
-  assert.deepEqual(await methods('by-group'), figures.map(([method]) => method).reverse())
-  assert.equal(await page.locator('[aria-labelledby=by-group] th[aria-sort=descending]').innerText(), '170 ms ▼')
+  await until(async () => assert.deepEqual(await methods('by-group'), figures.map(([method]) => method).reverse()))
+  await until(async () => assert.equal(await page.locator('[aria-labelledby=by-group] th[aria-sort=descending]').innerText(), '170 ms ▼'))
 
   // Another task, hand and measure, by keyboard; it stands in the address.
   await button('Token replaced').focus()
@@ -64,44 +77,58 @@ test('evaluates a method, goes on while one looks at something else, and keeps t
   await page.getByRole('combobox', { name: 'Hand' }).selectOption('left')
   await page.getByRole('combobox', { name: 'Measure' }).selectOption('abs_ln_peak_speed_ratio')
   await page.getByText('How far the peak speed is off').first().waitFor()
-  assert.match(await page.evaluate(() => location.hash), /task=replaced&hand=left&measure=abs_ln_peak_speed_ratio/)
+  await until(async () => assert.match(await page.evaluate(() => location.hash), /task=replaced&hand=left&measure=abs_ln_peak_speed_ratio/))
   const csv = await saved(() => page.locator('.above', { hasText: 'One measure' }).getByRole('button').click())
   assert.equal(csv.name, 'evaluation_demo_replaced_left_abs_ln_peak_speed_ratio.csv')
   const table = rows(csv.text)
   assert.deepEqual(table[0].slice(0, 5), ['task', 'hand', 'measure', 'method', 'same gloss'])
-  const hermite = table.find((row) => row[3] === 'hermite'), at = table[0].indexOf('other sign')
+  const hermite = table.find((row) => row[3] === 'hermite'),
+    at = table[0].indexOf('other sign')
   assert.equal(Number(hermite[at]), group('replaced', 'other sign').hands.left.hermite.abs_ln_peak_speed_ratio.value)
   assert.deepEqual(hermite.slice(0, 3), ['replaced', 'left', 'abs_ln_peak_speed_ratio'])
 
   // It outlives the page, and so does the view.
   await page.reload()
   await result()
-  assert.equal(await button('Token replaced').getAttribute('aria-pressed'), 'true')
+  await until(async () => assert.equal(await button('Token replaced').getAttribute('aria-pressed'), 'true'))
 })
 
 test('draws what the tables hold, and gives the drawings away', async () => {
   await page.evaluate(() => (location.hash = '#/demo/evaluate?task=given&measure=wrist&log=0'))
   await page.waitForFunction(() => document.querySelectorAll('.plot svg').length === 2)
   await page.waitForFunction(() => document.querySelector('.plot svg').textContent.includes('Wrist, mm'))
-  const lines = page.locator('.plot svg').first(), dots = page.locator('.plot svg').nth(1)
-  assert.match(await lines.getAttribute('aria-label'), /^Wrist, mm of each method by length of the gap/)
-  assert.deepEqual(await dots.locator('g > text').allTextContents().then((all) => all.map((one) => one.replace('★ ', ''))), ['hermite', 'slerp', 'nearest', 'ceiling'])
+  const lines = page.locator('.plot svg').first(),
+    dots = page.locator('.plot svg').nth(1)
+  await until(async () => assert.match(await lines.getAttribute('aria-label'), /^Wrist, mm of each method by length of the gap/))
+  await until(async () =>
+    assert.deepEqual(
+      await dots
+        .locator('g > text')
+        .allTextContents()
+        .then((all) => all.map((one) => one.replace('★ ', ''))),
+      ['hermite', 'slerp', 'nearest', 'ceiling'],
+    ),
+  )
   // A greater error is farther to the right, as the table has it.
   const places = await dots.locator('g > circle').evaluateAll((all) => all.map((one) => Number(one.getAttribute('cx'))))
-  const values = (await page.locator('[aria-labelledby=by-group] tbody td:nth-child(2) > span').allTextContents()).map((text) => Number(/[\d.]+$/.exec(text)[0]))
+  const values = (await page.locator('[aria-labelledby=by-group] tbody td:nth-child(2) > span').allTextContents()).map((text) =>
+    Number(/[\d.]+$/.exec(text)[0]),
+  )
   const order = (list) => list.map((_, i) => i).sort((a, b) => list[a] - list[b])
   assert.deepEqual(order(places), order(values))
   // What is chosen in the table stands out in the drawings.
   const width = () => dots.locator('g', { hasText: 'nearest' }).locator('path').getAttribute('stroke-width')
   await page.mouse.move(5, 400)
-  assert.equal(await width(), '2')
+  await until(async () => assert.equal(await width(), '2'))
   await page.locator('[aria-labelledby=by-group]').getByRole('button', { name: 'nearest' }).press('Enter')
   await page.locator('[aria-labelledby=by-group]').getByRole('button', { name: 'nearest' }).blur()
-  assert.equal(await width(), '4')
+  await until(async () => assert.equal(await width(), '4'))
   const svg = await saved(() => page.getByRole('button', { name: 'SVG By length of the gap' }).click())
   assert.match(svg.name, /\.svg$/)
   assert.doesNotMatch(svg.text, /var\(/)
-  assert.equal(await page.evaluate((text) => new DOMParser().parseFromString(text, 'image/svg+xml').documentElement.nodeName, svg.text), 'svg')
+  await until(async () =>
+    assert.equal(await page.evaluate((text) => new DOMParser().parseFromString(text, 'image/svg+xml').documentElement.nodeName, svg.text), 'svg'),
+  )
   await page.locator('summary', { hasText: 'All plots' }).click()
   await page.waitForFunction(() => document.querySelector('details img')?.naturalWidth > 800)
 })
@@ -110,8 +137,8 @@ test('can be cancelled, and evaluates again', async () => {
   await evaluated()
   await button('Cancel').click()
   await page.getByText('The evaluation was cancelled.').waitFor()
-  assert.equal(await page.getByRole('alert').count(), 0)
-  assert.ok(await button('Evaluate').isEnabled())
+  await until(async () => assert.equal(await page.getByRole('alert').count(), 0))
+  await until(async () => assert.ok(await button('Evaluate').isEnabled()))
 })
 
 test('follows its job through a break of the network, is cancelled there, and outlives an answer that cannot be shown', async () => {
@@ -126,7 +153,7 @@ test('follows its job through a break of the network, is cancelled there, and ou
   away = false
   await retry.click()
   await page.getByText('The evaluation was cancelled.').waitFor()
-  assert.equal(await page.getByRole('alert').count(), 0)
+  await until(async () => assert.equal(await page.getByRole('alert').count(), 0))
   await context.unroute(kJobs)
 
   await context.route(kJobs, (route) => route.fulfill({ json: { job: '1', state: 'done', fraction: 1, result: { tasks: [], spans: [] } } }))
@@ -134,12 +161,15 @@ test('follows its job through a break of the network, is cancelled there, and ou
   await page.getByText('This evaluation cannot be shown').waitFor()
   await button('Put it away').press('Enter')
   await context.unroute(kJobs)
-  assert.equal(await page.getByRole('alert').count(), 0)
-  assert.ok(await button('Evaluate').isEnabled())
+  await until(async () => assert.equal(await page.getByRole('alert').count(), 0))
+  await until(async () => assert.ok(await button('Evaluate').isEnabled()))
 })
 
 test('opens what the command line wrote, and says what is none', async () => {
-  const made = execFileSync(join(kBin, 'signweave'), ['evaluate', join(folder, 'corpus/meteo.bvh'), '--method', 'gap', '--json'], { stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1e9 })
+  const made = execFileSync(join(kBin, 'signweave'), ['evaluate', join(folder, 'corpus/meteo.bvh'), '--method', 'gap', '--json'], {
+    stdio: ['ignore', 'pipe', 'ignore'],
+    maxBuffer: 1e9,
+  })
   const file = join(folder, 'command_line.json')
   writeFileSync(file, made)
   await visit('#/demo/evaluate')
@@ -148,23 +178,32 @@ test('opens what the command line wrote, and says what is none', async () => {
     await chooser.setFiles(name)
   }
   await choose(join(folder, 'corpus/meteo.eaf'))
-  assert.match(await page.getByRole('alert').textContent(), /This is no evaluation/)
-  for (const odd of [{ tasks: [], spans: [], recordings: 0 }, { ...JSON.parse(made), spans: [null] }]) {
+  await until(async () => assert.match(await page.getByRole('alert').textContent(), /This is no evaluation/))
+  for (const odd of [
+    { tasks: [], spans: [], recordings: 0 },
+    { ...JSON.parse(made), spans: [null] },
+  ]) {
     writeFileSync(join(folder, 'odd.json'), JSON.stringify(odd))
     await choose(join(folder, 'odd.json'))
-    assert.match(await page.getByRole('alert').textContent(), /This is no evaluation/)
+    await until(async () => assert.match(await page.getByRole('alert').textContent(), /This is no evaluation/))
   }
   await choose(file)
   await result()
-  assert.match(await page.locator('#result-title').textContent(), /command_line\.json/)
-  assert.deepEqual(await methods('by-group'), ['gap', 'slerp', 'ceiling'])
-  assert.equal(await page.getByText('of one recording alone there is none').count(), 1)
-  assert.equal(await page.getByRole('alert').count(), 0)
-  assert.equal(await page.locator('details img').count(), 0)
+  await until(async () => assert.match(await page.locator('#result-title').textContent(), /command_line\.json/))
+  await until(async () => assert.deepEqual(await methods('by-group'), ['gap', 'slerp', 'ceiling']))
+  await until(async () => assert.equal(await page.getByText('of one recording alone there is none').count(), 1))
+  await until(async () => assert.equal(await page.getByRole('alert').count(), 0))
+  await until(async () => assert.equal(await page.locator('details img').count(), 0))
 })
 
-for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
-  for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844 }]) {
+for (const [theme, language] of [
+  ['dark', 'en'],
+  ['light', 'fr'],
+]) {
+  for (const size of [
+    { width: 1280, height: 720 },
+    { width: 390, height: 844 },
+  ]) {
     test(`an accessibility checker finds nothing in an evaluation, ${theme}, ${language}, ${size.width} wide`, async () => {
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
       await visit('#/demo/evaluate', { size })
@@ -174,7 +213,15 @@ for (const [theme, language] of [['dark', 'en'], ['light', 'fr']]) {
       await result()
       for (const summary of await page.locator('summary').all()) await summary.click()
       assert.deepEqual(await axeFaults(page), [])
-      assert.ok(await page.evaluate(() => document.scrollingElement.scrollHeight <= innerHeight && document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth), 'wider than the screen')
+      assert.ok(
+        await page.evaluate(
+          () =>
+            document.scrollingElement.scrollHeight <= innerHeight &&
+            document.scrollingElement.scrollWidth <= innerWidth &&
+            document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth,
+        ),
+        'wider than the screen',
+      )
       await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
     })
   }

@@ -4,6 +4,7 @@ import { copyFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { annotation, begin, button, choose, empty, files, look, row, settled, store, stored, storedOne } from './corpus_tools.mjs'
 import { address, folder, page, test, visit } from './suite.mjs'
+import { until } from './waits.mjs'
 
 const article = () => page.locator('article').textContent()
 const shown = () => page.locator('.report .name').allTextContents()
@@ -25,28 +26,28 @@ test('takes a face and an annotation away from a recording, by mouse and by keyb
   copyFileSync(join(folder, 'corpus', 'meteo.face.csv'), face)
   await choose([...walk, face])
   await look()
-  assert.match(await article(), /Face tracks\s*22/)
+  await until(async () => assert.match(await article(), /Face tracks\s*22/))
   await button('Take away: Face capture').click()
   await page.getByText('In no recording, and not stored: walk.face.csv').waitFor()
   await settled()
-  assert.doesNotMatch(await article(), /Face tracks/)
-  assert.equal(await page.getByLabel('Face capture', { exact: true }).inputValue(), '')
-  assert.ok(await page.getByLabel('Face capture', { exact: true }).evaluate((element) => element === document.activeElement))
-  assert.ok(await button('Take away: Face capture').isDisabled())
+  await until(async () => assert.doesNotMatch(await article(), /Face tracks/))
+  await until(async () => assert.equal(await page.getByLabel('Face capture', { exact: true }).inputValue(), ''))
+  await until(async () => assert.ok(await page.getByLabel('Face capture', { exact: true }).evaluate((element) => element === document.activeElement)))
+  await until(async () => assert.ok(await button('Take away: Face capture').isDisabled()))
   // By keyboard: the face again, and no annotation.
   await page.keyboard.press('w')
   await settled()
-  assert.match(await article(), /Face tracks\s*22/)
+  await until(async () => assert.match(await article(), /Face tracks\s*22/))
   await button('Take away: Annotation').focus()
   await page.keyboard.press('Enter')
   await page.getByText('In no recording, and not stored: walk.eaf').waitFor()
   await settled()
-  assert.match(await article(), /motion without annotation/)
+  await until(async () => assert.match(await article(), /motion without annotation/))
   await button('Take away: Face capture').focus()
   await page.keyboard.press('Enter')
   await settled()
   await page.getByRole('button', { name: /^Import 1$/ }).click()
-  await page.getByText('Stored: 1').waitFor({ timeout: 60_000 })
+  await page.getByText('Stored: 1').waitFor()
   const one = await storedOne('walk')
   assert.deepEqual([one.motion_file, one.annotation_file || '', one.face_file || '', one.tracks?.length ?? 0], ['walk.bvh', '', '', 0])
 })
@@ -56,22 +57,22 @@ test('says that no tier holds phases, or signs, of one recording and of all', as
   await choose([...files('one', { seconds: 2 }), ...files('two', { seconds: 2 })])
   await look()
   await row('one').click()
-  assert.match(await article(), /Phases\s*108/)
+  await until(async () => assert.match(await article(), /Phases\s*108/))
   await button('No phase tier: none is guessed').click()
   await settled()
   // A sign of which no phases are told is one.
-  assert.match(await article(), /Signs\s*36.*Phases\s*36/)
-  assert.equal(await page.getByLabel('Taken as: Phase').inputValue(), '')
-  assert.doesNotMatch(await article(), /phase tier 'Phase' guessed/)
+  await until(async () => assert.match(await article(), /Signs\s*36.*Phases\s*36/))
+  await until(async () => assert.equal(await page.getByLabel('Taken as: Phase').inputValue(), ''))
+  await until(async () => assert.doesNotMatch(await article(), /phase tier 'Phase' guessed/))
   // By keyboard, no signs either.
   await page.getByLabel('Taken as: Gloss').focus()
   await page.keyboard.press('End')
   await settled()
-  assert.match(await article(), /Signs\s*0/)
-  assert.ok(await button('No sign tier: none is guessed').isDisabled())
+  await until(async () => assert.match(await article(), /Signs\s*0/))
+  await until(async () => assert.ok(await button('No sign tier: none is guessed').isDisabled()))
   await button('As the server tells it').click()
   await settled()
-  assert.match(await article(), /Signs\s*36.*Phases\s*108/)
+  await until(async () => assert.match(await article(), /Signs\s*36.*Phases\s*108/))
   // For all of them.
   await page.getByText('Corrections for all recordings').click()
   await page.getByRole('checkbox', { name: 'No phase tier: none is guessed' }).focus()
@@ -79,10 +80,10 @@ test('says that no tier holds phases, or signs, of one recording and of all', as
   await settled()
   for (const name of ['one', 'two']) {
     await row(name).click()
-    assert.match(await article(), /Signs\s*36.*Phases\s*36/)
+    await until(async () => assert.match(await article(), /Signs\s*36.*Phases\s*36/))
   }
   await page.getByRole('button', { name: /^Import 2$/ }).click()
-  await page.getByText('Stored: 2').waitFor({ timeout: 60_000 })
+  await page.getByText('Stored: 2').waitFor()
   const found = await (await fetch(`${address}/api/databases/mine/query?text=${encodeURIComponent('phase = preparation')}`)).json()
   assert.deepEqual(found, [])
 })
@@ -96,7 +97,7 @@ test('takes one file out before the import, without sending or looking at the ot
   await button('Remove second.eaf').click()
   await settled()
   await row('second').click()
-  assert.match(await article(), /motion without annotation/)
+  await until(async () => assert.match(await article(), /motion without annotation/))
   assert.deepEqual([back, sent.filter((name) => name !== 'pairs.csv')], [['second.eaf'], []])
   // By keyboard: the motion of the first, whose annotation is then a recording alone, and all of the third.
   const list = page.getByRole('grid', { name: 'Files' })
@@ -105,23 +106,27 @@ test('takes one file out before the import, without sending or looking at the ot
     await list.focus()
     await page.keyboard.press('Home')
     for (let k = 0; k < 6 && (await marked()) !== name; ++k) await page.keyboard.press('ArrowDown')
-    assert.equal(await marked(), name)
+    await until(async () => assert.equal(await marked(), name))
   }
   for (const name of ['first.bvh', 'third.bvh', 'third.eaf']) {
     await at(name)
     await page.keyboard.press('Delete')
   }
   await settled()
-  assert.deepEqual(await shown(), ['first', 'second'])
+  await until(async () => assert.deepEqual(await shown(), ['first', 'second']))
   await row('first').click()
-  assert.match(await article(), /it can be searched, not signed/)
+  await until(async () => assert.match(await article(), /it can be searched, not signed/))
   await page.getByRole('button', { name: /^Import 2$/ }).click()
-  await page.getByText('Stored: 2').waitFor({ timeout: 60_000 })
+  await page.getByText('Stored: 2').waitFor()
   assert.deepEqual(back.toSorted(), ['first.bvh', 'second.eaf', 'third.bvh', 'third.eaf'])
-  assert.deepEqual(sent.filter((name) => name !== 'pairs.csv'), [])
-  const first = await storedOne('first'), second = await storedOne('second')
+  assert.deepEqual(
+    sent.filter((name) => name !== 'pairs.csv'),
+    [],
+  )
+  const first = await storedOne('first'),
+    second = await storedOne('second')
   assert.deepEqual([first.motion_file || '', first.annotation_file, second.motion_file, second.annotation_file || ''], ['', 'first.eaf', 'second.bvh', ''])
-  assert.ok((await stored()).every(({ name }) => name !== 'third'))
+  await until(async () => assert.ok((await stored()).every(({ name }) => name !== 'third')))
 })
 
 test('stores checked phases of a recording whose name has a folder in it', async () => {
@@ -129,13 +134,18 @@ test('stores checked phases of a recording whose name has a folder in it', async
   await store('walk', { seconds: 3, called: name })
   const before = (await stored()).map((one) => one.name)
   await visit(`#/mine/phases/${encodeURIComponent(name)}`)
-  await page.locator('.bench[data-ready]').waitFor({ timeout: 60_000 })
+  await page.locator('.bench[data-ready]').waitFor()
   await page.keyboard.press('Shift+Enter')
   await button('Save…').click()
   await button('Store in the database…').click()
   await button('Store in the database').click()
-  await page.getByText('annotation replaced').waitFor({ timeout: 60_000 })
-  assert.match(await annotation(name), /Phase RH \(checked\)/)
-  assert.deepEqual((await stored()).map((one) => one.name), before)
+  await page.getByText('annotation replaced').waitFor()
+  await until(async () => assert.match(await annotation(name), /Phase RH \(checked\)/))
+  await until(async () =>
+    assert.deepEqual(
+      (await stored()).map((one) => one.name),
+      before,
+    ),
+  )
   await empty()
 })

@@ -5,23 +5,33 @@ const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.m
 
 /** What the browser tests ask of a page; `window.signweaveStage` is the stage that draws. */
 
-export const transport = (page) => page.evaluate(() => {
-  const { time, playing, speed, repeat, loop, rate, duration } = window.signweaveStage.transport
-  return { time, playing, speed, repeat, loop, rate, duration }
-})
+export const transport = (page) =>
+  page.evaluate(() => {
+    const { time, playing, speed, repeat, loop, rate, duration } = window.signweaveStage.transport
+    return { time, playing, speed, repeat, loop, rate, duration }
+  })
 
 export const azimuth = (page) => page.evaluate(() => window.signweaveStage.panes[0].camera.azimuth)
 
 /** The colour on the screen where a joint of the first signer is, as [red, green, blue]. */
 export async function colorAtJoint(page, joint, pane = 0) {
-  const place = await page.evaluate(([name, index]) => {
-    const { panes } = window.signweaveStage, one = panes[index]
-    const j = one.store.skeleton.joints.findIndex((row) => row.name === name)
-    const { positions } = one.model, { camera } = one.camera
-    const v = camera.position.clone().set(positions[3 * j], positions[3 * j + 1], positions[3 * j + 2]).project(camera)
-    const box = document.querySelector('.stage canvas').getBoundingClientRect(), width = box.width / panes.length
-    return { x: Math.round(box.left + width * (index + (v.x + 1) / 2)), y: Math.round(box.top + ((1 - v.y) / 2) * box.height) }
-  }, [joint, pane])
+  const place = await page.evaluate(
+    ([name, index]) => {
+      const { panes } = window.signweaveStage,
+        one = panes[index]
+      const j = one.store.skeleton.joints.findIndex((row) => row.name === name)
+      const { positions } = one.model,
+        { camera } = one.camera
+      const v = camera.position
+        .clone()
+        .set(positions[3 * j], positions[3 * j + 1], positions[3 * j + 2])
+        .project(camera)
+      const box = document.querySelector('.stage canvas').getBoundingClientRect(),
+        width = box.width / panes.length
+      return { x: Math.round(box.left + width * (index + (v.x + 1) / 2)), y: Math.round(box.top + ((1 - v.y) / 2) * box.height) }
+    },
+    [joint, pane],
+  )
   const png = (await page.screenshot({ clip: { ...place, width: 1, height: 1 } })).toString('base64')
   return page.evaluate(async (data) => {
     const picture = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob())
@@ -44,8 +54,10 @@ export async function axeFaults(page) {
 /** A second of video of a bar that moves, as bytes of WebM, made by the browser itself. */
 export async function smallVideo(page) {
   const base64 = await page.evaluate(async () => {
-    const canvas = Object.assign(document.createElement('canvas'), { width: 64, height: 48 }), context = canvas.getContext('2d')
-    const recorder = new MediaRecorder(canvas.captureStream(25), { mimeType: 'video/webm' }), parts = []
+    const canvas = Object.assign(document.createElement('canvas'), { width: 64, height: 48 }),
+      context = canvas.getContext('2d')
+    const recorder = new MediaRecorder(canvas.captureStream(25), { mimeType: 'video/webm' }),
+      parts = []
     recorder.ondataavailable = ({ data }) => parts.push(data)
     recorder.start()
     for (let i = 0; i < 40; ++i) {
@@ -53,9 +65,22 @@ export async function smallVideo(page) {
       context.fillRect(0, 0, 64, 48)
       await new Promise((resolve) => setTimeout(resolve, 40))
     }
-    await new Promise((resolve) => { recorder.onstop = resolve; recorder.stop() })
+    await new Promise((resolve) => {
+      recorder.onstop = resolve
+      recorder.stop()
+    })
     const bytes = new Uint8Array(await new Blob(parts).arrayBuffer())
     return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''))
   })
   return Buffer.from(base64, 'base64')
+}
+
+/** Tells how many ms a page's main thread has computed so far, however long it waited for a processor. */
+export async function computedBy(page) {
+  const session = await page.context().newCDPSession(page)
+  await session.send('Performance.enable', { timeDomain: 'threadTicks' })
+  return async () => {
+    const { metrics } = await session.send('Performance.getMetrics')
+    return 1000 * metrics.find(({ name }) => name === 'ThreadTime').value
+  }
 }

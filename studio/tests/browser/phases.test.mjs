@@ -6,17 +6,22 @@ import { join } from 'node:path'
 import { annotation, asBefore, button, empty, faultsOf, kSignweave, kWays, store } from './corpus_tools.mjs'
 import { transport } from './page_tools.mjs'
 import { address, context, folder, page, test, visit } from './suite.mjs'
+import { until } from './waits.mjs'
 
 /** Few pixels are drawn quickly. */
 const kSmall = { width: 960, height: 600 }
 const draft = () => page.evaluate(() => JSON.parse(localStorage.getItem('signweave.review.mine/plain') ?? 'null')?.review.phases)
 const progress = () => page.locator('.progress strong').textContent()
-const press = async (...keys) => { for (const key of keys) await page.keyboard.press(key) }
+const press = async (...keys) => {
+  for (const key of keys) await page.keyboard.press(key)
+}
 /** Until the page of a recording's phases has drawn the signer. */
 async function bench() {
-  await page.waitForFunction(() => document.querySelector('.bench[data-ready]') && window.signweaveStage?.panes[0]?.seen, null, { timeout: 60_000 })
+  await page.waitForFunction(() => document.querySelector('.bench[data-ready]') && window.signweaveStage?.panes[0]?.seen)
   // What keys and buttons do is asked here, not how it is drawn, which takes software long.
-  await page.evaluate(() => { if (window.signweaveStage) window.signweaveStage.touch = () => {} })
+  await page.evaluate(() => {
+    if (window.signweaveStage) window.signweaveStage.touch = () => {}
+  })
 }
 const near = (value, wanted) => assert.ok(Math.abs(value - wanted) < 1e-3, `${value} is not ${wanted}`)
 const all = ({ right, left }) => [...right, ...left].toSorted((a, b) => a.begin - b.begin || (a.hand === 'right' ? -1 : 1))
@@ -27,48 +32,57 @@ test('reviews proposed phases by keyboard', async () => {
   await bench()
   const count = Number(/0 of (\d+) decided/.exec(await progress())[1])
   assert.ok(count > 4, `${count} proposals`)
-  assert.match(await page.locator('main').textContent(), /Proposed from motion alone: a person must check each/)
-  assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 4), ['Right hand', 'Left hand', 'Gloss', 'Phase'])
+  await until(async () => assert.match(await page.locator('main').textContent(), /Proposed from motion alone: a person must check each/))
+  await until(async () =>
+    assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 4), ['Right hand', 'Left hand', 'Gloss', 'Phase']),
+  )
   await press('ArrowDown', 'v')
   const proposed = all(await draft())
   const spanOf = async () => (({ loop }) => [loop.begin, loop.end].map((seconds) => Math.round(1000 * seconds)))(await transport(page))
-  assert.deepEqual(await spanOf(), [proposed[0].begin, proposed[0].end])
+  await until(async () => assert.deepEqual(await spanOf(), [proposed[0].begin, proposed[0].end]))
   await press('Space')
-  await page.waitForFunction(([from, to]) => window.signweaveStage.transport.playing && window.signweaveStage.transport.time > from / 1000 && window.signweaveStage.transport.time < to / 1000, [proposed[0].begin, proposed[0].end])
+  await page.waitForFunction(
+    ([from, to]) =>
+      window.signweaveStage.transport.playing && window.signweaveStage.transport.time > from / 1000 && window.signweaveStage.transport.time < to / 1000,
+    [proposed[0].begin, proposed[0].end],
+  )
   await press('Space', 'Enter', 'Delete')
-  assert.equal(await progress(), `2 of ${count} decided`)
+  await until(async () => assert.equal(await progress(), `2 of ${count} decided`))
   let now = all(await draft())
-  assert.deepEqual(now.slice(0, 3).map(({ state }) => state), ['accepted', 'rejected', 'open'])
+  assert.deepEqual(
+    now.slice(0, 3).map(({ state }) => state),
+    ['accepted', 'rejected', 'open'],
+  )
   // A border by a frame and by ten; the picture is there.
   const [, , third] = now
   await press('w', 'Shift+P')
   near((await transport(page)).time, (third.end + 100 - 10) / 1000)
   await press('Shift+W')
   near((await transport(page)).time, (third.begin + 110) / 1000)
-  assert.deepEqual(await spanOf(), [third.begin + 110, third.end + 100])
+  await until(async () => assert.deepEqual(await spanOf(), [third.begin + 110, third.end + 100]))
   now = await draft()
   for (const hand of ['right', 'left']) for (let i = 1; i < now[hand].length; ++i) assert.ok(now[hand][i].begin >= now[hand][i - 1].end, 'phases overlap')
   // Split, merge, and all of it undone and done again.
   await press('ArrowRight', 'x')
-  assert.equal(await progress(), `2 of ${count + 1} decided`)
+  await until(async () => assert.equal(await progress(), `2 of ${count + 1} decided`))
   await press('m')
-  assert.equal(await progress(), `2 of ${count} decided`)
+  await until(async () => assert.equal(await progress(), `2 of ${count} decided`))
   for (let i = 0; i < 4; ++i) await page.keyboard.press('Control+z')
-  assert.deepEqual(await spanOf(), [third.begin + 10, third.end])
+  await until(async () => assert.deepEqual(await spanOf(), [third.begin + 10, third.end]))
   for (let i = 0; i < 4; ++i) await press('y')
-  assert.deepEqual(await draft(), now)
+  await until(async () => assert.deepEqual(await draft(), now))
   await page.keyboard.press('Shift+Enter')
-  assert.equal(await progress(), `${count} of ${count} decided`)
+  await until(async () => assert.equal(await progress(), `${count} of ${count} decided`))
   await press('z')
   // It is kept until it is stored; letters are keys only where they may be.
   await page.evaluate(() => localStorage.setItem('signweave.keys', 'off'))
   await page.reload()
   await bench()
   await page.evaluate(() => localStorage.removeItem('signweave.keys'))
-  assert.equal(await progress(), `2 of ${count} decided`)
-  assert.match(await page.locator('main').textContent(), /Taken up where you left it/)
+  await until(async () => assert.equal(await progress(), `2 of ${count} decided`))
+  await until(async () => assert.match(await page.locator('main').textContent(), /Taken up where you left it/))
   await press('ArrowDown', 'x', 'v')
-  assert.deepEqual(await draft(), now)
+  await until(async () => assert.deepEqual(await draft(), now))
 })
 
 test('reviews phases by mouse and buttons', async () => {
@@ -77,7 +91,8 @@ test('reviews phases by mouse and buttons', async () => {
   await button('All').click()
   const lane = await page.getByRole('slider', { name: 'Time' }).boundingBox()
   const { duration } = await transport(page)
-  const x = (ms) => lane.x + (ms / 1000 / duration) * lane.width, kRight = lane.y + 24 + 12
+  const x = (ms) => lane.x + (ms / 1000 / duration) * lane.width,
+    kRight = lane.y + 24 + 12
   const { right } = await draft()
   const one = right.reduce((longest, phase) => (phase.end - phase.begin > longest.end - longest.begin ? phase : longest))
   await page.mouse.click(x((one.begin + one.end) / 2), kRight)
@@ -85,7 +100,7 @@ test('reviews phases by mouse and buttons', async () => {
   const read = async () => (await draft()).right.find(({ id }) => id === one.id)
   // The end, dragged: not a step but one that can be undone.
   await page.mouse.move(x(one.end), kRight)
-  assert.equal(await page.locator('.lane').evaluate((element) => element.style.cursor), 'ew-resize')
+  await until(async () => assert.equal(await page.locator('.lane').evaluate((element) => element.style.cursor), 'ew-resize'))
   await page.mouse.down()
   await page.mouse.move(x(one.end) - 30, kRight)
   await page.mouse.move(x(one.end) - 60, kRight, { steps: 2 })
@@ -93,15 +108,15 @@ test('reviews phases by mouse and buttons', async () => {
   const moved = await read()
   assert.ok(Math.abs(moved.end - (one.end - (60 / lane.width) * duration * 1000)) < 15, `${one.end} became ${moved.end}`)
   await button('Undo').click()
-  assert.equal((await read()).end, one.end)
+  await until(async () => assert.equal((await read()).end, one.end))
   await button('End: -1 frames').or(button('End: −1 frames')).click()
-  assert.equal((await read()).end, one.end - 10)
+  await until(async () => assert.equal((await read()).end, one.end - 10))
   await page.getByRole('button', { name: 'hold', exact: true }).click()
-  assert.equal((await read()).kind, 'hold')
+  await until(async () => assert.equal((await read()).kind, 'hold'))
   await button('Reject').click()
-  assert.equal((await read()).state, 'rejected')
+  await until(async () => assert.equal((await read()).state, 'rejected'))
   for (let i = 0; i < 3; ++i) await button('Undo').click()
-  assert.equal((await read()).kind, one.kind)
+  await until(async () => assert.equal((await read()).kind, one.kind))
 })
 
 test('writes nothing over a review that another window goes on with', async () => {
@@ -110,32 +125,36 @@ test('writes nothing over a review that another window goes on with', async () =
   const mine = await draft()
   const other = await context.newPage()
   await other.goto(`${address}/api/formats`)
-  const theirs = (label) => other.evaluate(([key, kind]) => {
-    const one = JSON.parse(localStorage.getItem(key))
-    one.review.phases.right[0].kind = kind
-    localStorage.setItem(key, JSON.stringify({ ...one, revision: kind }))
-  }, ['signweave.review.mine/plain', label])
+  const theirs = (label) =>
+    other.evaluate(
+      ([key, kind]) => {
+        const one = JSON.parse(localStorage.getItem(key))
+        one.review.phases.right[0].kind = kind
+        localStorage.setItem(key, JSON.stringify({ ...one, revision: kind }))
+      },
+      ['signweave.review.mine/plain', label],
+    )
   const kind = async () => (await draft()).right[0].kind
   await theirs('theirs')
   await page.getByText('This review was changed in another window').waitFor()
   await press('ArrowDown', 'ArrowDown', 'v')
-  assert.equal(await kind(), 'theirs', 'the last keystroke won')
+  await until(async () => assert.equal(await kind(), 'theirs', 'the last keystroke won'))
   await button('Keep mine').click()
-  assert.equal(await kind(), mine.right[0].kind)
-  assert.notDeepEqual(await draft(), mine, 'what was done meanwhile is lost')
+  await until(async () => assert.equal(await kind(), mine.right[0].kind))
+  await until(async () => assert.notDeepEqual(await draft(), mine, 'what was done meanwhile is lost'))
   await theirs('theirs again')
   await button('Take over what is there').click()
-  assert.equal(await page.getByText('This review was changed').count(), 0)
+  await until(async () => assert.equal(await page.getByText('This review was changed').count(), 0))
   await press('Control+z', 'Control+z')
-  assert.deepEqual(await draft(), mine)
+  await until(async () => assert.deepEqual(await draft(), mine))
   // Stored or given up there: nothing is kept here in its place unless somebody says so.
   await other.evaluate(() => localStorage.removeItem('signweave.review.mine/plain'))
   await page.getByText('stored or given up in another window').waitFor()
   await press('v')
-  assert.equal(await draft(), undefined)
+  await until(async () => assert.equal(await draft(), undefined))
   await press('Control+z')
   await button('Keep mine').click()
-  assert.deepEqual(await draft(), mine)
+  await until(async () => assert.deepEqual(await draft(), mine))
   await other.close()
 })
 
@@ -148,7 +167,10 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   const { right, left } = await draft()
   const unseen = [...right, ...left].filter((one) => one.unseen).length
   assert.ok(unseen > 0)
-  const wanted = { 'Phase RH (checked)': right.filter(({ state }) => state === 'accepted'), 'Phase LH (checked)': left.filter(({ state }) => state === 'accepted') }
+  const wanted = {
+    'Phase RH (checked)': right.filter(({ state }) => state === 'accepted'),
+    'Phase LH (checked)': left.filter(({ state }) => state === 'accepted'),
+  }
   await button('Save…').click()
   await page.getByLabel('Who checked them').fill('Zoé <b>')
   const coming = page.waitForEvent('download')
@@ -158,58 +180,79 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   // The program reads it, and every line that was there is there but one, the last annotation's number.
   const info = execFileSync(kSignweave, ['info', eaf], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] })
   for (const [tier, phases] of Object.entries(wanted)) assert.match(info, new RegExp(`${tier.replace(/[()]/g, '\\$&')} +checked phase +${phases.length}\\b`))
-  const written = readFileSync(eaf, 'utf8'), lines = new Set(written.split('\n'))
-  assert.deepEqual(before.split('\n').filter((line) => !lines.has(line)).map((line) => line.trim().split('"')[1]), ['lastUsedAnnotationId'])
+  const written = readFileSync(eaf, 'utf8'),
+    lines = new Set(written.split('\n'))
+  assert.deepEqual(
+    before
+      .split('\n')
+      .filter((line) => !lines.has(line))
+      .map((line) => line.trim().split('"')[1]),
+    ['lastUsedAnnotationId'],
+  )
   assert.match(written, /ANNOTATOR="signweave, partly checked by Zoé &lt;b&gt;"/)
   assert.match(written, new RegExp(`phases checked by Zoé &lt;b&gt;, ${unseen} accepted all at once without being looked at<`))
   await page.getByText(`${unseen} were accepted all at once`).waitFor()
   const database = join(folder, 'checked', 'round.db')
   execFileSync(kSignweave, ['create', database], { stdio: 'ignore' })
-  assert.match(execFileSync(kSignweave, ['import', database, eaf, '--phase-tier', 'Phase RH (checked)'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }), /plain: added.*36 signs/)
+  assert.match(
+    execFileSync(kSignweave, ['import', database, eaf, '--phase-tier', 'Phase RH (checked)'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }),
+    /plain: added.*36 signs/,
+  )
   // In the database: what signs' phases are taken from is asked first. Somebody else has stored another annotation meanwhile: it is told, and stays.
   const colleague = (gloss) => store('plain', { motion: false, change: (text) => text.replace('>METEO<', `>${gloss}<`) })
   await colleague('COLLEAGUE')
   await button('Store in the database…').click()
   await page.getByText('The annotation of plain in mine is replaced').waitFor()
   await page.getByText('The annotation of plain was changed by somebody else since you began').waitFor()
-  assert.ok(await page.getByLabel('as now: Phase').isChecked())
+  await until(async () => assert.ok(await page.getByLabel('as now: Phase').isChecked()))
   await colleague('AGAIN')
   await button('Store in the database').click()
   await page.getByText('so nothing was stored yet').waitFor()
-  assert.match(await annotation('plain'), />AGAIN</)
+  await until(async () => assert.match(await annotation('plain'), />AGAIN</))
   // Nor is one replaced that came at the last moment, when the import was on its way.
   const again = page.waitForResponse('**/uploads/*/inspect')
-  await page.route('**/uploads/*/import', async (route) => {
-    await colleague('LAST')
-    await route.continue()
-  }, { times: 1 })
+  await page.route(
+    '**/uploads/*/import',
+    async (route) => {
+      await colleague('LAST')
+      await route.continue()
+    },
+    { times: 1 },
+  )
   await button('Store in the database').click()
   await again
   await page.getByLabel('the checked phases: Phase RH (checked)').check()
-  assert.match(await annotation('plain'), />LAST</)
+  await until(async () => assert.match(await annotation('plain'), />LAST</))
   // Stored is said when nothing is left to do, however slowly the server answers.
   const reading = '**/recordings/plain/annotation*'
   await page.route(reading, (route) => void setTimeout(() => void route.continue(), 400))
   await button('Store in the database').click()
-  await page.getByText('Stored: annotation replaced').waitFor({ timeout: 60_000 })
+  await page.getByText('Stored: annotation replaced').waitFor()
   await page.unroute(reading)
-  assert.equal(await annotation('plain'), written.replace('>METEO<', '>LAST<'))
+  await until(async () => assert.equal(await annotation('plain'), written.replace('>METEO<', '>LAST<')))
   const query = encodeURIComponent('phase = stroke')
   const strokes = await (await fetch(`${address}/api/databases/mine/query?text=${query}`)).json()
   const ours = strokes.filter(({ recording }) => recording === 'plain')
   assert.ok(ours.length > 0 && ours.every(({ tier }) => tier === 'Phase RH (checked)' || tier === 'Gloss'), JSON.stringify(ours.slice(0, 3)))
   await page.keyboard.press('Escape')
-  assert.equal(await draft(), undefined)
+  await until(async () => assert.equal(await draft(), undefined))
   // A second review begins with what was stored.
   await page.reload()
   await bench()
-  assert.match(await page.locator('main').textContent(), /Taken up from what is stored with the recording/)
-  assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 4), ['Right hand', 'Left hand', 'Gloss', 'Phase'])
+  await until(async () => assert.match(await page.locator('main').textContent(), /Taken up from what is stored with the recording/))
+  await until(async () =>
+    assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 4), ['Right hand', 'Left hand', 'Gloss', 'Phase']),
+  )
   const decided = Object.values(wanted).flat().length
-  assert.equal(await progress(), `${decided} of ${decided} decided`)
-  assert.match(await page.locator('.progress').textContent(), new RegExp(`of these unseen: ${unseen}\\b`))
+  await until(async () => assert.equal(await progress(), `${decided} of ${decided} decided`))
+  await until(async () => assert.match(await page.locator('.progress').textContent(), new RegExp(`of these unseen: ${unseen}\\b`)))
   await press('ArrowDown', 'Delete', 'z')
-  assert.deepEqual(all(await draft()).map(({ begin, end, kind }) => [begin, end, kind]), all({ right: wanted['Phase RH (checked)'], left: wanted['Phase LH (checked)'] }).map(({ begin, end, kind }) => [begin, end, kind]))
+  await until(async () =>
+    assert.deepEqual(
+      all(await draft()).map(({ begin, end, kind }) => [begin, end, kind]),
+      all({ right: wanted['Phase RH (checked)'], left: wanted['Phase LH (checked)'] }).map(({ begin, end, kind }) => [begin, end, kind]),
+    ),
+  )
 })
 
 for (const { name, size, set } of kWays) {

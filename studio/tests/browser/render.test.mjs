@@ -1,17 +1,16 @@
-// The page that `signweave render` opens, in a real browser against a real server: SITE=… node --test render.test.mjs.
+// The page that `signweave render` opens, in a real browser against a real server.
 import assert from 'node:assert/strict'
 import { cpSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { after, before, test } from 'node:test'
+import { after } from 'node:test'
 import { withBrowser } from './chromium.mjs'
+import { hold } from './hold.mjs'
 import { kRequest, withRenderer } from './render_page.mjs'
 import { decoded, looked, readWebm } from './render_webm.mjs'
 import { withServer } from './server.mjs'
+import { site, testsWith } from './suite.mjs'
 
-const { SITE: site } = process.env
-if (!site) throw new Error('SITE names the folder of the built studio')
-
-let api, context, page, renderer, over, all
+let api, context, page, renderer
 const kPiece = { ...kRequest, call: 'recording', parameters: { recording: 'meteo', from: 2000, to: 3500 }, width: 480, height: 270 }
 
 /** `silent` is `meteo` that declares nothing, and `faceless` is `meteo` without its face. */
@@ -31,22 +30,15 @@ async function newPage() {
   return fresh
 }
 
-before(() => new Promise((ready, failed) => {
-  const hold = new Promise((resolve) => (over = resolve))
-  all = withServer(site, (address) => withRenderer(address, (mine) => withBrowser(async (browser) => {
-    api = address
-    renderer = mine
-    context = browser
-    page = await newPage()
-    ready()
-    await hold
-  })), prepare)
-  all.catch(failed)
-}))
-after(async () => {
-  over()
-  await all
-})
+let held
+/** A server, what stands for `signweave render`, and a browser. */
+async function started() {
+  held ??= hold((work) => withServer(site, (address) => withRenderer(address, (mine) => withBrowser((browser) => work(address, mine, browser))), prepare))
+  ;[api, renderer, context] = await held.given
+  page ??= await newPage()
+}
+after(() => held?.end())
+const test = testsWith(started)
 
 /** How many frames the server has of what is rendered, and their rate; not by the page's own code. */
 async function told({ recording, from, to }) {
@@ -65,14 +57,23 @@ test('a film has every picture, each at the time of its number', async () => {
   assert.deepEqual(names(put), ['film.webm'])
   const film = readWebm(put.files.get('film.webm'))
   assert.equal(film.blocks.length, count)
-  assert.deepEqual(film.blocks.map(({ ms }) => ms), Array.from({ length: count }, (_, k) => Math.round((1000 * k) / 30)))
+  assert.deepEqual(
+    film.blocks.map(({ ms }) => ms),
+    Array.from({ length: count }, (_, k) => Math.round((1000 * k) / 30)),
+  )
   assert.deepEqual([film.codec, film.width, film.height, film.scale, Math.trunc(film.frameNs)], ['V_VP9', 480, 270, 1e6, 33333333])
   assert.ok(Math.abs(film.duration - (1000 * count) / 30) <= 1, `${film.duration} ms`)
-  assert.deepEqual(film.blocks.flatMap(({ key }, k) => (key ? [k] : [])).filter((k) => k % 60 !== 0), [])
+  assert.deepEqual(
+    film.blocks.flatMap(({ key }, k) => (key ? [k] : [])).filter((k) => k % 60 !== 0),
+    [],
+  )
   assert.deepEqual(put.done, { frames: count, seconds: count / 30, codec: put.done.codec })
   assert.match(put.done.codec, /^vp09\.00\.\d\d\.08$/)
   const pictures = await decoded(page, film, put.done.codec)
-  assert.deepEqual(pictures.map(({ timestamp }) => timestamp), film.blocks.map(({ ms }) => 1000 * ms))
+  assert.deepEqual(
+    pictures.map(({ timestamp }) => timestamp),
+    film.blocks.map(({ ms }) => 1000 * ms),
+  )
   for (const { grey, width, height } of [pictures[0], pictures.at(-1)]) {
     assert.deepEqual([width, height], [480, 270])
     assert.ok(Math.max(...grey) - Math.min(...grey) > 40, 'a blank picture')
@@ -94,7 +95,12 @@ test('progress is told at most twice a second', async () => {
   const put = await renderer.run(page, { ...kLong, kind: 'png', rate: 10 })
   assert.equal(put.files.size, 43)
   // As the page sends it: words may come closer together.
-  const sent = await page.evaluate(() => performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('/progress')).map(({ startTime }) => startTime))
+  const sent = await page.evaluate(() =>
+    performance
+      .getEntriesByType('resource')
+      .filter(({ name }) => name.endsWith('/progress'))
+      .map(({ startTime }) => startTime),
+  )
   assert.ok(sent.length > 2 && sent.length === put.progress.length, `${sent.length} sent, ${put.progress.length} come`)
   sent.slice(1).forEach((ms, i) => assert.ok(ms - sent[i] > 490, `${ms - sent[i]} ms apart`))
   put.progress.slice(1).forEach(({ done, of }, i) => assert.ok(of === 43 && done > put.progress[i].done, `${done} of ${of}`))
@@ -104,7 +110,10 @@ test('progress is told at most twice a second', async () => {
 test('pictures come in order, in the size asked for, and tell the same moment the same way', async () => {
   const few = { ...kPiece, kind: 'png', width: 320, height: 180, parameters: { recording: 'meteo', from: 2000, to: 2500 }, rate: 10 }
   const every = await renderer.run(page, few)
-  assert.deepEqual(every.names.filter((name) => name.endsWith('.png')), ['00001.png', '00002.png', '00003.png', '00004.png', '00005.png'])
+  assert.deepEqual(
+    every.names.filter((name) => name.endsWith('.png')),
+    ['00001.png', '00002.png', '00003.png', '00004.png', '00005.png'],
+  )
   assert.deepEqual([every.done.frames, every.done.codec], [5, 'png'])
   for (const png of every.files.values()) {
     const { width, height, spread } = await looked(page, png)
@@ -149,11 +158,20 @@ test('a view from the side and one of the hands are other pictures', async () =>
 
 test('what goes wrong is put as one line, and nothing after it', async () => {
   const wrong = { ...kPiece, call: 'sign', parameters: { utterance: 'VANNNES' } }
-  const server = await fetch(`${api}/api/databases/demo/sign`, { method: 'POST', headers: { 'content-type': 'application/json' }, body: JSON.stringify({ ...wrong.parameters, format: 'frames' }) })
+  const server = await fetch(`${api}/api/databases/demo/sign`, {
+    method: 'POST',
+    headers: { 'content-type': 'application/json' },
+    body: JSON.stringify({ ...wrong.parameters, format: 'frames' }),
+  })
   const gloss = await renderer.run(page, wrong)
   assert.equal(gloss.fault, (await server.json()).error.message)
   assert.match(gloss.fault, /VANNNES/)
-  for (const [what, line] of [[{ call: 'dance' }, /no call/], [{ rate: 0 }, /no rate/], [{ width: 8 }, /no width/], [{ at_ms: [1] }, /at_ms is for png/]]) {
+  for (const [what, line] of [
+    [{ call: 'dance' }, /no call/],
+    [{ rate: 0 }, /no rate/],
+    [{ width: 8 }, /no width/],
+    [{ at_ms: [1] }, /at_ms is for png/],
+  ]) {
     assert.match((await renderer.run(page, { ...kPiece, ...what })).fault, line)
   }
   const full = await renderer.run(page, { ...kPiece, kind: 'png', width: 160, height: 90 }, { refuse: (name) => name === '00002.png' })
@@ -170,9 +188,14 @@ test('what goes wrong is put as one line, and nothing after it', async () => {
 
 test('a fault anywhere in the page ends the render', async () => {
   const long = { ...kPiece, parameters: { recording: 'meteo', from: 2000, to: 12000 } }
-  const thrown = () => { throw new Error('nobody saw this coming') }
+  const thrown = () => {
+    throw new Error('nobody saw this coming')
+  }
   const rejected = () => void Promise.reject(new Error('nor this'))
-  for (const [work, line] of [[thrown, 'nobody saw this coming'], [rejected, 'nor this']]) {
+  for (const [work, line] of [
+    [thrown, 'nobody saw this coming'],
+    [rejected, 'nor this'],
+  ]) {
     const other = await newPage()
     // Once the render is under way.
     await other.addInitScript(`{

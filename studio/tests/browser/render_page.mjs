@@ -21,7 +21,9 @@ export async function withRenderer(real, work) {
     if (id) {
       const body = await bodyOf(request)
       const status = runs.get(id)?.(request.method, name, body) ?? 404
-      return response.writeHead(status, { 'content-type': 'application/json' }).end(status === 200 ? '{}' : '{"error":{"code":"io","message":"the disk is full"}}')
+      return response
+        .writeHead(status, { 'content-type': 'application/json' })
+        .end(status === 200 ? '{}' : '{"error":{"code":"io","message":"the disk is full"}}')
     }
     if (renderer.lost?.test(pathname)) return response.writeHead(404).end()
     const { origin, ...headers } = request.headers // the real server is asked as by its own pages
@@ -57,7 +59,9 @@ export async function withRenderer(real, work) {
     await page.goto('about:blank')
     await page.goto(`${address}/render.html#${hash.replace('ID', id)}`)
     let timer
-    const late = new Promise((_, reject) => (timer = setTimeout(() => reject(new Error(`nothing ended the render; put so far: ${put.names.slice(-5)}`)), timeout)))
+    const late = new Promise(
+      (_, reject) => (timer = setTimeout(() => reject(new Error(`nothing ended the render; put so far: ${put.names.slice(-5)}`)), timeout)),
+    )
     try {
       await Promise.race([ended, late])
     } finally {
@@ -76,11 +80,23 @@ export async function withRenderer(real, work) {
 }
 
 export const kRequest = {
-  database: 'demo', call: 'sign', parameters: { utterance: 'VANNES MATIN' }, character: '', width: 640, height: 360, rate: 30, view: 'front', kind: 'webm', at_ms: null,
+  database: 'demo',
+  call: 'sign',
+  parameters: { utterance: 'VANNES MATIN' },
+  character: '',
+  width: 640,
+  height: 360,
+  rate: 30,
+  view: 'front',
+  kind: 'webm',
+  at_ms: null,
 }
 
 /** The paper's first scenario. */
 export const kScenario1 = {
-  ...kRequest, call: 'edit', width: 1280, height: 720,
+  ...kRequest,
+  call: 'edit',
+  width: 1280,
+  height: 720,
   parameters: { recording: 'meteo', replace: ['BRETAGNE=VANNES', 'DEMAIN=MARSEILLE', 'VENDREDI=RENNES', 'MATIN#2="LE MANS"'] },
 }

@@ -2,18 +2,26 @@
 import assert from 'node:assert/strict'
 import { answered, asked, button, field, kAll, list, run, saved, told } from './search_tools.mjs'
 import { address, page, test, visit } from './suite.mjs'
+import { until } from './waits.mjs'
 
 test('says of a search that was stopped that there may be more', async () => {
   await asked('gloss = "METEO"')
   await page.evaluate(() => {
     const real = window.fetch
     // Two answers come, and then no more until it is given up.
-    window.fetch = (where, init) => !String(where).endsWith('/query') ? real(where, init) : Promise.resolve(new Response(new ReadableStream({
-      start(stream) {
-        stream.enqueue(new TextEncoder().encode('recording,tier,name,begin ms,end ms\nmeteo,Gloss,A,0,100\nmeteo,Gloss,B,100,200\n'))
-        init.signal.addEventListener('abort', () => stream.error(init.signal.reason))
-      },
-    })))
+    window.fetch = (where, init) =>
+      !String(where).endsWith('/query')
+        ? real(where, init)
+        : Promise.resolve(
+            new Response(
+              new ReadableStream({
+                start(stream) {
+                  stream.enqueue(new TextEncoder().encode('recording,tier,name,begin ms,end ms\nmeteo,Gloss,A,0,100\nmeteo,Gloss,B,100,200\n'))
+                  init.signal.addEventListener('abort', () => stream.error(init.signal.reason))
+                },
+              }),
+            ),
+          )
   })
   await field().fill(kAll)
   await page.keyboard.press('Enter')
@@ -23,7 +31,7 @@ test('says of a search that was stopped that there may be more', async () => {
   await page.getByText('Export', { exact: true }).click()
   await page.getByLabel('the 2 that came before it was stopped; there may be more').waitFor()
   await button('What to ask for').click()
-  assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "METEO"')
+  await until(async () => assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "METEO"'))
 })
 
 test('chooses answers by key and mouse, saves them in every format, and signs them', async () => {
@@ -42,7 +50,10 @@ test('chooses answers by key and mouse, saves them in every format, and signs th
   assert.equal(csv.name, 'answers.csv')
   assert.deepEqual([rows.length, rows[0]], [4, 'recording,tier,name,begin ms,end ms'])
   const json = JSON.parse((await saved(() => button('JSON').click())).bytes)
-  assert.deepEqual(json.map(({ name, begin_ms }) => `${name},${begin_ms}`), rows.slice(1).map((row) => row.split(',').slice(2, 4).join()))
+  assert.deepEqual(
+    json.map(({ name, begin_ms }) => `${name},${begin_ms}`),
+    rows.slice(1).map((row) => row.split(',').slice(2, 4).join()),
+  )
   const eaf = await saved(() => button('ELAN', {}).click())
   assert.equal(eaf.name, 'answers_eaf.zip')
   assert.equal(eaf.bytes.toString('latin1').match(/TIER_ID="query 1"/g).length, 2)
@@ -51,17 +62,26 @@ test('chooses answers by key and mouse, saves them in every format, and signs th
   assert.equal(bvh.bytes.toString('latin1').match(/HIERARCHY/g).length, 3)
   // The menu closes by key, and by a click elsewhere.
   await page.keyboard.press('Escape')
-  assert.equal(await page.evaluate(() => document.activeElement.matches('summary') && !document.activeElement.parentElement.open), true)
+  await until(async () =>
+    assert.equal(await page.evaluate(() => document.activeElement.matches('summary') && !document.activeElement.parentElement.open), true),
+  )
   await page.keyboard.press('Enter')
   await button('CSV').waitFor()
   await told().click()
   await button('CSV').waitFor({ state: 'hidden' })
   await page.getByText('Sign these').click()
   const { u } = Object.fromEntries(new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]))
-  const pieces = rows.slice(1).map((row) => row.split(',')).map(([recording, , , begin, end]) => `"${recording}"@${begin}..${end}`)
+  const pieces = rows
+    .slice(1)
+    .map((row) => row.split(','))
+    .map(([recording, , , begin, end]) => `"${recording}"@${begin}..${end}`)
   assert.equal(u.split(' ').length, 3)
   assert.deepEqual(u.split(' ').toSorted(), pieces.toSorted())
-  const made = await fetch(`${address}/api/databases/demo/sign`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ utterance: u }) })
+  const made = await fetch(`${address}/api/databases/demo/sign`, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body: JSON.stringify({ utterance: u }),
+  })
   assert.equal(made.status, 200)
 })
 
@@ -79,15 +99,15 @@ test('keeps queries under names, and remembers what was asked', async () => {
   await page.keyboard.press('Enter')
   const file = await saved(() => button('Save as a file').click())
   await button('Delete all of VANNES').click()
-  assert.equal(await button('Delete all of VANNES').count(), 0)
+  await until(async () => assert.equal(await button('Delete all of VANNES').count(), 0))
   await button('Undo').click()
-  assert.equal(await button('Delete all of VANNES').count(), 1)
+  await until(async () => assert.equal(await button('Delete all of VANNES').count(), 1))
   await button('Delete all of VANNES').click()
   await page.locator('input[type=file]').setInputFiles({ name: file.name, mimeType: 'application/json', buffer: file.bytes })
   await page.getByText('1 queries in the file').waitFor()
   await page.locator('input[type=file]').setInputFiles({ name: 'x.json', mimeType: 'application/json', buffer: Buffer.from('{}') })
   await page.getByText('This is no file of queries.').waitFor()
-  assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "VANNES"')
+  await until(async () => assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "VANNES"'))
   await button('all of VANNES', {}).first().click()
   await answered(3)
   // A name that is taken: it is told before, and can be undone.
@@ -96,10 +116,10 @@ test('keeps queries under names, and remembers what was asked', async () => {
   await page.getByRole('textbox', { name: 'Name' }).fill('all of VANNES')
   await button('Replace all of VANNES').click()
   const kept = () => page.locator('section:has(#saved-title) code').allTextContents()
-  assert.deepEqual(await kept(), ['gloss = "METEO"'])
+  await until(async () => assert.deepEqual(await kept(), ['gloss = "METEO"']))
   await page.getByText('all of VANNES was replaced').waitFor()
   await button('Undo').click()
-  assert.deepEqual(await kept(), ['gloss = "VANNES"'])
+  await until(async () => assert.deepEqual(await kept(), ['gloss = "VANNES"']))
 })
 
 test('gives up an export when the page is left', async () => {
@@ -113,7 +133,8 @@ test('gives up an export when the page is left', async () => {
   let downloads = 0
   page.on('download', () => ++downloads)
   await page.getByText('Export', { exact: true }).click()
-  const asking = page.waitForRequest(/format=bvh/), given = page.waitForEvent('requestfailed', (request) => /format=bvh/.test(request.url()))
+  const asking = page.waitForRequest(/format=bvh/),
+    given = page.waitForEvent('requestfailed', (request) => /format=bvh/.test(request.url()))
   await button('Motion, BVH').click()
   await asking
   await page.evaluate(() => (location.hash = '#/demo'))

@@ -14,7 +14,7 @@ export async function answered(count) {
   await page.waitForFunction((n) => {
     const line = document.querySelector('[data-status=answered]')
     return line && (n === undefined || line.textContent.trim().replace(/,/g, '').startsWith(`${n} answer`))
-  }, count, { timeout: 60_000 })
+  }, count)
 }
 /** Visits a query. Where it is not about playing, nothing plays: software takes long to draw. */
 export async function asked(text, count, { more, still = true } = {}) {

@@ -1,8 +1,10 @@
 import { execFileSync, spawn } from 'node:child_process'
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { once } from 'node:events'
+import { appendFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { dirname, join, resolve } from 'node:path'
 import { fileURLToPath } from 'node:url'
+import { inTime, watchLog } from './evidence.mjs'
 
 const kStudio = resolve(dirname(fileURLToPath(import.meta.url)), '../..')
 const kBin = process.env.SIGNWEAVE_BIN ?? resolve(kStudio, '../build/release/bin')
@@ -11,8 +13,8 @@ const kCharacters = process.env.SIGNWEAVE_CHARACTERS ?? resolve(kStudio, '../bui
 
 /**
  * Runs `work(address, folder)` with a server of its own, which serves the built studio, the characters and a demo corpus of two
- * minutes (or `minutes`), and leaves nothing of it behind. With `mine` an empty database `mine` is served beside it, and both may be changed. Films that the annotation links are looked for in `folder`/films.
- * `prepare(corpus)` may change the corpus before it is imported.
+ * minutes (or `minutes`), and leaves nothing of it behind. With `mine` an empty database `mine` is served beside it, and both may be changed. Films
+ * that the annotation links are looked for in `folder`/films. `prepare(corpus)` may change the corpus before it is imported.
  */
 export async function withServer(site, work, prepare = () => {}, { minutes = 2, mine = false } = {}) {
   for (const program of ['signweave', 'synthetic_signer']) {
@@ -21,28 +23,46 @@ export async function withServer(site, work, prepare = () => {}, { minutes = 2, 
   if (!existsSync(kCharacters)) throw new Error(`${kCharacters} is not there; studio/avatar/build makes it, SIGNWEAVE_CHARACTERS names another folder`)
   const folder = mkdtempSync(join(tmpdir(), 'signweave-studio-'))
   let server
+  let unwatch = () => {}
   try {
-    const corpus = join(folder, 'corpus'), database = join(folder, 'demo.db'), films = join(folder, 'films')
+    const corpus = join(folder, 'corpus'),
+      database = join(folder, 'demo.db'),
+      films = join(folder, 'films')
     mkdirSync(films)
     execFileSync(join(kBin, 'synthetic_signer'), [corpus, '--minutes', String(minutes)], { stdio: 'ignore' })
     prepare(corpus)
     execFileSync(join(kBin, 'signweave'), ['create', database], { stdio: 'ignore' })
     execFileSync(join(kBin, 'signweave'), ['import', database, corpus], { stdio: 'ignore' })
     if (mine) execFileSync(join(kBin, 'signweave'), ['create', join(folder, 'mine.db')], { stdio: 'ignore' })
-    server = spawn(join(kBin, 'signweave'), ['serve', database, ...(mine ? [join(folder, 'mine.db'), '--writable'] : []), '--listen', '127.0.0.1:0', '--files', site, '--characters', kCharacters, '--media', films], { stdio: ['ignore', 'ignore', 'pipe'] })
-    const address = await new Promise((resolve, reject) => {
-      let said = ''
-      server.stderr.on('data', (data) => {
-        said += data
-        const found = /listening on (http:\S+)/.exec(said)
-        if (found) resolve(found[1])
-      })
-      setTimeout(() => reject(new Error(`the server did not say where it listens: ${said}`)), 15000).unref()
-      server.once('exit', (code) => reject(new Error(`the server ended with ${code}`)))
-    })
+    const words = ['serve', database, '--listen', '127.0.0.1:0', '--files', site, '--characters', kCharacters, '--media', films]
+    if (mine) words.splice(2, 0, join(folder, 'mine.db'), '--writable')
+    server = spawn(join(kBin, 'signweave'), words, { stdio: ['ignore', 'pipe', 'pipe'] })
+    const log = join(folder, 'server.log')
+    writeFileSync(log, '')
+    unwatch = watchLog(log)
+    let said = ''
+    const address = await inTime(
+      new Promise((resolve, reject) => {
+        for (const output of [server.stdout, server.stderr]) {
+          output.on('data', (data) => {
+            appendFileSync(log, data)
+            said += data
+            const found = /listening on (http:\S+)/.exec(said)
+            if (found) resolve(found[1])
+          })
+        }
+        server.once('exit', (code) => reject(new Error(`the server ended with ${code}: ${said}`)))
+      }),
+      120,
+    )
     return await work(address, folder)
   } finally {
-    server?.kill('SIGTERM')
+    if (server && server.exitCode === null) {
+      const ended = once(server, 'close')
+      server.kill('SIGTERM')
+      await ended
+    }
+    unwatch()
     rmSync(folder, { recursive: true, force: true })
   }
 }

@@ -19,13 +19,21 @@ it('leaves out what is typed wrong', () => {
 })
 
 it('names tiers with their hands, and those with a colon in all three parts', () => {
-  const tiers = [{ tier: 'Gloss', role: 'signs', hand: 'both' }, { tier: 'Gloss L', role: 'signs', hand: 'left' }, { tier: 'a:b', role: 'signs', hand: 'both' },
-    { tier: 'Phase', role: 'phases', hand: 'both' }, { tier: 'Note', role: '', hand: 'both' }] as const
+  const tiers = [
+    { tier: 'Gloss', role: 'signs', hand: 'both' },
+    { tier: 'Gloss L', role: 'signs', hand: 'left' },
+    { tier: 'a:b', role: 'signs', hand: 'both' },
+    { tier: 'Phase', role: 'phases', hand: 'both' },
+    { tier: 'Note', role: '', hand: 'both' },
+  ] as const
   expect(parametersOf(kNone, { settings: {}, tiers }, 'a.bvh')).toEqual({ sign_tier: ['Gloss', 'Gloss L:left', 'a:b:both:'], phase_tier: ['Phase'] })
 })
 
 it('says that there is no tier where somebody took all for something else, and where none is wanted for any recording', () => {
-  const tiers = [{ tier: 'Gloss', role: 'signs', hand: 'both' }, { tier: 'Phase', role: '', hand: 'both' }] as const
+  const tiers = [
+    { tier: 'Gloss', role: 'signs', hand: 'both' },
+    { tier: 'Phase', role: '', hand: 'both' },
+  ] as const
   const none = tiers.map((tier) => ({ ...tier, role: '' as const }))
   const all: Corrections = { settings: { no_phase_tier: 'yes', no_sign_tier: 'yes' } }
   expect(parametersOf(kNone, undefined, 'a.bvh')).toEqual({})
@@ -38,10 +46,19 @@ it('says that there is no tier where somebody took all for something else, and w
 
 it('makes one call for recordings that are told the same', () => {
   const rig = { left_hand: 'wrist_a' }
-  const groups = grouped([{ key: 'a', motion: 'a.bvh' }, { key: 'b', motion: 'b.bvh', one: { settings: {}, rig } },
-    { key: 'c', motion: 'c.bvh', one: { settings: {} } },
-    { key: 'd', motion: null, one: { settings: {}, rig } }], { settings: {}, signer: 'Zoé' })
-  expect(groups.map(({ keys, rig: text }) => [keys, text])).toEqual([[['a', 'c', 'd'], ''], [['b'], 'left_hand = wrist_a\n']])
+  const groups = grouped(
+    [
+      { key: 'a', motion: 'a.bvh' },
+      { key: 'b', motion: 'b.bvh', one: { settings: {}, rig } },
+      { key: 'c', motion: 'c.bvh', one: { settings: {} } },
+      { key: 'd', motion: null, one: { settings: {}, rig } },
+    ],
+    { settings: {}, signer: 'Zoé' },
+  )
+  expect(groups.map(({ keys, rig: text }) => [keys, text])).toEqual([
+    [['a', 'c', 'd'], ''],
+    [['b'], 'left_hand = wrist_a\n'],
+  ])
 })
 
 it('reads mapping files as they are written', () => {

@@ -13,11 +13,24 @@ export interface Setting {
   /** What may be typed. */
   readonly pattern?: RegExp
 }
-export type SettingName = 'up' | 'unit' | 'mirror' | 'root_unit' | 'root_order' | 'source_rate' | 'take' | 'offset_ms' | 'face_offset_ms' | 'face_timecode'
-  | 'sync' | 'replace_motion'
-  | 'no_sign_tier' | 'no_phase_tier'
+export type SettingName =
+  | 'up'
+  | 'unit'
+  | 'mirror'
+  | 'root_unit'
+  | 'root_order'
+  | 'source_rate'
+  | 'take'
+  | 'offset_ms'
+  | 'face_offset_ms'
+  | 'face_timecode'
+  | 'sync'
+  | 'replace_motion'
+  | 'no_sign_tier'
+  | 'no_phase_tier'
 
-const kKeyed = ['.fbx', '.glb', '.gltf'], kNumber = /^[-+]?\d+([.,]\d+)?$/
+const kKeyed = ['.fbx', '.glb', '.gltf'],
+  kNumber = /^[-+]?\d+([.,]\d+)?$/
 const kUnit = /^(cm|m|mm|in|\d*[.,]?\d+(e-?\d+)?)$/
 export const kSettings: readonly Setting[] = [
   { name: 'up', choices: ['y', 'z'], of: ['.bvh', '.amc'] },
@@ -37,7 +50,11 @@ export const kSettings: readonly Setting[] = [
 ]
 
 /** What a tier is told to be. */
-export interface TierRole { readonly tier: string; readonly role: TierReport['role']; readonly hand: HandName }
+export interface TierRole {
+  readonly tier: string
+  readonly role: TierReport['role']
+  readonly hand: HandName
+}
 /** What somebody corrected of one recording, or of all. A setting that is not there is as it is for all, and then as the file says. */
 export interface Corrections {
   readonly settings: Readonly<Partial<Record<SettingName, string>>>
@@ -72,7 +89,8 @@ export function parametersOf(all: Corrections, one: Corrections | undefined, mot
   }
   // Where nobody said what its tiers are they are guessed, unless there are none for any recording.
   const tiers = one?.tiers
-  const signs = tiers?.filter(({ role }) => role === 'signs') ?? [], phases = tiers?.filter(({ role }) => role === 'phases') ?? []
+  const signs = tiers?.filter(({ role }) => role === 'signs') ?? [],
+    phases = tiers?.filter(({ role }) => role === 'phases') ?? []
   if (signs.length > 0) body.sign_tier = signs.map(signTier)
   else if (tiers || all.settings.no_sign_tier) body.no_sign_tier = true
   if (phases.length > 0) body.phase_tier = phases.map(({ tier }) => tier)
@@ -88,7 +106,9 @@ function signTier({ tier, hand }: TierRole): string {
 
 /** A mapping file's text (docs/rig.md). */
 export function rigText(rig: Readonly<Record<string, string>>): string {
-  return Object.entries(rig).map(([part, joint]) => `${part} = ${joint}\n`).join('')
+  return Object.entries(rig)
+    .map(([part, joint]) => `${part} = ${joint}\n`)
+    .join('')
 }
 
 /** Reads a mapping file; lines that are none are left out. */
@@ -110,15 +130,21 @@ export function mendOf(notice: string): Readonly<Partial<Record<SettingName, str
 }
 
 /** What goes into one call: recordings that are told the same. */
-export interface Group { readonly keys: readonly string[]; readonly body: Readonly<Record<string, unknown>>;
-  /** The mapping file's text; empty where there is none. */ readonly rig: string }
+export interface Group {
+  readonly keys: readonly string[]
+  readonly body: Readonly<Record<string, unknown>>
+  /** The mapping file's text; empty where there is none. */ readonly rig: string
+}
 
 /** Puts recordings that are told the same into one call. */
-export function grouped(recordings: readonly { readonly key: string; readonly motion: string | null; readonly one?: Corrections }[],
-  all: Corrections): readonly Group[] {
+export function grouped(
+  recordings: readonly { readonly key: string; readonly motion: string | null; readonly one?: Corrections }[],
+  all: Corrections,
+): readonly Group[] {
   const groups = new Map<string, { keys: string[]; body: Readonly<Record<string, unknown>>; rig: string }>()
   for (const { key, motion, one } of recordings) {
-    const body = parametersOf(all, one, motion), rig = motion ? rigText({ ...all.rig, ...one?.rig }) : ''
+    const body = parametersOf(all, one, motion),
+      rig = motion ? rigText({ ...all.rig, ...one?.rig }) : ''
     const same = JSON.stringify([body, rig])
     const group = groups.get(same)
     if (group) group.keys.push(key)

@@ -4,7 +4,9 @@ import { chosen, dropped } from './dropped'
 const fileEntry = (name: string) => ({ isFile: true, name, file: (take: (file: File) => void) => take(new File(['x'], name)) })
 /** A folder's reader gives a hundred entries at once, as browsers do. */
 const folderEntry = (name: string, entries: readonly unknown[]) => ({
-  isFile: false, name, createReader: () => {
+  isFile: false,
+  name,
+  createReader: () => {
     let at = 0
     return { readEntries: (take: (some: unknown[]) => void) => take(entries.slice(at, (at += 100))) }
   },
@@ -13,11 +15,16 @@ const item = (entry: unknown) => ({ kind: 'file', webkitGetAsEntry: () => entry,
 
 it('takes files and folders with all that is in them, however many', async () => {
   const many = Array.from({ length: 250 }, (_, k) => fileEntry(`${k}.bvh`))
-  const transfer = { items: [item(fileEntry('a.bvh')), item(folderEntry('day', [...many, folderEntry('two', [fileEntry('b.eaf')])])), item(null),
-    { kind: 'string' }] } as unknown as DataTransfer
+  const transfer = {
+    items: [item(fileEntry('a.bvh')), item(folderEntry('day', [...many, folderEntry('two', [fileEntry('b.eaf')])])), item(null), { kind: 'string' }],
+  } as unknown as DataTransfer
   const all = await dropped(transfer)
   expect(all.length).toBe(253)
-  expect([all[0], all[251], all[252]].map(({ file, folder }) => [folder, file.name])).toEqual([['', 'a.bvh'], ['day/two', 'b.eaf'], ['', 'plain.bvh']])
+  expect([all[0], all[251], all[252]].map(({ file, folder }) => [folder, file.name])).toEqual([
+    ['', 'a.bvh'],
+    ['day/two', 'b.eaf'],
+    ['', 'plain.bvh'],
+  ])
 })
 
 it('takes the folders that an input tells', () => {

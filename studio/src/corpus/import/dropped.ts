@@ -3,10 +3,12 @@ import type { Picked } from './file_list'
 /** Everything in what was dropped, folders with all that is in them. To be called in the event itself: its items are gone afterwards. */
 export function dropped(transfer: DataTransfer): Promise<readonly Picked[]> {
   const entries = [...transfer.items].flatMap((item) => (item.kind === 'file' ? [item.webkitGetAsEntry?.() ?? item.getAsFile()] : []))
-  return Promise.all(entries.map(async (entry) => {
-    if (!entry) return []
-    return entry instanceof File ? [{ file: entry, folder: '' }] : walked(entry, '')
-  })).then((lists) => lists.flat())
+  return Promise.all(
+    entries.map(async (entry) => {
+      if (!entry) return []
+      return entry instanceof File ? [{ file: entry, folder: '' }] : walked(entry, '')
+    }),
+  ).then((lists) => lists.flat())
 }
 
 /** Files of an input, which tells folders where it was asked for one. */

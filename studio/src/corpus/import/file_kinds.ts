@@ -6,7 +6,14 @@ export type FileKind = 'motion' | 'skeleton' | 'annotation' | 'face' | 'companio
 export type Refusal = 'ending' | 'film' | 'name'
 
 const kKinds: Readonly<Record<string, FileKind>> = {
-  '.bvh': 'motion', '.amc': 'motion', '.fbx': 'motion', '.glb': 'motion', '.gltf': 'motion', '.asf': 'skeleton', '.eaf': 'annotation', '.anvil': 'annotation',
+  '.bvh': 'motion',
+  '.amc': 'motion',
+  '.fbx': 'motion',
+  '.glb': 'motion',
+  '.gltf': 'motion',
+  '.asf': 'skeleton',
+  '.eaf': 'annotation',
+  '.anvil': 'annotation',
   '.face.csv': 'face',
 }
 /** Files that another one names: buffers of glTF, specifications of ANVIL. */
@@ -39,7 +46,9 @@ export function kindOf(name: string, formats: readonly FormatRow[], names: reado
   if (!isPlain(name)) return 'name'
   const format = endingOf(name, formats)
   if (format?.reads) return kKinds[format.ending] ?? 'motion'
-  const lower = name.toLowerCase(), dot = lower.lastIndexOf('.'), ending = dot > 0 ? lower.slice(dot) : ''
+  const lower = name.toLowerCase(),
+    dot = lower.lastIndexOf('.'),
+    ending = dot > 0 ? lower.slice(dot) : ''
   const partner = kCompanions[ending]
   if (partner && names.some((other) => other.toLowerCase().endsWith(partner))) return 'companion'
   if (ending === '.csv' && !/\.rotations\.csv$/.test(lower)) return 'pairs'
@@ -51,5 +60,6 @@ export const isRefusal = (kind: FileKind | Refusal): kind is Refusal => kind ===
 
 /** As the server has it for files of an upload: no folders, no ':', no leading dot, at most 200 bytes. */
 export function isPlain(name: string): boolean {
+  // eslint-disable-next-line no-control-regex -- control characters are what is looked for
   return name !== '' && new TextEncoder().encode(name).length <= 200 && !/^\.|[/\\:\u0000-\u001f\u007f]/.test(name)
 }

@@ -11,8 +11,20 @@ const names = (list: { files: readonly { name: string }[] }) => list.files.map((
 it('tells what files are, and refuses what the server cannot read', () => {
   const all = ['walk.bvh', 'walk.gltf', 'walk.bin']
   const kinds = ['walk.BVH', 'walk.eaf', 'walk.face.csv', 'pairs.csv', 'map.rig', 'walk.bin', 'x.xml', 'walk.mp4', 'walk.txt', '.bvh', 'a:b.bvh', 'walk.svg']
-  expect(kinds.map((name) => kindOf(name, kFormats, all))).toEqual(
-    ['motion', 'annotation', 'face', 'pairs', 'rig', 'companion', 'ending', 'film', 'ending', 'name', 'name', 'ending'])
+  expect(kinds.map((name) => kindOf(name, kFormats, all))).toEqual([
+    'motion',
+    'annotation',
+    'face',
+    'pairs',
+    'rig',
+    'companion',
+    'ending',
+    'film',
+    'ending',
+    'name',
+    'name',
+    'ending',
+  ])
   expect(kindOf('walk.bin', kFormats, ['walk.bin'])).toBe('ending')
   expect(kindOf(`${'é'.repeat(99)}.bvh`, kFormats, [])).toBe('name')
   expect(stemOf('walk.face.csv', kFormats)).toBe('walk')
@@ -28,7 +40,11 @@ it('takes files once, and leaves hidden files of folders out', () => {
 })
 
 it('sends no two files of one name, until their folders are put in front', () => {
-  const list = added(kNoFiles, ['one/a.bvh', 'one/a.eaf', 'two/a.bvh', 'two/b.bvh', 'c.bvh'].map((path) => picked(path)), kFormats)
+  const list = added(
+    kNoFiles,
+    ['one/a.bvh', 'one/a.eaf', 'two/a.bvh', 'two/b.bvh', 'c.bvh'].map((path) => picked(path)),
+    kFormats,
+  )
   expect(list.files.filter(({ clash }) => clash).map(({ folder }) => folder)).toEqual(['one', 'two'])
   expect(sendable(list).map(({ name }) => name)).toEqual(['c.bvh', 'a.eaf', 'b.bvh'])
   const renamed = withFolderNames(list, kFormats)

@@ -2,7 +2,10 @@ import type { FormatRow } from '../../api/corpus_answers'
 import { isRefusal, kindOf, stemOf, type FileKind, type Refusal } from './file_kinds'
 
 /** A file that was chosen, and the folders that it lay in, with `/` between them. */
-export interface Picked { readonly file: File; readonly folder: string }
+export interface Picked {
+  readonly file: File
+  readonly folder: string
+}
 /** A file of the list. `name` is what it is sent under. */
 export interface Listed extends Picked {
   readonly id: number
@@ -11,8 +14,11 @@ export interface Listed extends Picked {
   /** Another file has the same name: only one can be sent. */
   readonly clash: boolean
 }
-export interface FileList { readonly files: readonly Listed[]; readonly next: number;
-  /** Hidden files of folders that were left out. */ readonly hidden: number }
+export interface FileList {
+  readonly files: readonly Listed[]
+  readonly next: number
+  /** Hidden files of folders that were left out. */ readonly hidden: number
+}
 
 export const kNoFiles: FileList = { files: [], next: 1, hidden: 0 }
 

@@ -47,7 +47,10 @@ export class ImportSession {
   private settling = $state.raw<ReturnType<typeof setTimeout>>()
   private readonly revisions = new Revisions()
 
-  constructor(private readonly api: Api, private readonly database: string) {
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+  ) {
     this.sender = new Sender(api, database)
     this.jobs = new UploadJobs(api, database, this.sender, () => sendable(this.list))
     void this.begin()
@@ -178,7 +181,8 @@ export class ImportSession {
     if (after !== before) this.repair(before, after)
   }
   private repair(before: readonly Pair[], after: readonly Pair[]): void {
-    const told = new Set(before.map((one) => JSON.stringify(one))), here = new Set(after.map(keyOf))
+    const told = new Set(before.map((one) => JSON.stringify(one))),
+      here = new Set(after.map(keyOf))
     this.pairs = after
     const over = this.reports.map(({ files }) => keyOf(files)).filter((key) => !here.has(key))
     this.touched([...over, ...after.filter((one) => !told.has(JSON.stringify(one))).map(keyOf)])
@@ -197,7 +201,10 @@ export class ImportSession {
   }
   want(keys: readonly string[], wanted: boolean): void {
     const left = new Set(this.left)
-    for (const key of keys) wanted ? left.delete(key) : left.add(key)
+    for (const key of keys) {
+      if (wanted) left.delete(key)
+      else left.add(key)
+    }
     this.left = left
   }
 
@@ -225,8 +232,11 @@ export class ImportSession {
       if (keys && now.length === 0) continue
       this.doing = { what: 'inspect', part: at / groups.length }
       try {
-        const inspection = await this.run<Inspection>('inspect', { ...group, keys: now },
-          (part) => (this.doing = { ...this.doing!, part: (at + part) / groups.length }))
+        const inspection = await this.run<Inspection>(
+          'inspect',
+          { ...group, keys: now },
+          (part) => (this.doing = { ...this.doing!, part: (at + part) / groups.length }),
+        )
         const errors = this.take(inspection, keys ? now : undefined)
         if (keys) this.looked(now.filter(isSame), errors)
       } catch (fault) {
@@ -262,7 +272,8 @@ export class ImportSession {
     let before = 0
     for (const group of groups) {
       // What is corrected meanwhile is not stored as it was.
-      const keys = group.keys.filter(isSame).sort((a, b) => (this.nameOf(a) < this.nameOf(b) ? -1 : 1)), done = before
+      const keys = group.keys.filter(isSame).sort((a, b) => (this.nameOf(a) < this.nameOf(b) ? -1 : 1)),
+        done = before
       before += group.keys.length
       if (keys.length === 0) continue
       this.doing = { what: 'import', part: done / count, call: { keys, part: 0 } }
@@ -293,7 +304,10 @@ export class ImportSession {
 
   private groups(keys: readonly string[]): readonly Group[] {
     const motions = new Map(this.table().map((pair) => [keyOf(pair), pair.motion]))
-    return grouped(keys.map((key) => ({ key, motion: motions.get(key) ?? null, one: this.own.get(key) })), this.all)
+    return grouped(
+      keys.map((key) => ({ key, motion: motions.get(key) ?? null, one: this.own.get(key) })),
+      this.all,
+    )
   }
 
   /** Which files belong together, with their signers, as the next call is to have it. */
@@ -303,13 +317,18 @@ export class ImportSession {
   }
 
   private run<Result>(what: 'inspect' | 'import', { keys, body, rig }: Group, told: (part: number, result?: Result) => void): Promise<Result> {
-    return this.jobs.run(what, () => {
-      const table = this.table(), isTold = this.pairs || table.some(({ signer }) => signer !== '')
-      return {
-        parameters: keys.length > 0 ? { ...body, recordings: keys.map((key) => this.nameOf(key)) } : body,
-        made: { ...(isTold && { pairs: { name: kTable, text: tableOf(table) } }), ...(rig && { rig: { name: 'parts.rig', text: rig } }) },
-      }
-    }, told)
+    return this.jobs.run(
+      what,
+      () => {
+        const table = this.table(),
+          isTold = this.pairs || table.some(({ signer }) => signer !== '')
+        return {
+          parameters: keys.length > 0 ? { ...body, recordings: keys.map((key) => this.nameOf(key)) } : body,
+          made: { ...(isTold && { pairs: { name: kTable, text: tableOf(table) } }), ...(rig && { rig: { name: 'parts.rig', text: rig } }) },
+        }
+      },
+      told,
+    )
   }
 
   /** A new report takes the place of what was told of the same recordings; gives what is wrong with corrections. */
@@ -325,7 +344,8 @@ export class ImportSession {
   }
 
   private outcome({ recordings }: ImportResult, group: Group): void {
-    const outcomes = new Map(this.outcomes), keys = new Map(group.keys.map((key) => [this.nameOf(key), key]))
+    const outcomes = new Map(this.outcomes),
+      keys = new Map(group.keys.map((key) => [this.nameOf(key), key]))
     for (const one of recordings) {
       const key = keys.get(one.name)
       if (key !== undefined) outcomes.set(key, one)

@@ -6,10 +6,19 @@ import { kNone } from './corrections'
 import { ImportSession } from './import_session.svelte'
 
 type Body = Readonly<Record<string, unknown>> & { readonly recordings?: readonly string[] }
-interface Call { readonly what: string; readonly body: Body; readonly answer: (result: unknown) => void; readonly refuse: (fault: unknown) => void }
+interface Call {
+  readonly what: string
+  readonly body: Body
+  readonly answer: (result: unknown) => void
+  readonly refuse: (fault: unknown) => void
+}
 
 const server = vi.hoisted(() => ({
-  begun: [] as { what: string; body: object }[], discarded: [] as string[], cancelled: [] as string[], opened: 0, put: new Map<string, string>(),
+  begun: [] as { what: string; body: object }[],
+  discarded: [] as string[],
+  cancelled: [] as string[],
+  opened: 0,
+  put: new Map<string, string>(),
   onbegin: undefined as (() => void) | undefined,
 }))
 vi.mock('../../api/corpus_calls', () => ({
@@ -81,7 +90,9 @@ it('looks again at what is corrected while another is looked at, and imports not
 })
 
 it('keeps what is corrected while everything is looked at', async () => {
-  const session = await looked(), again = session.send(), all = await next()
+  const session = await looked(),
+    again = session.send(),
+    all = await next()
   session.correct('c.bvh', told({ mirror: 'yes' }))
   all.answer(inspection(['a', 'b', 'c'].map((name) => report(name))))
   for (let left = 2; left > 0; --left) {
@@ -143,7 +154,8 @@ it('imports the others where one is refused, and tries again what failed', async
   await settle()
   for (const name of ['a', 'b']) (await next()).answer(inspection([report(name)]))
   await vi.waitFor(() => expect(session.stale.size).toBe(0))
-  const over = session.import(), first = await next()
+  const over = session.import(),
+    first = await next()
   expect(first.body.recordings).toEqual(['a'])
   first.refuse(new ApiError('not so', 400, 'bad_input'))
   const away = new StudioFault('unreachable')
@@ -174,7 +186,8 @@ it('does not take a recording that is corrected during its import for imported s
   await settle()
   ;(await next()).answer(inspection([report('c')]))
   await vi.waitFor(() => expect(session.stale.size).toBe(0))
-  const over = session.import(), first = await next()
+  const over = session.import(),
+    first = await next()
   session.correct('a.bvh', told({ mirror: 'yes' }))
   session.correct('c.bvh', told({ unit: 'cm' }))
   first.answer(stored(['a', 'b']))
@@ -185,7 +198,9 @@ it('does not take a recording that is corrected during its import for imported s
 })
 
 it('takes and gives no files while something is under way, and says so', async () => {
-  const session = await looked(), over = session.import(), { answer } = await next()
+  const session = await looked(),
+    over = session.import(),
+    { answer } = await next()
   await session.add([{ file: new File(['x'], 'd.bvh'), folder: '' }])
   session.remove([1])
   expect([session.turnedAway, session.list.files.length, session.reports.length, session.doing?.what]).toEqual([true, 3, 3, 'import'])
@@ -201,7 +216,8 @@ it('gives up an upload that nobody imports from, and sends it anew where it is w
   session.leave()
   expect(server.discarded).toEqual([])
   session.want(['c.bvh'], false)
-  const over = session.import(), { answer } = await next()
+  const over = session.import(),
+    { answer } = await next()
   session.close()
   expect(server.discarded).toEqual([])
   answer(stored(['a', 'b']))
@@ -209,7 +225,8 @@ it('gives up an upload that nobody imports from, and sends it anew where it is w
   session.leave()
   expect(server.discarded).toEqual(['upload 1'])
   session.want(['c.bvh'], true)
-  const rest = session.import(), second = await next()
+  const rest = session.import(),
+    second = await next()
   expect([server.opened, second.body.recordings]).toEqual([2, ['c']])
   second.answer(stored(['c']))
   await rest

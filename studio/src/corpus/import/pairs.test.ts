@@ -30,8 +30,11 @@ it('moves a face, which only one motion has', () => {
 })
 
 it('writes tables that it reads again, quotes and all', () => {
-  const pairs = [{ ...pair('one, two.bvh', 'a "b".eaf', 'f.face.csv'), signer: 'Zoé', offset: '-120', faceOffset: '20' }, pair(null, 'c.eaf'),
-    { ...pair('d.bvh', null), name: 'day 1/d' }]
+  const pairs = [
+    { ...pair('one, two.bvh', 'a "b".eaf', 'f.face.csv'), signer: 'Zoé', offset: '-120', faceOffset: '20' },
+    pair(null, 'c.eaf'),
+    { ...pair('d.bvh', null), name: 'day 1/d' },
+  ]
   const names = new Set(['one, two.bvh', 'a "b".eaf', 'f.face.csv', 'c.eaf', 'd.bvh', 'd.face.csv'])
   expect(readTable(tableOf(pairs), names)).toEqual({ pairs, faults: [] })
   // A face that lies beside its motion is taken, unless the table says that there is none.

@@ -1,11 +1,17 @@
 import type { FilePart } from '../../api/corpus_answers'
 
 /** Files that make one recording, by the names that they are sent under. */
-export interface Pair { readonly motion: string | null; readonly annotation: string | null; readonly face: string | null; readonly signer: string
+export interface Pair {
+  readonly motion: string | null
+  readonly annotation: string | null
+  readonly face: string | null
+  readonly signer: string
   /** Annotation time of frame 0, and the motion's time of the face's first row, in ms, as a table tells them. */
-  readonly offset?: string; readonly faceOffset?: string
+  readonly offset?: string
+  readonly faceOffset?: string
   /** What the recording is called, where a table tells it. */
-  readonly name?: string }
+  readonly name?: string
+}
 export type Files = Pick<Pair, FilePart>
 
 /** What a recording is known by while it is corrected. */
@@ -59,32 +65,47 @@ function named(pairs: readonly Pair[], stem: Stem): readonly Pair[] {
 /** For files that came or went since: what is gone is in no pair, and what is new belongs to what has the same stem. */
 export function extended(pairs: readonly Pair[], names: ReadonlySet<string>, all: Readonly<Record<FilePart, readonly string[]>>, stem: Stem): readonly Pair[] {
   const here = (name: string | null) => (name !== null && names.has(name) ? name : null)
-  const kept = pairs.map((pair) => ({ ...pair, motion: here(pair.motion), annotation: here(pair.annotation), face: here(pair.motion) && here(pair.face) }))
+  const kept = pairs
+    .map((pair) => ({ ...pair, motion: here(pair.motion), annotation: here(pair.annotation), face: here(pair.motion) && here(pair.face) }))
     .filter(({ motion, annotation }) => motion || annotation)
   const isNew = (part: FilePart) => (name: string) => !kept.some((pair) => pair[part] === name)
-  const annotations = all.annotation.filter(isNew('annotation')), faces = all.face.filter(isNew('face'))
+  const annotations = all.annotation.filter(isNew('annotation')),
+    faces = all.face.filter(isNew('face'))
   const like = (list: readonly string[], name: string) => list.find((other) => stem(other) === stem(name)) ?? null
-  const motions = all.motion.filter(isNew('motion'))
+  const motions = all.motion
+    .filter(isNew('motion'))
     .map((motion): Pair => ({ motion, annotation: like(annotations, motion), face: like(faces, motion), signer: '' }))
-  const alone = annotations.filter((name) => !motions.some(({ annotation }) => annotation === name))
+  const alone = annotations
+    .filter((name) => !motions.some(({ annotation }) => annotation === name))
     .map((annotation): Pair => ({ motion: null, annotation, face: null, signer: '' }))
   return named([...kept, ...motions, ...alone], stem)
 }
 
 /** As the server reads it (docs/formats.md). */
 export function tableOf(pairs: readonly Pair[]): string {
-  const rows = pairs.map(({ motion, annotation, signer, offset, face, faceOffset, name }) =>
-    [motion, annotation, signer, offset, face ?? (motion ? '-' : ''), face ? faceOffset : '', name])
+  const rows = pairs.map(({ motion, annotation, signer, offset, face, faceOffset, name }) => [
+    motion,
+    annotation,
+    signer,
+    offset,
+    face ?? (motion ? '-' : ''),
+    face ? faceOffset : '',
+    name,
+  ])
   return ['motion,annotation,signer,offset,face,face offset,name', ...rows.map((row) => row.map((field) => quoted(field ?? '')).join(','))].join('\n') + '\n'
 }
 const quoted = (field: string) => (/[",\r\n]|^\s|\s$/.test(field) ? `"${field.replaceAll('"', '""')}"` : field)
 
 /** What is wrong with a table of pairs: a file that was not chosen, or a line that is no pair. */
-export interface TableFault { readonly line: number; readonly file?: string }
+export interface TableFault {
+  readonly line: number
+  readonly file?: string
+}
 
 /** Reads a table of pairs. Its paths stand for the files of those names: `names` are those that were chosen. */
 export function readTable(text: string, names: ReadonlySet<string>): { readonly pairs: readonly Pair[]; readonly faults: readonly TableFault[] } {
-  const pairs: Pair[] = [], faults: TableFault[] = []
+  const pairs: Pair[] = [],
+    faults: TableFault[] = []
   const beside = (motion: string) => `${motion.replace(/\.[^.]*$/, '')}.face.csv`
   for (const { line, fields } of rowsOf(text)) {
     const [motion = '', annotation = '', signer = '', offset = '', face = '', faceOffset = '', name = ''] = fields.map((field) => field.trim())
@@ -104,12 +125,14 @@ export function readTable(text: string, names: ReadonlySet<string>): { readonly 
 /** Rows of CSV (RFC 4180) with the line that each begins on; empty ones are left out. */
 function rowsOf(text: string): readonly { readonly line: number; readonly fields: readonly string[] }[] {
   const rows: { line: number; fields: string[] }[] = []
-  let line = 1, at = text.startsWith('\ufeff') ? 1 : 0
+  let line = 1,
+    at = text.startsWith('\ufeff') ? 1 : 0
   while (at < text.length) {
     const row = { line, fields: [''] }
     let inQuotes = false
     for (; at < text.length; ++at) {
-      const c = text[at], last = row.fields.length - 1
+      const c = text[at],
+        last = row.fields.length - 1
       if (c === '\n') ++line
       if (inQuotes) {
         if (c !== '"') row.fields[last] += c

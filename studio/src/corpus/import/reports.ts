@@ -17,12 +17,17 @@ export const isCancelled = (fault: unknown) => fault instanceof ApiError && faul
 export const failedBy = (fault: unknown, name: string): Imported => ({ name, outcome: 'failed', error: fault instanceof Error ? fault.message : String(fault) })
 
 /** Reports, and by recording what the server says of its corrections where it cannot read it with them. */
-export interface Taken { readonly reports: readonly Inspected[]; readonly errors: ReadonlyMap<string, string> }
+export interface Taken {
+  readonly reports: readonly Inspected[]
+  readonly errors: ReadonlyMap<string, string>
+}
 /** Reports that take the place of those before. One that could be read, and cannot as it is corrected, stays as it was: the correction can be mended. */
 export function withGood(told: readonly Inspected[], before: readonly Inspected[], isCorrected: (key: string) => boolean): Taken {
-  const earlier = new Map(before.map((one) => [keyOf(one.files), one])), errors = new Map<string, string>()
+  const earlier = new Map(before.map((one) => [keyOf(one.files), one])),
+    errors = new Map<string, string>()
   const reports = told.map((one) => {
-    const key = keyOf(one.files), good = earlier.get(key)
+    const key = keyOf(one.files),
+      good = earlier.get(key)
     if (!one.error || !good) return one
     if (!good.error && isCorrected(key) && JSON.stringify(good.files) === JSON.stringify(one.files)) {
       errors.set(key, one.error)

@@ -6,7 +6,12 @@ import type { Listed } from './file_list'
 const kTellMs = 100
 
 /** How far a file is. */
-export interface Sending { readonly state: 'sending' | 'sent' | 'failed'; readonly bytes: number; readonly name: string; readonly fault?: unknown }
+export interface Sending {
+  readonly state: 'sending' | 'sent' | 'failed'
+  readonly bytes: number
+  readonly name: string
+  readonly fault?: unknown
+}
 
 /** Sends files to an upload of the server, one after the other. What was sent stays there while others fail or are cancelled. */
 export class Sender {
@@ -16,7 +21,10 @@ export class Sender {
   upload?: string
   private abort?: AbortController
 
-  constructor(private readonly api: Api, private readonly database: string) {}
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+  ) {}
 
   bytes(): number {
     return [...this.told.values()].reduce((sum, { bytes }) => sum + bytes, 0)
@@ -87,12 +95,20 @@ export class Sender {
     const tell = (sending: Sending) => (this.told = new Map(this.told).set(id, sending))
     tell({ state: 'sending', bytes: 0, name })
     try {
-      await sendFile(this.api, this.database, this.upload!, name, file, (loaded) => {
-        const now = performance.now()
-        if (now - last < kTellMs) return
-        last = now
-        tell({ state: 'sending', bytes: Math.min(loaded, file.size), name })
-      }, signal)
+      await sendFile(
+        this.api,
+        this.database,
+        this.upload!,
+        name,
+        file,
+        (loaded) => {
+          const now = performance.now()
+          if (now - last < kTellMs) return
+          last = now
+          tell({ state: 'sending', bytes: Math.min(loaded, file.size), name })
+        },
+        signal,
+      )
       tell({ state: 'sent', bytes: file.size, name })
     } catch (fault) {
       if (signal.aborted) {

@@ -24,7 +24,12 @@ export class UploadJobs {
   private isStopped = false
 
   /** `files` are those that the upload has to have. */
-  constructor(private readonly api: Api, private readonly database: string, private readonly sender: Sender, private readonly files: () => readonly Listed[]) {}
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+    private readonly sender: Sender,
+    private readonly files: () => readonly Listed[],
+  ) {}
 
   async run<Result>(what: 'inspect' | 'import', call: () => UploadCall, told: (part: number, result?: Result) => void): Promise<Result> {
     this.isStopped = false
@@ -46,11 +51,13 @@ export class UploadJobs {
   private async sendAgain(): Promise<void> {
     this.sender.forget()
     if (await this.sender.send(this.files())) return
-    throw [...this.sender.told.values()].find(({ state }) => state === 'failed')?.fault ?? cancelled()
+    const fault = [...this.sender.told.values()].find(({ state }) => state === 'failed')?.fault
+    throw fault instanceof Error ? fault : cancelled()
   }
 
   private async once<Result>(what: 'inspect' | 'import', { parameters, made }: UploadCall, told: (part: number, result?: Result) => void): Promise<Result> {
-    const { api, database, sender } = this, body = { ...parameters }
+    const { api, database, sender } = this,
+      body = { ...parameters }
     await sender.retract(this.files())
     for (const [parameter, { name, text }] of Object.entries(made)) {
       await sender.put(name, text)

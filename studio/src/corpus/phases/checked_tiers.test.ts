@@ -27,20 +27,32 @@ const kEaf = `<?xml version="1.0" encoding="UTF-8"?>
 </ANNOTATION_DOCUMENT>
 `
 const accepted = (hand: 'right' | 'left', kind: string, begin: number, end: number) => ({ hand, kind, begin, end, state: 'accepted' as const })
-const kReview: Review = [accepted('right', 'preparation', 50, 150), accepted('right', 'stroke', 150, 400), accepted('left', 'hold', 100, 300)]
-  .reduce(put, kEmpty)
+const kReview: Review = [accepted('right', 'preparation', 50, 150), accepted('right', 'stroke', 150, 400), accepted('left', 'hold', 100, 300)].reduce(
+  put,
+  kEmpty,
+)
 /** The lines of `after` that `before` has not, and the other way round. */
 function difference(before: string, after: string): { gone: string[]; come: string[] } {
   const lines = (text: string) => text.split('\n').map((line) => line.trim())
-  const count = (list: string[]) => { const map = new Map<string, number>(); for (const one of list) map.set(one, (map.get(one) ?? 0) + 1); return map }
-  const a = count(lines(before)), b = count(lines(after))
-  return { gone: [...a].filter(([line, n]) => (b.get(line) ?? 0) < n).map(([line]) => line),
-    come: [...b].filter(([line, n]) => (a.get(line) ?? 0) < n).map(([line]) => line) }
+  const count = (list: string[]) => {
+    const map = new Map<string, number>()
+    for (const one of list) map.set(one, (map.get(one) ?? 0) + 1)
+    return map
+  }
+  const a = count(lines(before)),
+    b = count(lines(after))
+  return {
+    gone: [...a].filter(([line, n]) => (b.get(line) ?? 0) < n).map(([line]) => line),
+    come: [...b].filter(([line, n]) => (a.get(line) ?? 0) < n).map(([line]) => line),
+  }
 }
 
 it('adds a tier for each hand, and leaves every other byte as it was', () => {
   const { text, tiers } = writeChecked(kEaf, kReview, 'A <b>')
-  expect(tiers).toEqual([{ hand: 'right', name: 'Phase RH (checked)', count: 2, unseen: 0 }, { hand: 'left', name: 'Phase LH (checked)', count: 1, unseen: 0 }])
+  expect(tiers).toEqual([
+    { hand: 'right', name: 'Phase RH (checked)', count: 2, unseen: 0 },
+    { hand: 'left', name: 'Phase LH (checked)', count: 1, unseen: 0 },
+  ])
   const { gone, come } = difference(kEaf, text)
   expect(gone).toEqual(['<PROPERTY NAME="lastUsedAnnotationId">7</PROPERTY>'])
   expect(come).toContain('<PROPERTY NAME="lastUsedAnnotationId">10</PROPERTY>')
@@ -49,11 +61,15 @@ it('adds a tier for each hand, and leaves every other byte as it was', () => {
   )
   const { tiers: read } = readEaf(text)
   expect(read.map(({ name }) => name)).toEqual(['Gloss', 'Phase RH (checked)', 'Phase LH (checked)'])
-  expect(read[1].annotations).toEqual([{ begin: 50, end: 150, label: 'preparation' }, { begin: 150, end: 400, label: 'stroke' }])
+  expect(read[1].annotations).toEqual([
+    { begin: 50, end: 150, label: 'preparation' },
+    { begin: 150, end: 400, label: 'stroke' },
+  ])
   expect(read[0].annotations).toEqual(readEaf(kEaf).tiers[0].annotations)
   // Slots stand in the order of their times.
-  const slots = parseXml(text)!.children.find(({ name }) => name === 'TIME_ORDER')!.children
-    .flatMap(({ attributes }) => (attributes.TIME_VALUE ? [Number(attributes.TIME_VALUE)] : []))
+  const slots = parseXml(text)!
+    .children.find(({ name }) => name === 'TIME_ORDER')!
+    .children.flatMap(({ attributes }) => (attributes.TIME_VALUE ? [Number(attributes.TIME_VALUE)] : []))
   expect(slots).toEqual(slots.toSorted((a, b) => a - b))
   expect(slots.length).toBe(8)
 })
@@ -61,12 +77,22 @@ it('adds a tier for each hand, and leaves every other byte as it was', () => {
 it('begins a second review with what was written, and writes it anew', () => {
   const once = writeChecked(kEaf, kReview, '').text
   const read = readChecked(readEaf(once))!
-  expect([read.phases.right.map(({ kind, begin, end, state }) => [kind, begin, end, state]), read.phases.left.length])
-    .toEqual([[['preparation', 50, 150, 'accepted'], ['stroke', 150, 400, 'accepted']], 1])
+  expect([read.phases.right.map(({ kind, begin, end, state }) => [kind, begin, end, state]), read.phases.left.length]).toEqual([
+    [
+      ['preparation', 50, 150, 'accepted'],
+      ['stroke', 150, 400, 'accepted'],
+    ],
+    1,
+  ])
   const twice = writeChecked(once, read, '').text
   expect(writeChecked(once, decided(read, 1, 'rejected'), '').text).not.toMatch(/preparation/)
   // Only ids are others.
-  const plain = (text: string) => text.replaceAll(/"(ts|a)\d+"|>\d+</g, '""').split('\n').toSorted().join('\n')
+  const plain = (text: string) =>
+    text
+      .replaceAll(/"(ts|a)\d+"|>\d+</g, '""')
+      .split('\n')
+      .toSorted()
+      .join('\n')
   expect(plain(twice)).toBe(plain(once))
   expect(parseXml(twice)!.children.find(({ name }) => name === 'TIME_ORDER')!.children.length).toBe(9)
   // What has nothing left goes away altogether.
@@ -77,8 +103,10 @@ it('begins a second review with what was written, and writes it anew', () => {
 
 it('writes under another name where somebody hung a tier on its own', () => {
   const once = writeChecked(kEaf, kReview, '').text
-  const hung = once.replace('    <LINGUISTIC_TYPE ',
-    '    <TIER LINGUISTIC_TYPE_REF="note" PARENT_REF="Phase RH (checked)" TIER_ID="Note"/>\n    <LINGUISTIC_TYPE ')
+  const hung = once.replace(
+    '    <LINGUISTIC_TYPE ',
+    '    <TIER LINGUISTIC_TYPE_REF="note" PARENT_REF="Phase RH (checked)" TIER_ID="Note"/>\n    <LINGUISTIC_TYPE ',
+  )
   const { text, tiers } = writeChecked(hung, put(readChecked(readEaf(hung))!, accepted('right', 'hold', 500, 600)), '')
   expect(tiers.map(({ name }) => name)).toEqual(['Phase RH (checked 2)', 'Phase LH (checked)'])
   expect(readEaf(text).tiers.find(({ name }) => name === 'Phase RH (checked)')!.annotations.length).toBe(2)
@@ -87,19 +115,28 @@ it('writes under another name where somebody hung a tier on its own', () => {
 })
 
 it('lets checked phases stay that somebody else stored meanwhile', () => {
-  const before = writeChecked(kEaf, kReview, 'A').text, theirs = writeChecked(before, decided(readChecked(readEaf(before))!, 1, 'rejected'), 'B').text
+  const before = writeChecked(kEaf, kReview, 'A').text,
+    theirs = writeChecked(before, decided(readChecked(readEaf(before))!, 1, 'rejected'), 'B').text
   const [none, first, then] = [kEaf, before, theirs].map((text) => standOf(readEaf(text)))
   expect([rewritten(first, then), rewritten(none, then), rewritten(first, none), rewritten(first, first)]).toEqual([['right'], ['right', 'left'], [], []])
   const { text, tiers } = writeChecked(theirs, kReview, 'A', { hands: ['right'] })
   expect(tiers.map(({ name }) => name)).toEqual(['Phase RH (checked 2)', 'Phase LH (checked)'])
-  expect(readEaf(text).tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([['Gloss', 1], ['Phase RH (checked)', 1], ['Phase RH (checked 2)', 2], ['Phase LH (checked)', 1]])
+  expect(readEaf(text).tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([
+    ['Gloss', 1],
+    ['Phase RH (checked)', 1],
+    ['Phase RH (checked 2)', 2],
+    ['Phase LH (checked)', 1],
+  ])
 })
 
 it('says which phases were accepted all at once, and knows them again', () => {
   const open = put(put(kReview, { ...accepted('right', 'hold', 400, 500), state: 'open' }), { ...accepted('left', 'hold', 300, 500), state: 'open' })
   const { text, tiers } = writeChecked(kEaf, acceptedAll(open), 'Z')
   expect(tiers.map(({ unseen }) => unseen)).toEqual([1, 1])
-  expect(text).toContain('>Phase RH (checked), Phase LH (checked): proposed by signweave from motion alone, 3 of 5 phases checked by Z, 2 accepted all at once without being looked at<')
+  expect(text).toContain(
+    '>Phase RH (checked), Phase LH (checked): proposed by signweave from motion alone, 3 of 5 phases checked by Z, ' +
+      '2 accepted all at once without being looked at<',
+  )
   expect(text).toContain('ANNOTATOR="signweave, partly checked by Z"')
   expect(text).not.toContain('each phase checked')
   const read = readChecked(readEaf(text), text)!
@@ -107,7 +144,11 @@ it('says which phases were accepted all at once, and knows them again', () => {
   // Whoever looks at them, and stores, has the file say so.
   const seen = [3, 5].reduce((review, id) => decided(review, id, 'accepted'), read)
   const after = writeChecked(text, seen, 'Z').text
-  expect([after.includes('each phase checked by Z'), after.includes('partly'), readChecked(readEaf(after), after)!.phases.right.some(({ unseen }) => unseen)]).toEqual([true, false, false])
+  expect([
+    after.includes('each phase checked by Z'),
+    after.includes('partly'),
+    readChecked(readEaf(after), after)!.phases.right.some(({ unseen }) => unseen),
+  ]).toEqual([true, false, false])
 })
 
 it('takes another name for its type where one of that name asks for more', () => {
@@ -117,21 +158,31 @@ it('takes another name for its type where one of that name asks for more', () =>
 
 it('writes into documents that have nothing, and keeps line ends', () => {
   const { text } = writeChecked(emptyEaf('a & b.bvh', '2026-01-01T00:00:00Z'), kReview, '')
-  expect(readEaf(text).tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([['Phase RH (checked)', 2], ['Phase LH (checked)', 1]])
-  for (const eaf of ['<ANNOTATION_DOCUMENT><HEADER/></ANNOTATION_DOCUMENT>',
-    '<ANNOTATION_DOCUMENT><HEADER TIME_UNITS="milliseconds" /><TIME_ORDER ></TIME_ORDER></ANNOTATION_DOCUMENT>']) {
+  expect(readEaf(text).tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([
+    ['Phase RH (checked)', 2],
+    ['Phase LH (checked)', 1],
+  ])
+  for (const eaf of [
+    '<ANNOTATION_DOCUMENT><HEADER/></ANNOTATION_DOCUMENT>',
+    '<ANNOTATION_DOCUMENT><HEADER TIME_UNITS="milliseconds" /><TIME_ORDER ></TIME_ORDER></ANNOTATION_DOCUMENT>',
+  ]) {
     const made = writeChecked(eaf, kReview, '').text
     expect(readEaf(made).tiers[0].annotations[1]).toEqual({ begin: 150, end: 400, label: 'stroke' })
-    expect([...made.matchAll(/<(HEADER|TIME_ORDER|TIER|LINGUISTIC_TYPE)\b/g)].map(([, name]) => name))
-      .toEqual(['HEADER', 'TIME_ORDER', 'TIER', 'TIER', 'LINGUISTIC_TYPE'])
+    expect([...made.matchAll(/<(HEADER|TIME_ORDER|TIER|LINGUISTIC_TYPE)\b/g)].map(([, name]) => name)).toEqual([
+      'HEADER',
+      'TIME_ORDER',
+      'TIER',
+      'TIER',
+      'LINGUISTIC_TYPE',
+    ])
   }
   const windows = writeChecked(kEaf.replaceAll('\n', '\r\n'), kReview, '').text
   expect(windows.replaceAll('\r\n', '').includes('\n')).toBe(false)
 })
 
 it('refuses what is no EAF, and what is cut off', () => {
-  for (const text of ['', '<html/>', kEaf.slice(0, -30), '<ANNOTATION_DOCUMENT><TIER></ANNOTATION_DOCUMENT>']) expect(
-    () => writeChecked(text, kReview, '')).toThrow('noEaf')
+  for (const text of ['', '<html/>', kEaf.slice(0, -30), '<ANNOTATION_DOCUMENT><TIER></ANNOTATION_DOCUMENT>'])
+    expect(() => writeChecked(text, kReview, '')).toThrow('noEaf')
 })
 
 it('reads any encoding, and writes UTF-8 that says so', () => {
@@ -143,7 +194,7 @@ it('reads any encoding, and writes UTF-8 that says so', () => {
   ;[...text].forEach((c, i) => (wide[2 * i] = c.charCodeAt(0)))
   expect(decoded(wide.buffer)).toBe(text)
   const marked = '\ufeff<?xml version="1.0" encoding="utf-8"?><a/>'
-  expect(decoded(new TextEncoder().encode(marked).buffer as ArrayBuffer)).toBe(marked)
+  expect(decoded(new TextEncoder().encode(marked).buffer)).toBe(marked)
   expect(new TextDecoder('utf-8', { ignoreBOM: true }).decode(encoded(marked))).toBe(marked)
   expect(unescaped('&lt;&#233;&#xE9;&lol;&amp;lt;')).toBe('<éé&lol;&lt;')
 })

@@ -16,9 +16,13 @@ const pattern = (hand: Hand) => new RegExp(`^Phase ${hand === 'right' ? 'RH' : '
 
 export const isChecked = (tier: string): Hand | undefined => kHands.find((hand) => pattern(hand).test(tier))
 
-/** The checked phases that a document has: the newest tier of each hand. None where it has none. `text` is the document's own, which tells what was accepted unseen. */
+/**
+ * The checked phases that a document has: the newest tier of each hand. None where it has none. `text` is the document's own, which tells what was
+ * accepted unseen.
+ */
 export function readChecked({ tiers }: AnnotationDocument, text = ''): Review | undefined {
-  let review = kEmpty, any = false
+  let review = kEmpty,
+    any = false
   const unseen = new Map(text.includes(kUnseen) ? unseenIn(new EafWriter(text)) : [])
   for (const hand of kHands) {
     const tier = tiers.filter(({ name }) => pattern(hand).test(name)).sort((a, b) => numberOf(b.name) - numberOf(a.name))[0]
@@ -34,28 +38,52 @@ export function readChecked({ tiers }: AnnotationDocument, text = ''): Review | 
   return any ? review : undefined
 }
 function unseenIn(writer: EafWriter): readonly (readonly [tier: string, begins: readonly number[]])[] {
-  return unescaped(writer.property(kUnseen) ?? '').split('; ').flatMap((one) => {
-    const [, tier, begins] = /^(.+): ([\d ]+)$/.exec(one) ?? []
-    return tier ? [[tier, begins.split(' ').map(Number)] as const] : []
-  })
+  return unescaped(writer.property(kUnseen) ?? '')
+    .split('; ')
+    .flatMap((one) => {
+      const [, tier, begins] = /^(.+): ([\d ]+)$/.exec(one) ?? []
+      return tier ? [[tier, begins.split(' ').map(Number)] as const] : []
+    })
 }
 const numberOf = (name: string) => Number(/(\d+)\)$/.exec(name)?.[1] ?? 1)
 
 /** What was written: the tier of each hand, and how many phases it has. */
-export interface Written { readonly text: string; readonly tiers: readonly { readonly hand: Hand; readonly name: string; readonly count: number; /** So many of them accepted all at once. */ readonly unseen: number }[] }
+export interface Written {
+  readonly text: string
+  readonly tiers: readonly {
+    readonly hand: Hand
+    readonly name: string
+    readonly count: number
+    /** So many of them accepted all at once. */ readonly unseen: number
+  }[]
+}
 
 /** What a document says of a review that is not for a file: hands whose tiers somebody else wrote meanwhile, so that they stay and ours get another name. */
-export interface Beside { readonly hands?: readonly Hand[]; /** Of the text, where it was read already. */ readonly root?: Element }
+export interface Beside {
+  readonly hands?: readonly Hand[]
+  /** Of the text, where it was read already. */ readonly root?: Element
+}
 
 /**
- * The document with the accepted phases. Its bytes stay as they are, but for: the tiers that this wrote before, which are written anew (under another name where
- * somebody hung tiers on them), new time slots in their places, a tier type, and properties. Throws where it is no EAF. `person` may be empty.
+ * The document with the accepted phases. Its bytes stay as they are, but for: the tiers that this wrote before, which are written anew (under another
+ * name where somebody hung tiers on them), new time slots in their places, a tier type, and properties. Throws where it is no EAF. `person` may be
+ * empty.
  */
 export function writeChecked(text: string, review: Review, person: string, { hands = [], root = eafRoot(text) }: Beside = {}): Written {
   const writer = new EafWriter(text, root)
-  const made = kHands.flatMap((hand) => writeHand(writer, hand, review.phases[hand].filter(({ state }) => state === 'accepted'), person, hands.includes(hand)))
-  const names = made.map(({ name }) => name), unseen = made.filter(({ unseen }) => unseen.length > 0)
-  if (names.length > 0 || writer.property(kProperty) !== undefined) writer.setProperty(kProperty, names.length > 0 ? `${names.join(', ')}: ${howChecked(made, person)}` : 'none')
+  const made = kHands.flatMap((hand) =>
+    writeHand(
+      writer,
+      hand,
+      review.phases[hand].filter(({ state }) => state === 'accepted'),
+      person,
+      hands.includes(hand),
+    ),
+  )
+  const names = made.map(({ name }) => name),
+    unseen = made.filter(({ unseen }) => unseen.length > 0)
+  if (names.length > 0 || writer.property(kProperty) !== undefined)
+    writer.setProperty(kProperty, names.length > 0 ? `${names.join(', ')}: ${howChecked(made, person)}` : 'none')
   // Of tiers that stay it is still said.
   const others = unseenIn(writer).filter(([name]) => !names.includes(name) && writer.stays(name))
   const kept = [...others, ...unseen.map(({ name, unseen }) => [name, unseen] as const)].map(([name, begins]) => `${name}: ${begins.join(' ')}`).join('; ')
@@ -68,7 +96,9 @@ type Made = Omit<Written['tiers'][number], 'unseen'> & { /** Begins of phases th
 /** Writes a hand's tier in place of what was written before; none where there is nothing to be written. */
 function writeHand(writer: EafWriter, hand: Hand, phases: readonly Phase[], person: string, beside: boolean): readonly Made[] {
   const names = new Set(writer.tiers.map(({ attributes }) => attributes.TIER_ID))
-  const ours = writer.tiers.filter(({ attributes }) => pattern(hand).test(attributes.TIER_ID)).sort((a, b) => numberOf(b.attributes.TIER_ID) - numberOf(a.attributes.TIER_ID))[0]
+  const ours = writer.tiers
+    .filter(({ attributes }) => pattern(hand).test(attributes.TIER_ID))
+    .sort((a, b) => numberOf(b.attributes.TIER_ID) - numberOf(a.attributes.TIER_ID))[0]
   let name = ours?.attributes.TIER_ID ?? kTier[hand]
   if (ours && (beside || writer.tiers.some(({ attributes }) => attributes.PARENT_REF === name))) {
     let number = numberOf(name)
@@ -77,20 +107,31 @@ function writeHand(writer: EafWriter, hand: Hand, phases: readonly Phase[], pers
   if (phases.length === 0) return []
   const unseen = phases.filter((one) => one.unseen).map(({ begin }) => begin)
   const how = unseen.length === 0 ? 'checked' : unseen.length < phases.length ? 'partly checked' : 'accepted unseen'
-  writer.add({ name, type: kType, annotator: `signweave, ${how} by ${person || 'a person'}`, participant: ours?.attributes.PARTICIPANT ?? participantOf(writer.tiers),
-    annotations: phases.map(({ begin, end, kind }) => ({ begin, end, label: kind })) })
+  writer.add({
+    name,
+    type: kType,
+    annotator: `signweave, ${how} by ${person || 'a person'}`,
+    participant: ours?.attributes.PARTICIPANT ?? participantOf(writer.tiers),
+    annotations: phases.map(({ begin, end, kind }) => ({ begin, end, label: kind })),
+  })
   return [{ hand, name, count: phases.length, unseen }]
 }
 
 function howChecked(made: readonly Made[], person: string): string {
-  const who = person || 'a person', all = made.reduce((sum, { count }) => sum + count, 0), unseen = made.reduce((sum, one) => sum + one.unseen.length, 0)
+  const who = person || 'a person',
+    all = made.reduce((sum, { count }) => sum + count, 0),
+    unseen = made.reduce((sum, one) => sum + one.unseen.length, 0)
   if (unseen === 0) return `proposed by signweave from motion alone, each phase checked by ${who}`
   return `proposed by signweave from motion alone, ${all - unseen} of ${all} phases checked by ${who}, ${unseen} accepted all at once without being looked at`
 }
 
 /** Who signs, where all tiers of their own say the same. */
 function participantOf(tiers: readonly Element[]): string | undefined {
-  const said = new Set(tiers.filter(({ attributes }) => !attributes.PARENT_REF && isChecked(attributes.TIER_ID) === undefined).map(({ attributes }) => attributes.PARTICIPANT ?? ''))
+  const said = new Set(
+    tiers
+      .filter(({ attributes }) => !attributes.PARENT_REF && isChecked(attributes.TIER_ID) === undefined)
+      .map(({ attributes }) => attributes.PARTICIPANT ?? ''),
+  )
   return said.size === 1 ? [...said][0] || undefined : undefined
 }
 

@@ -4,8 +4,11 @@ import { kEmpty, put } from './review'
 
 function storage(): Storage {
   const kept = new Map<string, string>()
-  return { getItem: (key: string) => kept.get(key) ?? null, setItem: (key: string, value: string) => void kept.set(key, value),
-    removeItem: (key: string) => void kept.delete(key) } as unknown as Storage
+  return {
+    getItem: (key: string) => kept.get(key) ?? null,
+    setItem: (key: string, value: string) => void kept.set(key, value),
+    removeItem: (key: string) => void kept.delete(key),
+  } as unknown as Storage
 }
 const frames = { originMs: 0, rate: 100, count: 10 }
 const review = put(kEmpty, { hand: 'right', kind: 'stroke', begin: 0, end: 50, state: 'accepted' })
@@ -22,18 +25,28 @@ it('keeps a review for its recording until it is dropped', () => {
 
 it('takes nothing that is broken, and says where nothing can be kept', () => {
   const here = storage()
-  for (const text of ['', '{', '{"version":1}', JSON.stringify({ version: 1, frames, review: { ...review, next: 1 } }),
-    JSON.stringify({ version: 0, frames, review })]) {
+  for (const text of [
+    '',
+    '{',
+    '{"version":1}',
+    JSON.stringify({ version: 1, frames, review: { ...review, next: 1 } }),
+    JSON.stringify({ version: 0, frames, review }),
+  ]) {
     here.setItem('signweave.review.a/b', text)
     expect(keptDraft('a', 'b', here)).toBeUndefined()
   }
-  const full = { setItem: () => { throw new Error('full') } } as unknown as Storage
+  const full = {
+    setItem: () => {
+      throw new Error('full')
+    },
+  } as unknown as Storage
   expect(keepDraft('a', 'b', { frames, review }, undefined, full)).toBe('full')
   expect(isOf({ frames, review }, { ...frames, rate: 50 })).toBe(false)
 })
 
 it('writes over nothing that another window has kept meanwhile', () => {
-  const here = storage(), other = put(review, { hand: 'left', kind: 'hold', begin: 0, end: 50, state: 'open' })
+  const here = storage(),
+    other = put(review, { hand: 'left', kind: 'hold', begin: 0, end: 50, state: 'open' })
   const keep = (one: typeof review, seen: string | undefined) => keepDraft('a', 'b', { frames, review: one }, seen, here)
   const first = keep(review, undefined) as { revision: string }
   // Two windows have read it; one of them goes on.

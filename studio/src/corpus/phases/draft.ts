@@ -2,7 +2,11 @@ import type { Stand } from './checked_tiers'
 import { faultsOf, type Frames, type Review } from './review'
 
 /** A review that is neither stored nor given up, and of what. */
-export interface Draft { readonly frames: Frames; readonly review: Review; /** The checked phases that were stored when it was begun. */ readonly stand?: Stand }
+export interface Draft {
+  readonly frames: Frames
+  readonly review: Review
+  /** The checked phases that were stored when it was begun. */ readonly stand?: Stand
+}
 
 const keyOf = (database: string, recording: string) => `signweave.review.${encodeURIComponent(database)}/${encodeURIComponent(recording)}`
 const kVersion = 1
@@ -13,10 +17,16 @@ export type Revision = string | undefined
 export const isKeyOf = (key: string | null, database: string, recording: string) => key === null || key === keyOf(database, recording)
 
 /**
- * Keeps a review in this browser, as a revision that it gives; `changed` where another window has kept or dropped something since `seen`, which then stays as it is; `full` where
- * nothing can be kept.
+ * Keeps a review in this browser, as a revision that it gives; `changed` where another window has kept or dropped something since `seen`, which then
+ * stays as it is; `full` where nothing can be kept.
  */
-export function keepDraft(database: string, recording: string, draft: Draft, seen: Revision, storage: Storage = localStorage): { readonly revision: string } | 'changed' | 'full' {
+export function keepDraft(
+  database: string,
+  recording: string,
+  draft: Draft,
+  seen: Revision,
+  storage: Storage = localStorage,
+): { readonly revision: string } | 'changed' | 'full' {
   try {
     const key = keyOf(database, recording)
     if (revisionIn(storage.getItem(key)) !== seen) return 'changed'
@@ -61,5 +71,5 @@ function revisionIn(text: string | null): Revision {
   }
 }
 /** Whether a draft is of this motion as it is now. */
-export const isOf = (draft: Draft, frames: Frames) => draft.frames.count === frames.count && draft.frames.rate === frames.rate
-  && draft.frames.originMs === frames.originMs
+export const isOf = (draft: Draft, frames: Frames) =>
+  draft.frames.count === frames.count && draft.frames.rate === frames.rate && draft.frames.originMs === frames.originMs

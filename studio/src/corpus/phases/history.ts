@@ -1,7 +1,11 @@
 const kMost = 500
 
 /** What was, what is, and what was undone. */
-export interface History<T> { readonly past: readonly T[]; readonly now: T; readonly undone: readonly T[] }
+export interface History<T> {
+  readonly past: readonly T[]
+  readonly now: T
+  readonly undone: readonly T[]
+}
 
 export const begun = <T>(now: T): History<T> => ({ past: [], now, undone: [] })
 /** With another state; the same one leaves everything as it is. */

@@ -1,8 +1,14 @@
 import { expect, it } from 'vitest'
 import { kPhaseKeys, phaseActionOf } from './keys'
 
-const key = (name: string, more: { shiftKey?: boolean; ctrlKey?: boolean; altKey?: boolean } = {}) => ({ key: name, shiftKey: false, ctrlKey: false,
-  altKey: false, metaKey: false, ...more })
+const key = (name: string, more: { shiftKey?: boolean; ctrlKey?: boolean; altKey?: boolean } = {}) => ({
+  key: name,
+  shiftKey: false,
+  ctrlKey: false,
+  altKey: false,
+  metaKey: false,
+  ...more,
+})
 
 it('has a key for everything, each for one thing', () => {
   const keys = kPhaseKeys.flatMap(({ keys: some }) => some as readonly string[])
@@ -13,15 +19,28 @@ it('has a key for everything, each for one thing', () => {
 })
 
 it('tells letters in both cases, and what Shift and Ctrl make of them', () => {
-  expect([key('q'), key('Q', { shiftKey: true }), key('Enter'), key('Enter', { shiftKey: true }), key('Backspace'),
-    key('ArrowDown', { shiftKey: true })].map((event) => phaseActionOf(event)))
-    .toEqual(['beginBack', 'beginFarBack', 'accept', 'acceptAll', 'reject', 'next'])
-  expect([key('z', { ctrlKey: true }), key('Z', { ctrlKey: true, shiftKey: true }), key('y', { ctrlKey: true }), key('x', { ctrlKey: true }),
-    key('b', { altKey: true }), key('j')].map((event) => phaseActionOf(event)))
-    .toEqual(['undo', 'redo', 'redo', undefined, undefined, undefined])
+  expect(
+    [key('q'), key('Q', { shiftKey: true }), key('Enter'), key('Enter', { shiftKey: true }), key('Backspace'), key('ArrowDown', { shiftKey: true })].map(
+      (event) => phaseActionOf(event),
+    ),
+  ).toEqual(['beginBack', 'beginFarBack', 'accept', 'acceptAll', 'reject', 'next'])
+  expect(
+    [
+      key('z', { ctrlKey: true }),
+      key('Z', { ctrlKey: true, shiftKey: true }),
+      key('y', { ctrlKey: true }),
+      key('x', { ctrlKey: true }),
+      key('b', { altKey: true }),
+      key('j'),
+    ].map((event) => phaseActionOf(event)),
+  ).toEqual(['undo', 'redo', 'redo', undefined, undefined, undefined])
 })
 
 it('leaves letters alone where they are no keys', () => {
-  expect([key('q'), key('Enter'), key('ArrowUp'), key('z', { ctrlKey: true })].map((event) => phaseActionOf(event, false)))
-    .toEqual([undefined, 'accept', 'before', 'undo'])
+  expect([key('q'), key('Enter'), key('ArrowUp'), key('z', { ctrlKey: true })].map((event) => phaseActionOf(event, false))).toEqual([
+    undefined,
+    'accept',
+    'before',
+    'undo',
+  ])
 })

@@ -1,8 +1,29 @@
 /** What a key does to phases; all else of the keyboard is the player's. */
 export type PhaseAction =
-  | 'before' | 'next' | 'nextOpen' | 'accept' | 'reject' | 'reopen' | 'acceptAll'
-  | 'kind' | 'kindBack' | 'beginBack' | 'beginOn' | 'beginFarBack' | 'beginFarOn'
-  | 'endBack' | 'endOn' | 'endFarBack' | 'endFarOn' | 'beginHere' | 'endHere' | 'split' | 'merge' | 'add' | 'undo' | 'redo'
+  | 'before'
+  | 'next'
+  | 'nextOpen'
+  | 'accept'
+  | 'reject'
+  | 'reopen'
+  | 'acceptAll'
+  | 'kind'
+  | 'kindBack'
+  | 'beginBack'
+  | 'beginOn'
+  | 'beginFarBack'
+  | 'beginFarOn'
+  | 'endBack'
+  | 'endOn'
+  | 'endFarBack'
+  | 'endFarOn'
+  | 'beginHere'
+  | 'endHere'
+  | 'split'
+  | 'merge'
+  | 'add'
+  | 'undo'
+  | 'redo'
 
 /** One line of the help: the keys as they are printed, what they do in the same order, and the key of its words. */
 export const kPhaseKeys = [

@@ -33,7 +33,10 @@ export class PhasesSession {
   /** Whether something was changed that is not stored. */
   changed = $state(false)
   frames: Frames = { originMs: 0, rate: 100, count: 0 }
-  /** Another window has kept something since this one did: its review, or none where it was stored or given up there. Until somebody chooses, nothing is kept here. */
+  /**
+   * Another window has kept something since this one did: its review, or none where it was stored or given up there. Until somebody chooses, nothing is
+   * kept here.
+   */
   elsewhere = $state.raw<{ readonly draft?: Draft } | undefined>()
   /** The annotation as it is stored; what is written is written into it. */
   eaf = $state.raw('')
@@ -48,7 +51,11 @@ export class PhasesSession {
   /** The annotation as the server has it; none where it has none. */
   private found?: string
 
-  constructor(private readonly api: Api, readonly database: string, readonly recording: string) {
+  constructor(
+    private readonly api: Api,
+    readonly database: string,
+    readonly recording: string,
+  ) {
     addEventListener('storage', this.onstorage)
     void this.open()
   }
@@ -146,7 +153,8 @@ export class PhasesSession {
   /** Takes over a review that was of another motion, as far as it fits. */
   takeOther(): void {
     if (!this.other) return
-    const review = within(this.other.review, this.frames), { stand } = this.other
+    const review = within(this.other.review, this.frames),
+      { stand } = this.other
     this.other = undefined
     this.begin(review, 'draft', stand)
     this.keep()
@@ -175,8 +183,8 @@ export class PhasesSession {
   }
 
   /**
-   * Looks at the recording again: `annotation` where somebody has stored another one since, into which this review is written from now on; `motion` where it is no more the motion that was
-   * reviewed.
+   * Looks at the recording again: `annotation` where somebody has stored another one since, into which this review is written from now on; `motion`
+   * where it is no more the motion that was reviewed.
    */
   async renew(): Promise<'same' | 'annotation' | 'motion'> {
     const { found, info: before } = this

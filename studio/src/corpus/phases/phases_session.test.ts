@@ -9,8 +9,20 @@ import { acceptedAll, decided, kEmpty, put } from './review'
 /** What the server has. */
 let eaf: string, frames: number, print: string
 const api = {
-  json: (where: string) => Promise.resolve(where.endsWith('/segment') ? { hands: { right: [{ phase: 'stroke', begin_ms: 0, end_ms: 500, confidence: 1 }, { phase: 'hold', begin_ms: 500, end_ms: 700, confidence: 1 }], left: [] } }
-    : { motion_file: 'r.bvh', annotation_file: 'r.eaf', annotation_fingerprint: print, frames, frames_per_second: 100, clock_origin_ms: 0 }),
+  json: (where: string) =>
+    Promise.resolve(
+      where.endsWith('/segment')
+        ? {
+            hands: {
+              right: [
+                { phase: 'stroke', begin_ms: 0, end_ms: 500, confidence: 1 },
+                { phase: 'hold', begin_ms: 500, end_ms: 700, confidence: 1 },
+              ],
+              left: [],
+            },
+          }
+        : { motion_file: 'r.bvh', annotation_file: 'r.eaf', annotation_fingerprint: print, frames, frames_per_second: 100, clock_origin_ms: 0 },
+    ),
   call: () => Promise.resolve({ arrayBuffer: () => Promise.resolve(new TextEncoder().encode(eaf).buffer) }),
 } as unknown as Api
 const kTheirs = put(kEmpty, { hand: 'right', kind: 'retraction', begin: 100, end: 200, state: 'accepted' })
@@ -55,7 +67,9 @@ it('knows of a review that was taken up again whether somebody stored phases sin
 })
 
 it('keeps nothing over what another window kept, until somebody chooses', async () => {
-  const one = await opened(), two = await opened(), stored = () => keptDraft('d', 'r')?.review
+  const one = await opened(),
+    two = await opened(),
+    stored = () => keptDraft('d', 'r')?.review
   one.apply(decided(one.review, 1, 'accepted'))
   const theirs = one.review
   two.apply(decided(two.review, 2, 'rejected'))

@@ -1,15 +1,40 @@
 import { expect, it } from 'vitest'
 import { begun, pushed, redone, undone } from './history'
-import { acceptedAll, addedTo, decided, faultsOf, filled, find, following, frameOf, inOrder, kEmpty, merged, moved, msOf, progressOf, put, retyped, reviewOf,
-  split, stepped, within, type Frames, type Review } from './review'
+import {
+  acceptedAll,
+  addedTo,
+  decided,
+  faultsOf,
+  filled,
+  find,
+  following,
+  frameOf,
+  inOrder,
+  kEmpty,
+  merged,
+  moved,
+  msOf,
+  progressOf,
+  put,
+  retyped,
+  reviewOf,
+  split,
+  stepped,
+  within,
+  type Frames,
+  type Review,
+} from './review'
 
 /** 30 frames a second: no frame but every third begins at a whole ms. */
 const kFrames: Frames = { originMs: 0, rate: 30, count: 300 }
 const phase = (hand: 'right' | 'left', kind: string, begin: number, end: number) => ({ hand, kind, begin, end, state: 'open' as const })
 /** Right: 0–1000 and 1000–2000 touch, 3000–4000 stands alone; left: 500–1500. */
-const kReview: Review = [phase('right', 'preparation', 0, 1000), phase('right', 'stroke', 1000, 2000), phase('right', 'retraction', 3000, 4000),
-  phase('left', 'stroke', 500, 1500)]
-  .reduce(put, kEmpty)
+const kReview: Review = [
+  phase('right', 'preparation', 0, 1000),
+  phase('right', 'stroke', 1000, 2000),
+  phase('right', 'retraction', 3000, 4000),
+  phase('left', 'stroke', 500, 1500),
+].reduce(put, kEmpty)
 const spans = (review: Review, hand: 'right' | 'left' = 'right') => review.phases[hand].map(({ begin, end }) => [begin, end])
 const sound = (review: Review) => {
   expect(faultsOf(review)).toEqual([])
@@ -17,12 +42,21 @@ const sound = (review: Review) => {
 }
 
 it('takes proposals at whole frames, in annotation time, without rests', () => {
-  const hands = { right: [{ phase: 'rest', begin_ms: 0, end_ms: 500, confidence: 1 }, { phase: 'stroke', begin_ms: 510, end_ms: 1005, confidence: 0.7 },
-    { phase: 'hold', begin_ms: 1005, end_ms: 1010, confidence: 0.5 },
-    { phase: 'retraction', begin_ms: 1010, end_ms: 99_999, confidence: 0.5 }], left: [] }
+  const hands = {
+    right: [
+      { phase: 'rest', begin_ms: 0, end_ms: 500, confidence: 1 },
+      { phase: 'stroke', begin_ms: 510, end_ms: 1005, confidence: 0.7 },
+      { phase: 'hold', begin_ms: 1005, end_ms: 1010, confidence: 0.5 },
+      { phase: 'retraction', begin_ms: 1010, end_ms: 99_999, confidence: 0.5 },
+    ],
+    left: [],
+  }
   const review = sound(reviewOf({ proposed: '', hands }, { ...kFrames, originMs: -100 }))
   // A hold of a third of a frame is none; nothing lies beyond the motion.
-  expect(review.phases.right.map(({ kind, begin, end }) => [kind, begin, end])).toEqual([['stroke', 400, 900], ['retraction', 900, 9900]])
+  expect(review.phases.right.map(({ kind, begin, end }) => [kind, begin, end])).toEqual([
+    ['stroke', 400, 900],
+    ['retraction', 900, 9900],
+  ])
   expect(review.phases.right[0].confidence).toBe(0.7)
 })
 
@@ -49,21 +83,49 @@ it('accepts, rejects, opens again and changes kinds', () => {
 })
 
 it('moves a border that two phases share for both of them', () => {
-  expect(spans(sound(stepped(kReview, 1, 'end', 1, kFrames)))).toEqual([[0, 1033], [1033, 2000], [3000, 4000]])
-  expect(spans(sound(stepped(kReview, 2, 'begin', -10, kFrames)))).toEqual([[0, 667], [667, 2000], [3000, 4000]])
+  expect(spans(sound(stepped(kReview, 1, 'end', 1, kFrames)))).toEqual([
+    [0, 1033],
+    [1033, 2000],
+    [3000, 4000],
+  ])
+  expect(spans(sound(stepped(kReview, 2, 'begin', -10, kFrames)))).toEqual([
+    [0, 667],
+    [667, 2000],
+    [3000, 4000],
+  ])
   // The other hand's stay.
   expect(spans(stepped(kReview, 2, 'begin', -10, kFrames), 'left')).toEqual([[500, 1500]])
 })
 
 it('moves into a gap, and then pushes what is there', () => {
-  expect(spans(sound(moved(kReview, 2, 'end', 2500, kFrames)))).toEqual([[0, 1000], [1000, 2500], [3000, 4000]])
-  expect(spans(sound(moved(kReview, 2, 'end', 3500, kFrames)))).toEqual([[0, 1000], [1000, 3500], [3500, 4000]])
-  expect(spans(sound(moved(kReview, 3, 'begin', 1500, kFrames)))).toEqual([[0, 1000], [1000, 1500], [1500, 4000]])
+  expect(spans(sound(moved(kReview, 2, 'end', 2500, kFrames)))).toEqual([
+    [0, 1000],
+    [1000, 2500],
+    [3000, 4000],
+  ])
+  expect(spans(sound(moved(kReview, 2, 'end', 3500, kFrames)))).toEqual([
+    [0, 1000],
+    [1000, 3500],
+    [3500, 4000],
+  ])
+  expect(spans(sound(moved(kReview, 3, 'begin', 1500, kFrames)))).toEqual([
+    [0, 1000],
+    [1000, 1500],
+    [1500, 4000],
+  ])
 })
 
 it('leaves every phase a frame, and nothing beyond the motion', () => {
-  expect(spans(sound(moved(kReview, 1, 'end', 9000, kFrames)))).toEqual([[0, 1967], [1967, 2000], [3000, 4000]])
-  expect(spans(sound(moved(kReview, 1, 'end', -50, kFrames)))).toEqual([[0, 33], [33, 2000], [3000, 4000]])
+  expect(spans(sound(moved(kReview, 1, 'end', 9000, kFrames)))).toEqual([
+    [0, 1967],
+    [1967, 2000],
+    [3000, 4000],
+  ])
+  expect(spans(sound(moved(kReview, 1, 'end', -50, kFrames)))).toEqual([
+    [0, 33],
+    [33, 2000],
+    [3000, 4000],
+  ])
   expect(spans(sound(moved(kReview, 3, 'end', 99_999, kFrames)))[2]).toEqual([3000, 10_000])
   expect(spans(sound(moved(kReview, 1, 'begin', -99, kFrames)))[0]).toEqual([0, 1000])
   expect(moved(kReview, 1, 'begin', 0, kFrames)).toBe(kReview)
@@ -72,20 +134,38 @@ it('leaves every phase a frame, and nothing beyond the motion', () => {
 
 it('splits at a frame, and merges with the next', () => {
   const two = sound(split(kReview, 2, 1510, kFrames))
-  expect(spans(two)).toEqual([[0, 1000], [1000, 1500], [1500, 2000], [3000, 4000]])
-  expect(two.phases.right.map(({ id, kind }) => [id, kind])).toEqual([[1, 'preparation'], [2, 'stroke'], [5, 'stroke'], [3, 'retraction']])
+  expect(spans(two)).toEqual([
+    [0, 1000],
+    [1000, 1500],
+    [1500, 2000],
+    [3000, 4000],
+  ])
+  expect(two.phases.right.map(({ id, kind }) => [id, kind])).toEqual([
+    [1, 'preparation'],
+    [2, 'stroke'],
+    [5, 'stroke'],
+    [3, 'retraction'],
+  ])
   expect(split(kReview, 2, 1005, kFrames)).toBe(kReview)
   expect(spans(sound(merged(two, 2)))).toEqual(spans(kReview))
   // Over a gap, too; what was decided otherwise is open.
   const over = sound(merged(decided(kReview, 2, 'accepted'), 2))
-  expect(spans(over)).toEqual([[0, 1000], [1000, 4000]])
+  expect(spans(over)).toEqual([
+    [0, 1000],
+    [1000, 4000],
+  ])
   expect(find(over, 2)).toEqual({ id: 2, hand: 'right', kind: 'stroke', begin: 1000, end: 4000, state: 'open' })
   expect(merged(kReview, 3)).toBe(kReview)
 })
 
 it('adds a phase where nothing is', () => {
   const more = sound(addedTo(kReview, 'right', 'stroke', { begin: 2500, end: 3400 }, kFrames))
-  expect(spans(more)).toEqual([[0, 1000], [1000, 2000], [2500, 3000], [3000, 4000]])
+  expect(spans(more)).toEqual([
+    [0, 1000],
+    [1000, 2000],
+    [2500, 3000],
+    [3000, 4000],
+  ])
   expect(find(more, 5)?.state).toBe('accepted')
   expect(addedTo(kReview, 'right', 'stroke', { begin: 1500, end: 2500 }, kFrames)).toBe(kReview)
 })
@@ -93,13 +173,25 @@ it('adds a phase where nothing is', () => {
 it('fills gaps with proposals, cut where something is', () => {
   const more = [phase('right', 'hold', 500, 3500), phase('left', 'hold', 600, 700), phase('right', 'stroke', 5000, 6000)].reduce(put, kEmpty)
   const all = sound(filled(kReview, more))
-  expect(spans(all)).toEqual([[0, 1000], [1000, 2000], [2000, 3000], [3000, 4000], [5000, 6000]])
+  expect(spans(all)).toEqual([
+    [0, 1000],
+    [1000, 2000],
+    [2000, 3000],
+    [3000, 4000],
+    [5000, 6000],
+  ])
   expect(spans(all, 'left')).toEqual([[500, 1500]])
 })
 
 it('takes of a review of another motion what this one has frames for', () => {
   const short = sound(within(decided(kReview, 2, 'accepted'), { originMs: 0, rate: 25, count: 40 }))
-  expect([spans(short), spans(short, 'left')]).toEqual([[[0, 1000], [1000, 1600]], [[520, 1520]]])
+  expect([spans(short), spans(short, 'left')]).toEqual([
+    [
+      [0, 1000],
+      [1000, 1600],
+    ],
+    [[520, 1520]],
+  ])
   expect(short.phases.right[1].state).toBe('accepted')
 })
 
@@ -116,21 +208,31 @@ it('undoes and does again', () => {
 })
 
 it('keeps its word through a thousand random operations', () => {
-  let review = kReview, seed = 1
+  let review = kReview,
+    seed = 1
   const random = (below: number) => (seed = (seed * 16807) % 2147483647) % below
   for (let i = 0; i < 1000; ++i) {
-    const all = inOrder(review), { id } = all[random(all.length)], at = random(10_000)
-    const next = [() => moved(review, id, random(2) ? 'begin' : 'end', at, kFrames), () => stepped(review, id, 'end', random(21) - 10, kFrames),
+    const all = inOrder(review),
+      { id } = all[random(all.length)],
+      at = random(10_000)
+    const next = [
+      () => moved(review, id, random(2) ? 'begin' : 'end', at, kFrames),
+      () => stepped(review, id, 'end', random(21) - 10, kFrames),
       () => split(review, id, at, kFrames),
-      () => (all.length > 3 ? merged(review, id) : review), () => addedTo(review, random(2) ? 'right' : 'left', 'hold', { begin: at, end: at + 500 },
-        kFrames)][random(5)]
+      () => (all.length > 3 ? merged(review, id) : review),
+      () => addedTo(review, random(2) ? 'right' : 'left', 'hold', { begin: at, end: at + 500 }, kFrames),
+    ][random(5)]
     review = sound(next())
   }
 })
 
 it('knows what was accepted with all others, until somebody decides about it or changes it', () => {
-  const all = acceptedAll(decided(kReview, 1, 'accepted')), ids = inOrder(all).map(({ id }) => id)
-  const unseen = (review: typeof all) => inOrder(review).filter((one) => one.unseen).map(({ id }) => id)
+  const all = acceptedAll(decided(kReview, 1, 'accepted')),
+    ids = inOrder(all).map(({ id }) => id)
+  const unseen = (review: typeof all) =>
+    inOrder(review)
+      .filter((one) => one.unseen)
+      .map(({ id }) => id)
   expect(unseen(all)).toEqual(ids.filter((id) => id !== 1))
   const [id] = unseen(all)
   for (const next of [decided(all, id, 'accepted'), retyped(all, id, 'hold'), stepped(all, id, 'end', -1, kFrames)]) expect(unseen(next)).not.toContain(id)

@@ -9,18 +9,30 @@ export type Edge = 'begin' | 'end'
 
 /** A phase of one hand under review; annotation time in whole ms, half-open. `kind` is one of kKinds, or what a file had. */
 export interface Phase {
-  readonly id: number; readonly hand: Hand; readonly kind: string; readonly begin: number; readonly end: number; readonly state: State
+  readonly id: number
+  readonly hand: Hand
+  readonly kind: string
+  readonly begin: number
+  readonly end: number
+  readonly state: State
   /** Of a proposal: the mean probability of its kind. */
   readonly confidence?: number
   /** Accepted with all others at once, so that nobody may have looked at it. Whoever decides about it, or changes it, has. */
   readonly unseen?: boolean
 }
 /** The phases of both hands, those of a hand in time order; they never overlap. Every operation gives another one. */
-export interface Review { readonly phases: Readonly<Record<Hand, readonly Phase[]>>; /** The next phase's id. */ readonly next: number }
+export interface Review {
+  readonly phases: Readonly<Record<Hand, readonly Phase[]>>
+  /** The next phase's id. */ readonly next: number
+}
 export const kEmpty: Review = { phases: { right: [], left: [] }, next: 1 }
 
 /** The frames of the motion in annotation time. */
-export interface Frames { readonly originMs: number; readonly rate: number; readonly count: number }
+export interface Frames {
+  readonly originMs: number
+  readonly rate: number
+  readonly count: number
+}
 /** The begin of a frame, in whole ms as EAF has them; of one that the motion has, or its end. None lies before 0, where EAF has no time. */
 export function msOf(frame: number, { originMs, rate, count }: Frames): number {
   return Math.max(0, Math.round(originMs + (1000 * Math.min(Math.max(0, frame), count)) / rate))
@@ -34,7 +46,8 @@ export function reviewOf({ hands }: Proposals, frames: Frames): Review {
   for (const hand of kHands) {
     for (const { phase, begin_ms, end_ms, confidence } of hands[hand] ?? []) {
       if (phase === 'rest') continue
-      const begin = snapped(begin_ms + frames.originMs, frames), end = snapped(end_ms + frames.originMs, frames)
+      const begin = snapped(begin_ms + frames.originMs, frames),
+        end = snapped(end_ms + frames.originMs, frames)
       if (end > begin) review = put(review, { hand, kind: phase, begin, end, state: 'open', confidence })
     }
   }
@@ -45,18 +58,27 @@ export function reviewOf({ hands }: Proposals, frames: Frames): Review {
 export function inOrder({ phases }: Review): readonly Phase[] {
   return [...phases.right, ...phases.left].sort((a, b) => a.begin - b.begin || (a.hand === b.hand ? 0 : a.hand === 'right' ? -1 : 1))
 }
-export const find = ({ phases }: Review, id: number | undefined): Phase | undefined => phases.right.find((one) => one.id === id) ?? phases.left.find((one) => one.id === id)
+export const find = ({ phases }: Review, id: number | undefined): Phase | undefined =>
+  phases.right.find((one) => one.id === id) ?? phases.left.find((one) => one.id === id)
 
 /** The phase after one (direction 1) or before it (−1) in time; with `open` the next that is not decided, from the begin again where none follows. */
 export function following(review: Review, id: number | undefined, direction: 1 | -1, open = false): Phase | undefined {
-  const all = inOrder(review), at = all.findIndex((one) => one.id === id)
+  const all = inOrder(review),
+    at = all.findIndex((one) => one.id === id)
   if (!open) return all[at < 0 ? (direction > 0 ? 0 : all.length - 1) : at + direction]
   return [...all.slice(at + 1), ...all.slice(0, Math.max(0, at))].find(({ state }) => state === 'open')
 }
 
-export interface Progress { readonly all: number; readonly accepted: number; readonly rejected: number; readonly open: number; /** Of the accepted ones. */ readonly unseen: number }
+export interface Progress {
+  readonly all: number
+  readonly accepted: number
+  readonly rejected: number
+  readonly open: number
+  /** Of the accepted ones. */ readonly unseen: number
+}
 export function progressOf(review: Review): Progress {
-  const all = inOrder(review), count = (wanted: State) => all.filter(({ state }) => state === wanted).length
+  const all = inOrder(review),
+    count = (wanted: State) => all.filter(({ state }) => state === wanted).length
   return { all: all.length, accepted: count('accepted'), rejected: count('rejected'), open: count('open'), unseen: all.filter((one) => one.unseen).length }
 }
 
@@ -69,13 +91,14 @@ export function acceptedAll({ phases, next }: Review): Review {
 }
 
 /**
- * Moves a begin or an end to the nearest frame. What touched there goes along, what is in the way makes room, and every phase keeps at least a frame: the border
- * stops where its neighbour would have none.
+ * Moves a begin or an end to the nearest frame. What touched there goes along, what is in the way makes room, and every phase keeps at least a frame:
+ * the border stops where its neighbour would have none.
  */
 export function moved(review: Review, id: number, edge: Edge, ms: number, frames: Frames): Review {
   const one = find(review, id)
   if (!one) return review
-  const list = review.phases[one.hand], at = list.indexOf(one)
+  const list = review.phases[one.hand],
+    at = list.indexOf(one)
   const other = list[edge === 'begin' ? at - 1 : at + 1]
   const low = edge === 'begin' ? (other ? after(other.begin, frames) : msOf(0, frames)) : after(one.begin, frames)
   const high = edge === 'begin' ? before(one.end, frames) : other ? before(other.end, frames) : msOf(frames.count, frames)
@@ -96,23 +119,34 @@ const before = (ms: number, frames: Frames) => msOf(frameOf(ms, frames) - 1, fra
 
 /** Cuts a phase in two at the nearest frame; nothing where one of them would be empty. The second is the newest. */
 export function split(review: Review, id: number, ms: number, frames: Frames): Review {
-  const one = find(review, id), at = snapped(ms, frames)
+  const one = find(review, id),
+    at = snapped(ms, frames)
   if (!one || at <= one.begin || at >= one.end) return review
   return put(changed(review, id, { end: at, unseen: undefined }), { ...one, begin: at, unseen: undefined })
 }
-/** Makes one of a phase and the one after it on its hand, with what lies between them. It is of the first one's kind; where they were decided otherwise it is open. */
+/**
+ * Makes one of a phase and the one after it on its hand, with what lies between them. It is of the first one's kind; where they were decided otherwise
+ * it is open.
+ */
 export function merged(review: Review, id: number): Review {
   const one = find(review, id)
   if (!one) return review
-  const list = review.phases[one.hand], other = list[list.indexOf(one) + 1]
+  const list = review.phases[one.hand],
+    other = list[list.indexOf(one) + 1]
   if (!other) return review
   const { confidence, unseen, ...rest } = one
-  const whole: Phase = { ...rest, end: other.end, state: one.state === other.state ? one.state : 'open', ...(confidence !== undefined && confidence === other.confidence ? { confidence } : {}) }
+  const whole: Phase = {
+    ...rest,
+    end: other.end,
+    state: one.state === other.state ? one.state : 'open',
+    ...(confidence !== undefined && confidence === other.confidence ? { confidence } : {}),
+  }
   return { ...review, phases: { ...review.phases, [one.hand]: list.filter((each) => each !== other).map((each) => (each === one ? whole : each)) } }
 }
 /** Adds an accepted phase where a hand has none: as much of the span as is free around its begin; nothing where that is not. */
 export function addedTo(review: Review, hand: Hand, kind: string, span: { readonly begin: number; readonly end: number }, frames: Frames): Review {
-  const begin = snapped(span.begin, frames), list = review.phases[hand]
+  const begin = snapped(span.begin, frames),
+    list = review.phases[hand]
   if (list.some((one) => one.begin <= begin && begin < one.end)) return review
   const end = Math.min(snapped(span.end, frames), list.find((one) => one.begin > begin)?.begin ?? Infinity)
   return end > begin ? put(review, { hand, kind, begin, end, state: 'accepted' }) : review
@@ -135,7 +169,8 @@ export function filled(review: Review, more: Review): Review {
 export function within(review: Review, frames: Frames): Review {
   let result = kEmpty
   for (const one of inOrder(review)) {
-    const begin = snapped(one.begin, frames), end = snapped(one.end, frames)
+    const begin = snapped(one.begin, frames),
+      end = snapped(one.end, frames)
     if (end > begin) result = put(result, { ...one, begin, end })
   }
   return result
@@ -158,7 +193,8 @@ export function faultsOf({ phases, next }: Review): readonly string[] {
   const ids = new Set<number>()
   for (const hand of kHands) {
     phases[hand].forEach((one, at) => {
-      const { id, begin, end } = one, last = phases[hand][at - 1]
+      const { id, begin, end } = one,
+        last = phases[hand][at - 1]
       if (one.hand !== hand || ids.has(id) || id >= next) faults.push(`id ${id}`)
       if (!Number.isInteger(begin) || !Number.isInteger(end) || begin < 0 || end <= begin) faults.push(`span ${begin}..${end}`)
       if (last && last.end > begin) faults.push(`overlap at ${begin}`)

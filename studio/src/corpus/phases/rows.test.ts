@@ -21,7 +21,12 @@ it('finds the border under the pointer; where two touch, the one of the side or 
 
 it('moves what was taken until it is let go', () => {
   const told: unknown[] = []
-  const borders = bordersOf(() => review, () => undefined, (...move) => told.push(move), () => told.push('done'))
+  const borders = bordersOf(
+    () => review,
+    () => undefined,
+    (...move) => told.push(move),
+    () => told.push('done'),
+  )
   expect([borders.isNear(1, 490, 20), borders.grab(1, 490, 20), borders.grab(1, 900, 20)]).toEqual([true, true, false])
   borders.drag(480)
   borders.grab(1, 490, 20)

@@ -3,11 +3,23 @@ import type { Borders } from '../../timeline/borders'
 import { kHands, type Edge, type Hand, type Phase, type Review } from './review'
 
 /** What the timeline shows: a row for each hand, and under them what is annotated. */
-export function rowsOf(review: Review, current: number | undefined, document: AnnotationDocument, names: Readonly<Record<Hand, string>>,
-  kinds: Readonly<Record<string, string>>): AnnotationDocument {
+export function rowsOf(
+  review: Review,
+  current: number | undefined,
+  document: AnnotationDocument,
+  names: Readonly<Record<Hand, string>>,
+  kinds: Readonly<Record<string, string>>,
+): AnnotationDocument {
   const rows = kHands.map((hand): Tier => ({
-    name: names[hand], depth: 1,
-    annotations: review.phases[hand].map(({ id, begin, end, kind, state, unseen }) => ({ begin, end, label: kinds[kind] ?? kind, state: unseen ? 'unseen' as const : state, current: id === current })),
+    name: names[hand],
+    depth: 1,
+    annotations: review.phases[hand].map(({ id, begin, end, kind, state, unseen }) => ({
+      begin,
+      end,
+      label: kinds[kind] ?? kind,
+      state: unseen ? ('unseen' as const) : state,
+      current: id === current,
+    })),
   }))
   return { tiers: [...rows, ...document.tiers] }
 }
@@ -17,9 +29,13 @@ export const phaseAt = (review: Review, tier: number, at: number): Phase | undef
 
 /** The end of a phase that lies nearest to a time, within reach; of two that touch, that of the current phase, else the one whose side it is. */
 export function edgeNear(review: Review, tier: number, ms: number, reach: number, current?: number): { readonly id: number; readonly edge: Edge } | undefined {
-  let best: { id: number; edge: Edge } | undefined, least = reach
+  let best: { id: number; edge: Edge } | undefined,
+    least = reach
   for (const { id, begin, end } of kHands[tier] ? review.phases[kHands[tier]] : []) {
-    for (const [edge, at] of [['begin', begin], ['end', end]] as const) {
+    for (const [edge, at] of [
+      ['begin', begin],
+      ['end', end],
+    ] as const) {
       const far = Math.abs(at - ms) - (id === current ? 1e-3 : 0) - ((edge === 'begin') === ms >= at ? 1e-6 : 0)
       if (far <= least) [best, least] = [{ id, edge }, far]
     }
@@ -28,13 +44,19 @@ export function edgeNear(review: Review, tier: number, ms: number, reach: number
 }
 
 /** Borders for the timeline: `move` is told what is dragged where, `done` when it is let go. */
-export function bordersOf(review: () => Review, current: () => number | undefined, move: (id: number, edge: Edge, ms: number) => void,
-  done: () => void): Borders {
+export function bordersOf(
+  review: () => Review,
+  current: () => number | undefined,
+  move: (id: number, edge: Edge, ms: number) => void,
+  done: () => void,
+): Borders {
   let held: { id: number; edge: Edge } | undefined
   return {
     isNear: (tier, ms, reach) => edgeNear(review(), tier, ms, reach) !== undefined,
     grab: (tier, ms, reach) => (held = edgeNear(review(), tier, ms, reach, current())) !== undefined,
-    drag: (ms) => { if (held) move(held.id, held.edge, ms) },
+    drag: (ms) => {
+      if (held) move(held.id, held.edge, ms)
+    },
     drop: () => {
       held = undefined
       done()

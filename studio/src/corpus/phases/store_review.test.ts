@@ -4,9 +4,19 @@ import * as calls from '../../api/corpus_calls'
 import type { HandName, Inspected, TierReport } from '../../api/corpus_answers'
 import { choicesOf, filesFor, isTold, sendReview } from './store_review'
 
-const tier = (name: string, role: TierReport['role'], hand: HandName = 'both'): TierReport => ({ tier: name, parent: null, annotations: 1, labels: 1, role, hand })
+const tier = (name: string, role: TierReport['role'], hand: HandName = 'both'): TierReport => ({
+  tier: name,
+  parent: null,
+  annotations: 1,
+  labels: 1,
+  role,
+  hand,
+})
 const report = (...tiers: TierReport[]): Inspected => ({ name: 'a', files: { motion: null, annotation: 'a.eaf', face: null }, known: true, tiers })
-const kWritten = [{ hand: 'right' as const, name: 'RH', count: 3, unseen: 0 }, { hand: 'left' as const, name: 'LH', count: 5, unseen: 0 }]
+const kWritten = [
+  { hand: 'right' as const, name: 'RH', count: 3, unseen: 0 },
+  { hand: 'left' as const, name: 'LH', count: 5, unseen: 0 },
+]
 const kinds = (one: Inspected) => choicesOf(one, kWritten).map(({ kind }) => kind)
 
 it('leaves the phases of signs where they come from, where that is another tier', () => {

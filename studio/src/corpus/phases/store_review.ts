@@ -10,7 +10,10 @@ import type { Written } from './checked_tiers'
 const kTable = 'pairs.csv'
 
 /** Which tiers the phases of signs come from: a choice, and the tiers that it means. */
-export interface PhaseChoice { readonly kind: 'now' | 'right' | 'left' | 'both'; readonly tiers: readonly string[] }
+export interface PhaseChoice {
+  readonly kind: 'now' | 'right' | 'left' | 'both'
+  readonly tiers: readonly string[]
+}
 
 /**
  * What can be chosen, the best first; none where there are no signs. Tiers that were in use stay so where they are others than the checked ones; else the
@@ -22,7 +25,8 @@ export function choicesOf(report: Inspected, written: Written['tiers']): readonl
   const ours = written.map(({ name }) => name)
   const taken = report.tiers?.filter(({ role }) => role === 'phases').map(({ tier }) => tier) ?? []
   const now = taken.filter((tier) => !ours.includes(tier))
-  const hands = [...written].sort((a, b) => Number(taken.includes(b.name)) - Number(taken.includes(a.name)) || b.count - a.count)
+  const hands = [...written]
+    .sort((a, b) => Number(taken.includes(b.name)) - Number(taken.includes(a.name)) || b.count - a.count)
     .map(({ hand, name }): PhaseChoice => ({ kind: hand, tiers: [name] }))
   const both: readonly PhaseChoice[] = ours.length > 1 ? [{ kind: 'both', tiers: ours }] : []
   const own = now.length > 0 ? [{ kind: 'now' as const, tiers: now }] : []
@@ -36,20 +40,26 @@ export function isTold(report: Inspected, { tiers }: PhaseChoice): boolean {
 }
 
 /** A document that lies with the server, ready to be stored; `body` says which recording it is of. */
-export interface Sent { readonly upload: string; readonly body: object; readonly report: Inspected | undefined }
+export interface Sent {
+  readonly upload: string
+  readonly body: object
+  readonly report: Inspected | undefined
+}
 
 /** The name that a recording's document is sent under, and the table that says which recording it is of where that name does not. */
 export function filesFor(recording: string): { readonly file: string; readonly table?: string } {
   if (isPlain(`${recording}.eaf`)) return { file: `${recording}.eaf` }
   // A folder in front, or what no file may be called.
-  const last = `${recording.split('/').at(-1)}.eaf`, file = isPlain(last) ? last : 'review.eaf'
+  const last = `${recording.split('/').at(-1)}.eaf`,
+    file = isPlain(last) ? last : 'review.eaf'
   return { file, table: tableOf([{ motion: null, annotation: file, face: null, signer: '', name: recording }]) }
 }
 
 /** Sends the document alone, and has it looked at. */
 export async function sendReview(api: Api, database: string, recording: string, text: string, signal: AbortSignal): Promise<Sent> {
   const upload = await openUpload(api, database)
-  const { file, table } = filesFor(recording), body = table ? { pairs: kTable } : {}
+  const { file, table } = filesFor(recording),
+    body = table ? { pairs: kTable } : {}
   let job: JobBegun | undefined
   try {
     await sendFile(api, database, upload, file, new Blob([encoded(text)]), () => {}, signal)
@@ -68,7 +78,13 @@ export async function sendReview(api: Api, database: string, recording: string, 
   }
 }
 /** Stores what was sent: it takes the place of the recording's annotation where that is still `over`. */
-export async function storeSent(api: Api, database: string, { upload, body: about, report }: Sent, choice: PhaseChoice | undefined, over: string): Promise<Imported> {
+export async function storeSent(
+  api: Api,
+  database: string,
+  { upload, body: about, report }: Sent,
+  choice: PhaseChoice | undefined,
+  over: string,
+): Promise<Imported> {
   const body = { ...about, if_annotation: over, ...(choice && report && !isTold(report, choice) ? { phase_tier: choice.tiers } : {}) }
   const { recordings } = await api.result<ImportResult>(await beginUpload(api, database, upload, 'import', body))
   return recordings[0]

@@ -1,7 +1,12 @@
 import type { StoredRow } from '../../api/corpus_answers'
 
 export type SortBy = 'name' | 'signer' | 'seconds' | 'frames' | 'rate' | 'tracks' | 'defects' | 'storage'
-export interface Wish { readonly text: string; /** None: all of them. */ readonly signer?: string; readonly sort: SortBy; readonly descending: boolean }
+export interface Wish {
+  readonly text: string
+  /** None: all of them. */ readonly signer?: string
+  readonly sort: SortBy
+  readonly descending: boolean
+}
 
 export const secondsOf = ({ frames, frames_per_second: rate }: StoredRow): number | undefined => (frames !== undefined && rate ? frames / rate : undefined)
 
@@ -19,10 +24,13 @@ const collator = new Intl.Collator(undefined, { numeric: true })
 
 /** The rows that are wanted, in the order that is wanted; what has no value stands at the end, and names decide between equals. */
 export function rowsOf(rows: readonly StoredRow[], { text, signer, sort, descending }: Wish): readonly StoredRow[] {
-  const wanted = text.trim().toLowerCase(), value = kValues[sort], sign = descending ? -1 : 1
+  const wanted = text.trim().toLowerCase(),
+    value = kValues[sort],
+    sign = descending ? -1 : 1
   const found = rows.filter((row) => (signer === undefined || row.signer === signer) && row.name.toLowerCase().includes(wanted))
   return found.sort((a, b) => {
-    const x = value(a), y = value(b)
+    const x = value(a),
+      y = value(b)
     if (x === undefined || y === undefined) return (x === undefined ? 1 : 0) - (y === undefined ? 1 : 0) || collator.compare(a.name, b.name)
     const order = typeof x === 'string' ? collator.compare(x, y as string) : x - (y as number)
     return sign * order || collator.compare(a.name, b.name)

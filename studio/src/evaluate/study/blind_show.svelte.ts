@@ -5,8 +5,15 @@ import { Transport } from '../../viewer/transport'
 import type { Item, Settings, Trial } from './study'
 
 /** What is shown, and the version of the program that made it. */
-interface Made { readonly strands: readonly Strand[]; readonly version: string }
-interface Opened { readonly key: string; readonly made: Promise<Made>; readonly close: () => void }
+interface Made {
+  readonly strands: readonly Strand[]
+  readonly version: string
+}
+interface Opened {
+  readonly key: string
+  readonly made: Promise<Made>
+  readonly close: () => void
+}
 
 /** What a trial shows: the capture and what was made, as A and B or one alone, told apart by nothing but their motion. */
 export class BlindShow implements Showing {
@@ -20,7 +27,12 @@ export class BlindShow implements Showing {
   private next?: Opened
 
   /** `dressed` resolves when the character can be drawn, so that both bodies are there at once. */
-  constructor(private readonly api: Api, private readonly database: string, private readonly settings: Pick<Settings, 'mode' | 'character'>, private readonly dressed: () => Promise<unknown>) {
+  constructor(
+    private readonly api: Api,
+    private readonly database: string,
+    private readonly settings: Pick<Settings, 'mode' | 'character'>,
+    private readonly dressed: () => Promise<unknown>,
+  ) {
     this.transport.repeat = true
   }
 
@@ -56,7 +68,9 @@ export class BlindShow implements Showing {
     if (opened === this.next || opened === this.current) return
     this.next?.close()
     this.next = opened
-    opened.made.catch(() => { if (this.next === opened) this.next = undefined }) // it is asked for again when its turn comes
+    opened.made.catch(() => {
+      if (this.next === opened) this.next = undefined
+    }) // it is asked for again when its turn comes
   }
 
   timeOf(): (seconds: number) => number {
@@ -76,7 +90,9 @@ export class BlindShow implements Showing {
     const remade = item.method ? { ...wishes, remake: `${item.from}..${item.to}`, transition: item.method } : wishes
     // In the order of the sides, so that not even the order of the calls tells more than the screen.
     const both = side === 'left' ? [wishes, remade] : [remade, wishes]
-    const sources = (this.settings.mode === 'single' ? both.slice(0, 1) : both).map((one, i, all) => new PieceSource(this.api, this.database, item.recording, one, all.length > 1 ? 'AB'[i] : ''))
+    const sources = (this.settings.mode === 'single' ? both.slice(0, 1) : both).map(
+      (one, i, all) => new PieceSource(this.api, this.database, item.recording, one, all.length > 1 ? 'AB'[i] : ''),
+    )
     const strands = Promise.all(sources.map(async (source): Promise<Strand> => ({ role: 'blind', source, motion: await source.open() })))
     // The server may be another program than on the day when the study was set up.
     const made = Promise.all([strands, this.api.version(), this.dressed()]).then(([strands, version]) => ({ strands, version: `signweave ${version}` }))

@@ -2,9 +2,16 @@ import type { Annotation, AnnotationDocument } from '../../annotation/document'
 import { kindOf, signTier } from '../../timeline/tier_kind'
 
 /** Ms of annotation time; half-open. */
-export interface Stretch { readonly begin: number; readonly end: number }
+export interface Stretch {
+  readonly begin: number
+  readonly end: number
+}
 /** What lies between two signs. */
-export interface Gap { readonly from: number; readonly to: number; /** `VANNES MATIN`. */ readonly signs: string }
+export interface Gap {
+  readonly from: number
+  readonly to: number
+  /** `VANNES MATIN`. */ readonly signs: string
+}
 
 /** Shorter ones nobody sees; in longer ones the signer pauses. Ms. */
 export const kShortest = 80
@@ -19,14 +26,21 @@ const kNeeded = 300
 export function gapsOf(document: AnnotationDocument): readonly Gap[] {
   const signs = signTier(document)
   if (!signs) return []
-  const strokes = document.tiers.filter((tier) => tier !== signs && (tier.parent === undefined || tier.parent === signs.name))
-    .filter(({ name, depth, annotations }) => annotations.length > 0 && 2 * annotations.filter(({ label }) => isPhase(name, depth, label)).length >= annotations.length)
-    .flatMap(({ name, depth, annotations }) => annotations.filter(({ label }) => kindOf(name, depth, label) === 'stroke')).toSorted((a, b) => a.begin - b.begin)
+  const strokes = document.tiers
+    .filter((tier) => tier !== signs && (tier.parent === undefined || tier.parent === signs.name))
+    .filter(
+      ({ name, depth, annotations }) =>
+        annotations.length > 0 && 2 * annotations.filter(({ label }) => isPhase(name, depth, label)).length >= annotations.length,
+    )
+    .flatMap(({ name, depth, annotations }) => annotations.filter(({ label }) => kindOf(name, depth, label) === 'stroke'))
+    .toSorted((a, b) => a.begin - b.begin)
   const edges = signs.annotations.map((sign) => (strokes.length > 0 ? strokesOf(sign, strokes) : sign))
   const gaps: Gap[] = []
   for (let i = 1; i < edges.length; ++i) {
-    const before = edges[i - 1], after = edges[i]
-    if (before && after && after.begin > before.end) gaps.push({ from: before.end, to: after.begin, signs: `${signs.annotations[i - 1].label} ${signs.annotations[i].label}` })
+    const before = edges[i - 1],
+      after = edges[i]
+    if (before && after && after.begin > before.end)
+      gaps.push({ from: before.end, to: after.begin, signs: `${signs.annotations[i - 1].label} ${signs.annotations[i].label}` })
   }
   return gaps
 }
@@ -34,7 +48,8 @@ const isPhase = (name: string, depth: number, label: string) => ['preparation', 
 
 /** From the first stroke to the last of one sign, of either hand. */
 function strokesOf({ begin, end }: Annotation, strokes: readonly Annotation[]): Stretch | undefined {
-  let low = 0, high = strokes.length
+  let low = 0,
+    high = strokes.length
   while (low < high) {
     const middle = (low + high) >> 1
     if (strokes[middle].begin < begin) low = middle + 1
@@ -51,8 +66,14 @@ function strokesOf({ begin, end }: Annotation, strokes: readonly Annotation[]): 
 
 /** Those that can be made again and looked at: neither too short nor too long, with captured frames on both sides and nothing broken near. */
 export function usable(gaps: readonly Gap[], captured: Stretch, broken: readonly Stretch[]): readonly Gap[] {
-  return gaps.filter(({ from, to }) => to - from >= kShortest && to - from <= kLongest && from - kNeeded >= captured.begin && to + kNeeded <= captured.end &&
-    !broken.some(({ begin, end }) => begin < to + kNeeded && end > from - kNeeded))
+  return gaps.filter(
+    ({ from, to }) =>
+      to - from >= kShortest &&
+      to - from <= kLongest &&
+      from - kNeeded >= captured.begin &&
+      to + kNeeded <= captured.end &&
+      !broken.some(({ begin, end }) => begin < to + kNeeded && end > from - kNeeded),
+  )
 }
 
 /** What is shown of it: with `around` ms on both sides, as far as there is capture. */

@@ -10,7 +10,9 @@ import type { Source } from './study'
 export const kMostRecordings = 200
 
 /** Frames that are no good, as the server tells of a recording. */
-interface Broken { readonly defects?: readonly { readonly first_frame?: number; readonly end_frame?: number }[] }
+interface Broken {
+  readonly defects?: readonly { readonly first_frame?: number; readonly end_frame?: number }[]
+}
 
 /** Which of a database's recordings a study of this seed takes its gaps from. */
 export function sampled(recordings: readonly string[], seed: number): readonly string[] {
@@ -18,11 +20,22 @@ export function sampled(recordings: readonly string[], seed: number): readonly s
 }
 
 /** What can be shown, and the recordings whose annotation cannot be read. */
-export interface Gathered { readonly sources: readonly Source[]; readonly leftOut: readonly string[] }
+export interface Gathered {
+  readonly sources: readonly Source[]
+  readonly leftOut: readonly string[]
+}
 
 /** The gaps of some recordings that can be shown; `told` hears how many recordings have been read. Recordings without annotation have none. */
-export async function gatherSources(api: Api, database: string, recordings: readonly string[], around: number, told: (done: number) => void, signal: AbortSignal): Promise<Gathered> {
-  const sources: Source[] = [], leftOut: string[] = []
+export async function gatherSources(
+  api: Api,
+  database: string,
+  recordings: readonly string[],
+  around: number,
+  told: (done: number) => void,
+  signal: AbortSignal,
+): Promise<Gathered> {
+  const sources: Source[] = [],
+    leftOut: string[] = []
   for (const [done, recording] of recordings.entries()) {
     if (signal.aborted) throw signal.reason
     told(done)
@@ -36,9 +49,12 @@ export async function gatherSources(api: Api, database: string, recordings: read
     }
     const gaps = gapsIn(eaf)
     if (!gaps) leftOut.push(recording)
-    const ms = 1000 / info.frames_per_second, at = (frame: number) => info.clock_origin_ms + frame * ms
+    const ms = 1000 / info.frames_per_second,
+      at = (frame: number) => info.clock_origin_ms + frame * ms
     const captured = { begin: at(0), end: at(info.frames - 1) }
-    const broken = (info.defects ?? []).flatMap(({ first_frame, end_frame }) => (first_frame === undefined || end_frame === undefined ? [] : [{ begin: at(first_frame), end: at(end_frame) }]))
+    const broken = (info.defects ?? []).flatMap(({ first_frame, end_frame }) =>
+      first_frame === undefined || end_frame === undefined ? [] : [{ begin: at(first_frame), end: at(end_frame) }],
+    )
     for (const gap of usable(gaps ?? [], captured, broken)) sources.push({ recording, ...gap, ...shownOf(gap, captured, around) })
   }
   return { sources, leftOut }

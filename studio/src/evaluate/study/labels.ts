@@ -3,8 +3,12 @@ import { kLabels, type Label, type Labels } from './study'
 /** What stands on the screens of a study where its maker wrote nothing else. */
 export const kDefaultLabels: Labels = {
   intro: {
-    en: 'You will see short pieces of signing, two at a time. One was recorded from a person. In the other a part was made by a computer. Look as often as you like.',
-    fr: 'Vous allez voir de courts extraits de signes, deux à la fois. L’un a été enregistré d’une personne. Dans l’autre, une partie a été composée par ordinateur. Regardez aussi souvent que vous voulez.',
+    en:
+      'You will see short pieces of signing, two at a time. One was recorded from a person. In the other a part was made by a computer. ' +
+      'Look as often as you like.',
+    fr:
+      'Vous allez voir de courts extraits de signes, deux à la fois. L’un a été enregistré d’une personne. ' +
+      'Dans l’autre, une partie a été composée par ordinateur. Regardez aussi souvent que vous voulez.',
   },
   recorded: { en: 'Which was recorded from a person?', fr: 'Lequel a été enregistré d’une personne ?' },
   natural: { en: 'Which looks more natural?', fr: 'Lequel paraît le plus naturel ?' },
@@ -26,7 +30,9 @@ export const kDefaultLabels: Labels = {
 export const kSingleLabels: Pick<Labels, 'intro' | 'recorded' | 'rating' | 'low' | 'high'> = {
   intro: {
     en: 'You will see short pieces of signing. Some were recorded from a person. In others a part was made by a computer. Look as often as you like.',
-    fr: 'Vous allez voir de courts extraits de signes. Certains ont été enregistrés d’une personne. Dans d’autres, une partie a été composée par ordinateur. Regardez aussi souvent que vous voulez.',
+    fr:
+      'Vous allez voir de courts extraits de signes. Certains ont été enregistrés d’une personne. Dans d’autres, une partie a été composée par ordinateur. ' +
+      'Regardez aussi souvent que vous voulez.',
   },
   recorded: { en: 'Recorded from a person, or made?', fr: 'Enregistré d’une personne, ou composé ?' },
   rating: { en: 'How natural does it look?', fr: 'Est-ce que cela paraît naturel ?' },
@@ -39,5 +45,7 @@ export const defaultsOf = (mode: 'pair' | 'single'): Labels => (mode === 'single
 /** Those of a study, with what was written; an empty one is as it would be. */
 export function labelsOf(mode: 'pair' | 'single', written: Readonly<Partial<Record<Label, { en?: string; fr?: string }>>>): Labels {
   const defaults = defaultsOf(mode)
-  return Object.fromEntries(kLabels.map((label) => [label, { en: written[label]?.en?.trim() || defaults[label].en, fr: written[label]?.fr?.trim() || defaults[label].fr }])) as unknown as Labels
+  return Object.fromEntries(
+    kLabels.map((label) => [label, { en: written[label]?.en?.trim() || defaults[label].en, fr: written[label]?.fr?.trim() || defaults[label].fr }]),
+  ) as unknown as Labels
 }

@@ -1,13 +1,17 @@
 import { sessionOf, type Session, type Study } from './study'
 
 /** Whether two are the same study, each with votes of its own. */
-export const isSame = (a: Study, b: Study) => a.at === b.at && a.database === b.database && a.settings.seed === b.settings.seed && a.items.length === b.items.length
+export const isSame = (a: Study, b: Study) =>
+  a.at === b.at && a.database === b.database && a.settings.seed === b.settings.seed && a.items.length === b.items.length
 
 /** What two tabs know of one study: no vote of either is lost. Of one trial that both answered the vote that `theirs` already keeps stays. */
 export function merged(mine: Study, theirs: Study): Study {
   const own = new Map(mine.sessions.map((session) => [session.participant, session]))
   const known = new Set(theirs.sessions.map(({ participant }) => participant))
-  const sessions = [...theirs.sessions.map((session) => fuller(own.get(session.participant) ?? session, session)), ...mine.sessions.filter(({ participant }) => !known.has(participant))]
+  const sessions = [
+    ...theirs.sessions.map((session) => fuller(own.get(session.participant) ?? session, session)),
+    ...mine.sessions.filter(({ participant }) => !known.has(participant)),
+  ]
   const [unblinded] = [mine.unblinded, theirs.unblinded].filter((at) => at !== undefined).toSorted()
   return { ...mine, sessions, ...(unblinded === undefined ? {} : { unblinded }) }
 }

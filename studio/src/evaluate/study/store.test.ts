@@ -5,29 +5,73 @@ import { Shelf } from './store'
 import { begin, itemsOf, keepDraft, kFormat, leave, sessionOf, vote, type Settings, type Source, type Study } from './study'
 
 const settings: Settings = {
-  seed: 7, mode: 'pair', methods: ['learned'], trials: 4, catches: 0, around: 1000, order: 'own', recorded: true, natural: false, rating: true, comment: true,
-  speed: false, turn: false, character: null, labels: defaultsOf('pair'),
+  seed: 7,
+  mode: 'pair',
+  methods: ['learned'],
+  trials: 4,
+  catches: 0,
+  around: 1000,
+  order: 'own',
+  recorded: true,
+  natural: false,
+  rating: true,
+  comment: true,
+  speed: false,
+  turn: false,
+  character: null,
+  labels: defaultsOf('pair'),
 }
-const sources: readonly Source[] = Array.from({ length: 4 }, (_, i) => ({ recording: 'a', from: 1000 * i, to: 1000 * i + 400, begin: 1000 * i, end: 1000 * i + 2400, signs: '' }))
-const made = (): Study => ({ format: kFormat, database: 'demo', version: 'signweave 0.1.0', at: '2026-01-01T00:00:00Z', settings, items: itemsOf(sources, settings), sessions: [] })
+const sources: readonly Source[] = Array.from({ length: 4 }, (_, i) => ({
+  recording: 'a',
+  from: 1000 * i,
+  to: 1000 * i + 400,
+  begin: 1000 * i,
+  end: 1000 * i + 2400,
+  signs: '',
+}))
+const made = (): Study => ({
+  format: kFormat,
+  database: 'demo',
+  version: 'signweave 0.1.0',
+  at: '2026-01-01T00:00:00Z',
+  settings,
+  items: itemsOf(sources, settings),
+  sessions: [],
+})
 let second = 0
-const answer = (comment = '') => ({ recorded: 'left' as const, rating: 3, comment, plays: 2, ms: 3000, at: new Date(++second * 1000).toISOString(), version: 'signweave 0.2.0' })
-const votes = (study: Study | undefined) => Object.fromEntries((study?.sessions ?? []).map(({ participant, answers }) => [participant, answers.map(({ comment }) => comment)]))
+const answer = (comment = '') => ({
+  recorded: 'left' as const,
+  rating: 3,
+  comment,
+  plays: 2,
+  ms: 3000,
+  at: new Date(++second * 1000).toISOString(),
+  version: 'signweave 0.2.0',
+})
+const votes = (study: Study | undefined) =>
+  Object.fromEntries((study?.sessions ?? []).map(({ participant, answers }) => [participant, answers.map(({ comment }) => comment)]))
 
 class Memory {
   readonly kept = new Map<string, string>()
   full = false
-  getItem(key: string) { return this.kept.get(key) ?? null }
+  getItem(key: string) {
+    return this.kept.get(key) ?? null
+  }
   setItem(key: string, value: string) {
     if (this.full) throw new Error('full')
     this.kept.set(key, value)
   }
-  removeItem(key: string) { this.kept.delete(key) }
+  removeItem(key: string) {
+    this.kept.delete(key)
+  }
 }
 /** The storage that all tabs share; what a tab has for itself is there for whichever tab is at work. */
 let shared: Memory
 const tabs = new Map<Shelf, Memory>()
-const at = (shelf: Shelf) => { vi.stubGlobal('sessionStorage', tabs.get(shelf)!); return shelf }
+const at = (shelf: Shelf) => {
+  vi.stubGlobal('sessionStorage', tabs.get(shelf)!)
+  return shelf
+}
 function tab(): Shelf {
   const shelf = new Shelf('demo')
   tabs.set(shelf, new Memory())
@@ -41,7 +85,8 @@ beforeEach(() => {
 
 describe('a study in several tabs', () => {
   it('keeps the votes of all of them, and whose turn it is in each', () => {
-    const one = tab(), two = tab()
+    const one = tab(),
+      two = tab()
     let a = at(one).write(begin(made(), 'P01', 'deaf'))
     expect(at(two).read().study?.current).toBeUndefined()
     let b = at(two).write(begin(two.read().study!, 'P02', 'learner'))
@@ -57,23 +102,28 @@ describe('a study in several tabs', () => {
     expect(sessionOf(heard)).toBe(sessionOf(a))
   })
   it('counts one vote of a trial that both answered: the first', () => {
-    const one = tab(), two = tab()
-    const a = at(one).write(begin(made(), 'P01', 'deaf')), b = begin(at(two).read().study!, 'P01', 'none')
+    const one = tab(),
+      two = tab()
+    const a = at(one).write(begin(made(), 'P01', 'deaf')),
+      b = begin(at(two).read().study!, 'P01', 'none')
     at(one).write(vote(a, answer('first')))
     const both = at(two).write(vote(b, answer('second')))
     expect(votes(both)).toEqual({ P01: ['first'] })
     expect(both.sessions[0].fluency).toBe('deaf')
   })
   it('puts a vote back that another tab wrote over', () => {
-    const one = tab(), two = tab()
-    const a = at(one).write(begin(made(), 'P01', 'deaf')), before = shared.getItem(one.key)!
+    const one = tab(),
+      two = tab()
+    const a = at(one).write(begin(made(), 'P01', 'deaf')),
+      before = shared.getItem(one.key)!
     const voted = at(one).write(vote(a, answer('lost')))
     shared.setItem(one.key, before)
     expect(votes(at(one).heard(voted).study)).toEqual({ P01: ['lost'] })
     expect(votes(at(two).read().study)).toEqual({ P01: ['lost'] })
   })
   it('is unblinded, deleted or another one for all', () => {
-    const one = tab(), two = tab()
+    const one = tab(),
+      two = tab()
     const a = at(one).write(vote(begin(made(), 'P01', 'deaf'), answer('a')))
     at(two).write({ ...two.read().study!, unblinded: '2026-01-02T00:00:00Z' })
     const voted = at(one).write(vote(at(one).heard(a).study!, answer('b')))
@@ -116,13 +166,31 @@ describe('a file of a study', () => {
     expect(readStudy(JSON.stringify(good))).toEqual(good)
     expect(readStudy(JSON.stringify(leave({ ...good, recordings: { a: 'x' }, leftOut: ['b'] })))).toBeTruthy()
   })
-  it.each(Object.entries({
-    'no methods': setting({ methods: undefined }), 'a method that is none': setting({ methods: [1] }), 'a method twice': setting({ methods: ['gap', 'gap'] }), 'no order': setting({ order: undefined }), 'nothing asked': setting({ recorded: false, rating: false, comment: false }),
-    'no labels': setting({ labels: {} }), 'endless around': setting({ around: null }), 'somebody twice': with_({ sessions: [good.sessions[0], good.sessions[0]] }), 'nobody': session({ participant: '' }),
-    'no answer': session({ answers: [null] }), 'an odd answer': session({ answers: [{ ...good.sessions[0].answers[0], recorded: 'up' }] }), 'an answer without a time': session({ answers: [{ ...good.sessions[0].answers[0], ms: null }] }),
-    'a rating of nine': session({ draft: { rating: 9 } }), 'a draft that is none': session({ draft: 'x' }), 'a trial of nothing': session({ trials: [{ item: 'length', side: 'left' }] }), 'a trial too far': session({ trials: [{ item: 4, side: 'left' }] }),
-    'more answers than trials': session({ trials: [] }), 'no items': with_({ items: [] }), 'an item without signs': with_({ items: [{ ...good.items[0], signs: undefined }] }), 'odd recordings': with_({ recordings: [1] }), 'odd version': session({ answers: [{ ...good.sessions[0].answers[0], version: 3 }] }),
-  }))('is refused with %s', (_, text) => {
+  it.each(
+    Object.entries({
+      'no methods': setting({ methods: undefined }),
+      'a method that is none': setting({ methods: [1] }),
+      'a method twice': setting({ methods: ['gap', 'gap'] }),
+      'no order': setting({ order: undefined }),
+      'nothing asked': setting({ recorded: false, rating: false, comment: false }),
+      'no labels': setting({ labels: {} }),
+      'endless around': setting({ around: null }),
+      'somebody twice': with_({ sessions: [good.sessions[0], good.sessions[0]] }),
+      nobody: session({ participant: '' }),
+      'no answer': session({ answers: [null] }),
+      'an odd answer': session({ answers: [{ ...good.sessions[0].answers[0], recorded: 'up' }] }),
+      'an answer without a time': session({ answers: [{ ...good.sessions[0].answers[0], ms: null }] }),
+      'a rating of nine': session({ draft: { rating: 9 } }),
+      'a draft that is none': session({ draft: 'x' }),
+      'a trial of nothing': session({ trials: [{ item: 'length', side: 'left' }] }),
+      'a trial too far': session({ trials: [{ item: 4, side: 'left' }] }),
+      'more answers than trials': session({ trials: [] }),
+      'no items': with_({ items: [] }),
+      'an item without signs': with_({ items: [{ ...good.items[0], signs: undefined }] }),
+      'odd recordings': with_({ recordings: [1] }),
+      'odd version': session({ answers: [{ ...good.sessions[0].answers[0], version: 3 }] }),
+    }),
+  )('is refused with %s', (_, text) => {
     expect(() => readStudy(text)).toThrow('noStudy')
   })
 })

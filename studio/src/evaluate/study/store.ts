@@ -4,7 +4,10 @@ import { readStudy } from './read_study'
 import type { Study } from './study'
 
 /** What this browser keeps; `unreadable` where there is something, but no study that this page can show. */
-export interface Kept { readonly study?: Study; readonly unreadable?: boolean }
+export interface Kept {
+  readonly study?: Study
+  readonly unreadable?: boolean
+}
 
 /** The study of a database as this browser keeps it, for all tabs; whose turn it is each tab knows by itself. */
 export class Shelf {
@@ -19,7 +22,7 @@ export class Shelf {
   }
 
   read(): Kept {
-    let turn: string | null = null
+    let turn: string | null
     try {
       this.text = localStorage.getItem(this.key)
       turn = sessionStorage.getItem(this.turnKey)
@@ -31,7 +34,8 @@ export class Shelf {
 
   /** What another tab changed, taken into what this one has. */
   heard(mine: Study | undefined): Kept {
-    const kept = this.read(), { study } = kept
+    const kept = this.read(),
+      { study } = kept
     if (!study || !mine || !isSame(mine, study)) return kept.study ? { study: withTurn(kept.study, undefined) } : kept
     const both = withTurn(merged(mine, study), mine.current)
     // Two wrote at once, and what the other wrote has not got all of it.
@@ -85,7 +89,8 @@ export class Shelf {
   private parsed(turn?: string): Kept {
     if (this.text === null) return {}
     try {
-      const study = readStudy(this.text), of = turnOf(study, '')
+      const study = readStudy(this.text),
+        of = turnOf(study, '')
       return { study: withTurn(study, turn?.startsWith(of) ? turn.slice(of.length) : undefined) }
     } catch {
       return { unreadable: true }

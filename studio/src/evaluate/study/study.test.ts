@@ -9,26 +9,62 @@ import { begin, isAnswered, itemsOf, keepDraft, kFormat, leave, sessionOf, steps
 import { isOver, kColumns, outcomes, voteRows, votesOf, wilson } from './votes'
 
 const settings: Settings = {
-  seed: 7, mode: 'pair', methods: ['learned', 'gap', 'sine'], trials: 20, catches: 3, around: 1000, order: 'own', recorded: true, natural: false, rating: true, comment: true,
-  speed: false, turn: false, character: null, labels: defaultsOf('pair'),
+  seed: 7,
+  mode: 'pair',
+  methods: ['learned', 'gap', 'sine'],
+  trials: 20,
+  catches: 3,
+  around: 1000,
+  order: 'own',
+  recorded: true,
+  natural: false,
+  rating: true,
+  comment: true,
+  speed: false,
+  turn: false,
+  character: null,
+  labels: defaultsOf('pair'),
 }
-const sources: readonly Source[] = Array.from({ length: 12 }, (_, i) => ({ recording: i % 2 ? 'a' : 'b', from: 1000 * i + 1000, to: 1000 * i + 1400, begin: 1000 * i, end: 1000 * i + 2400, signs: `S${i} S${i + 1}` }))
+const sources: readonly Source[] = Array.from({ length: 12 }, (_, i) => ({
+  recording: i % 2 ? 'a' : 'b',
+  from: 1000 * i + 1000,
+  to: 1000 * i + 1400,
+  begin: 1000 * i,
+  end: 1000 * i + 2400,
+  signs: `S${i} S${i + 1}`,
+}))
 const studyOf = (more: Partial<Settings> = {}): Study => {
   const all = { ...settings, ...more }
-  return { format: kFormat, database: 'demo', version: 'signweave 0.1.0', at: '2026-01-01T00:00:00Z', settings: all, items: itemsOf(sources, all), sessions: [] }
+  return {
+    format: kFormat,
+    database: 'demo',
+    version: 'signweave 0.1.0',
+    at: '2026-01-01T00:00:00Z',
+    settings: all,
+    items: itemsOf(sources, all),
+    sessions: [],
+  }
 }
 const counted = <T>(list: readonly T[]) => list.reduce((map, one) => map.set(one, (map.get(one) ?? 0) + 1), new Map<T, number>())
 
 describe('a random order', () => {
   it('is the same for the same seed and another for another', () => {
-    const first = (seed: number, who = '') => Array.from({ length: 4 }, ((random) => () => random.below(1000))(new Random(seed, who)))
+    const first = (seed: number, who = '') =>
+      Array.from(
+        { length: 4 },
+        (
+          (random) => () =>
+            random.below(1000)
+        )(new Random(seed, who)),
+      )
     expect(first(1)).toEqual(first(1))
     expect(first(1)).not.toEqual(first(2))
     expect(first(1)).not.toEqual(first(1, 'P01'))
     expect(first(1)).toEqual([868, 664, 792, 536])
   })
   it('is fair', () => {
-    const random = new Random(3), all = Array.from({ length: 6000 }, () => random.shuffled([0, 1, 2]).join(''))
+    const random = new Random(3),
+      all = Array.from({ length: 6000 }, () => random.shuffled([0, 1, 2]).join(''))
     for (const [, count] of counted(all)) expect(count).toBeGreaterThan(880)
     expect(counted(all).size).toBe(6)
   })
@@ -70,8 +106,9 @@ describe('trials', () => {
       expect(Math.abs(real.length - 2 * real.filter(({ side }) => side === 'left').length)).toBeLessThanOrEqual(1)
     }
   })
-  it('come in an order of each one\'s own, or in one for all', () => {
-    const own = { seed: 1, order: 'own' } as const, same = { seed: 1, order: 'same' } as const
+  it("come in an order of each one's own, or in one for all", () => {
+    const own = { seed: 1, order: 'own' } as const,
+      same = { seed: 1, order: 'same' } as const
     expect(trialsOf(items, own, 'P01')).toEqual(trialsOf(items, own, 'P01'))
     expect(trialsOf(items, own, 'P01')).not.toEqual(trialsOf(items, own, 'P02'))
     expect(trialsOf(items, same, 'P01')).toEqual(trialsOf(items, same, 'P02'))
@@ -89,13 +126,33 @@ describe('trials', () => {
 })
 
 describe('gaps', () => {
-  const document: AnnotationDocument = { tiers: [
-    { name: 'Gloss', depth: 0, annotations: [{ begin: 1000, end: 2000, label: 'A' }, { begin: 2000, end: 3000, label: 'B' }, { begin: 4000, end: 5000, label: 'C' }] },
-    { name: 'Phase', parent: 'Gloss', depth: 1, annotations: [
-      { begin: 1000, end: 1200, label: 'Preparation' }, { begin: 1200, end: 1500, label: 'Stroke' }, { begin: 1500, end: 1700, label: 'Stroke' }, { begin: 1700, end: 2000, label: 'Retraction' },
-      { begin: 2000, end: 2300, label: 'Preparation' }, { begin: 2300, end: 2700, label: 'Stroke' }, { begin: 2700, end: 3000, label: 'Retraction' },
-    ] },
-  ] }
+  const document: AnnotationDocument = {
+    tiers: [
+      {
+        name: 'Gloss',
+        depth: 0,
+        annotations: [
+          { begin: 1000, end: 2000, label: 'A' },
+          { begin: 2000, end: 3000, label: 'B' },
+          { begin: 4000, end: 5000, label: 'C' },
+        ],
+      },
+      {
+        name: 'Phase',
+        parent: 'Gloss',
+        depth: 1,
+        annotations: [
+          { begin: 1000, end: 1200, label: 'Preparation' },
+          { begin: 1200, end: 1500, label: 'Stroke' },
+          { begin: 1500, end: 1700, label: 'Stroke' },
+          { begin: 1700, end: 2000, label: 'Retraction' },
+          { begin: 2000, end: 2300, label: 'Preparation' },
+          { begin: 2300, end: 2700, label: 'Stroke' },
+          { begin: 2700, end: 3000, label: 'Retraction' },
+        ],
+      },
+    ],
+  }
   it('go from the last stroke to the first of the next sign, where both have strokes', () => {
     expect(gapsOf(document)).toEqual([{ from: 1700, to: 2300, signs: 'A B' }])
   })
@@ -138,17 +195,25 @@ describe('a study', () => {
   })
   it('reads nothing else', () => {
     const good = begin(studyOf(), 'P01', 'deaf')
-    for (const wrong of ['', '{}', 'null', JSON.stringify({ ...good, format: 'x' }), JSON.stringify({ ...good, sessions: [{ ...good.sessions[0], trials: [{ item: 99, side: 'left' }] }] })]) {
+    for (const wrong of [
+      '',
+      '{}',
+      'null',
+      JSON.stringify({ ...good, format: 'x' }),
+      JSON.stringify({ ...good, sessions: [{ ...good.sessions[0], trials: [{ item: 99, side: 'left' }] }] }),
+    ]) {
       expect(() => readStudy(wrong), wrong.slice(0, 40)).toThrow('noStudy')
     }
   })
   it('has a row for every vote', () => {
     let study = begin(studyOf({ natural: true }), 'P"1"', 'deaf')
     while (!isOver(study)) {
-      const session = sessionOf(study)!, { side } = session.trials[session.answers.length]
+      const session = sessionOf(study)!,
+        { side } = session.trials[session.answers.length]
       study = vote(study, answer({ recorded: side, natural: side === 'left' ? 'right' : 'left', rating: 4, comment: 'a, b' }))
     }
-    const rows = voteRows(study), at = (name: string) => kColumns.indexOf(name as never)
+    const rows = voteRows(study),
+      at = (name: string) => kColumns.indexOf(name as never)
     expect(rows).toHaveLength(1 + 2 * 23)
     expect(new Set(rows.map((row) => row.length))).toEqual(new Set([kColumns.length]))
     const real = rows.slice(1).filter((row) => row[at('kind')] === 'pair')
@@ -163,7 +228,8 @@ describe('a study', () => {
   })
   it('names the program that made what was voted on, or in older votes that of the set-up', () => {
     const study = vote(vote(begin(studyOf(), 'P01', 'deaf'), answer({ version: 'signweave 0.3.0' })), answer())
-    const rows = voteRows(study), at = kColumns.indexOf('software_version')
+    const rows = voteRows(study),
+      at = kColumns.indexOf('software_version')
     expect(rows.slice(1).map((row) => row[at])).toEqual(['signweave 0.3.0', 'signweave 0.1.0'])
   })
   it('marks what was answered after somebody had looked', () => {
@@ -173,7 +239,8 @@ describe('a study', () => {
   it('sums up by method, of everybody or of those who sign', () => {
     let study = begin(studyOf({ rating: true }), 'P01', 'deaf')
     while (!isOver(study)) {
-      const session = sessionOf(study)!, trial = session.trials[session.answers.length]
+      const session = sessionOf(study)!,
+        trial = session.trials[session.answers.length]
       const wrong = study.items[trial.item].method === 'gap'
       study = vote(study, answer({ recorded: wrong ? (trial.side === 'left' ? 'right' : 'left') : trial.side, rating: wrong ? 1 : 5, ms: 1000 }))
     }
@@ -189,7 +256,12 @@ describe('a study', () => {
     expect(study.items).toHaveLength(20)
     while (!isOver(study)) study = vote(study, answer({ recorded: 'left', rating: 3 }))
     const all = outcomes(study)
-    expect(all.map(({ method, share }) => [method, share?.value])).toEqual([['captured', 1], ['gap', 0], ['learned', 0], ['sine', 0]])
+    expect(all.map(({ method, share }) => [method, share?.value])).toEqual([
+      ['captured', 1],
+      ['gap', 0],
+      ['learned', 0],
+      ['sine', 0],
+    ])
     expect(votesOf(study)).toHaveLength(20)
   })
   it('has labels of its own, the known ones where none was written', () => {
@@ -199,7 +271,7 @@ describe('a study', () => {
   })
 })
 
-describe('Wilson\'s interval', () => {
+describe("Wilson's interval", () => {
   it('is as tables have it', () => {
     const { low, high, value } = wilson(8, 10)!
     expect([value, low, high].map((x) => x.toFixed(4))).toEqual(['0.8000', '0.4902', '0.9433'])

@@ -9,19 +9,39 @@ import { Pane } from '../../../src/viewer/pane'
 import { Stage } from '../../../src/viewer/stage'
 import { Transport } from '../../../src/viewer/transport'
 
-interface Node { name?: string; children?: number[]; translation?: [number, number, number] }
-interface Gltf { nodes: Node[]; skins: { joints: number[] }[]; meshes: { extras?: { targetNames?: string[] } }[]
-  asset: { extras: { signweave: { height: number } } } }
+interface Node {
+  name?: string
+  children?: number[]
+  translation?: [number, number, number]
+}
+interface Gltf {
+  nodes: Node[]
+  skins: { joints: number[] }[]
+  meshes: { extras?: { targetNames?: string[] } }[]
+  asset: { extras: { signweave: { height: number } } }
+}
 
 /** Which joint plays which part, as the rig map will say it of the character. */
 const kParts: Record<string, string> = {
-  pelvis: 'spine05', neck: 'neck01', head: 'head', left_clavicle: 'clavicle_L', right_clavicle: 'clavicle_R', left_upper_arm: 'upperarm01_L',
-  right_upper_arm: 'upperarm01_R', left_forearm: 'lowerarm01_L', right_forearm: 'lowerarm01_R', left_hand: 'wrist_L', right_hand: 'wrist_R',
-  left_foot: 'foot_L', right_foot: 'foot_R',
+  pelvis: 'spine05',
+  neck: 'neck01',
+  head: 'head',
+  left_clavicle: 'clavicle_L',
+  right_clavicle: 'clavicle_R',
+  left_upper_arm: 'upperarm01_L',
+  right_upper_arm: 'upperarm01_R',
+  left_forearm: 'lowerarm01_L',
+  right_forearm: 'lowerarm01_R',
+  left_hand: 'wrist_L',
+  right_hand: 'wrist_R',
+  left_foot: 'foot_L',
+  right_foot: 'foot_R',
 }
 /** One still frame each: weights by ARKit's names. */
 const kFaces: readonly Record<string, number>[] = [
-  {}, { mouthSmileLeft: 0.8, mouthSmileRight: 0.8, cheekSquintLeft: 0.4, cheekSquintRight: 0.4 }, { eyeBlinkLeft: 1, eyeBlinkRight: 1 },
+  {},
+  { mouthSmileLeft: 0.8, mouthSmileRight: 0.8, cheekSquintLeft: 0.4, cheekSquintRight: 0.4 },
+  { eyeBlinkLeft: 1, eyeBlinkRight: 1 },
   { browInnerUp: 1, browOuterUpLeft: 1, browOuterUpRight: 1, jawOpen: 0.5 },
 ]
 
@@ -52,11 +72,16 @@ async function wear(url: string): Promise<{ ms: number; tracks: number }> {
   const at = (name: string) => ({ joint: skeleton.joints.findIndex((joint) => joint.name === name) })
   const rig: Rig = Object.fromEntries(Object.entries(kParts).map(([part, name]) => [part, at(name)]))
   const store = new FrameStore(skeleton, 10, rig)
-  store.put(blockOf(skeleton, kFaces.map((face) => {
-    const pose = restPose(skeleton)
-    skeleton.tracks.forEach((name, track) => (pose.tracks[track] = face[name] ?? 0))
-    return pose
-  })))
+  store.put(
+    blockOf(
+      skeleton,
+      kFaces.map((face) => {
+        const pose = restPose(skeleton)
+        skeleton.tracks.forEach((name, track) => (pose.tracks[track] = face[name] ?? 0))
+        return pose
+      }),
+    ),
+  )
   const pane = new Pane({ store, rig, originMs: 0, declarations: {} })
   pane.camera.look('front')
   const start = performance.now()

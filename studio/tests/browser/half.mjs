@@ -1,0 +1,10 @@
+// One process of browser suites: SITE=… node --test-reporter=./report.mjs --test-reporter-destination=stdout half.mjs NAME… (run.mjs starts it).
+import assert from 'node:assert/strict'
+import { begin, faults, plainTest } from './suite.mjs'
+
+for (const name of process.argv.slice(2)) {
+  begin(name)
+  await import(`./${name}.test.mjs`)
+}
+begin('pages')
+plainTest('no view threw anything', () => assert.deepEqual(faults, []))

@@ -1,0 +1,13 @@
+// What no linter looks at, of the whole tree: check.mjs [FOLDER]. One line a fault.
+import { resolve } from 'node:path'
+import { filesBelow } from './files.mjs'
+import { importCircles, importGraph } from './imports.mjs'
+import { longLines } from './lines.mjs'
+import { strayTests } from './runs.mjs'
+
+const files = filesBelow(resolve(process.argv[2] ?? resolve(import.meta.dirname, '../..')))
+const { graph, faults } = importGraph(files)
+faults.push(...importCircles(graph), ...longLines(files), ...strayTests(files))
+for (const fault of faults) console.error(fault)
+if (faults.length > 0) process.exitCode = 1
+else console.log(`${files.length} files: no circle of imports, no long line, no test that belongs to no run`)

@@ -1,0 +1,18 @@
+import { readdirSync, readFileSync } from 'node:fs'
+import { join, relative } from 'node:path'
+
+const kNotOurs = new Set(['node_modules', 'dist'])
+
+/** Every file below `root` that people write, with its text. Paths are relative to `root`, in the order of the alphabet. */
+export function filesBelow(root) {
+  const found = []
+  const walk = (folder) => {
+    for (const entry of readdirSync(folder, { withFileTypes: true })) {
+      const path = join(folder, entry.name)
+      if (entry.isDirectory() && !kNotOurs.has(entry.name)) walk(path)
+      else if (entry.isFile() && entry.name !== 'package-lock.json') found.push({ path: relative(root, path), text: readFileSync(path, 'utf8') })
+    }
+  }
+  walk(root)
+  return found.sort((a, b) => (a.path < b.path ? -1 : 1))
+}

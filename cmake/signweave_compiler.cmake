@@ -12,6 +12,18 @@ endif()
 add_library(signweave_flags INTERFACE)
 target_compile_options(signweave_flags INTERFACE -pthread -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wold-style-cast
                        -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+# Used where they are there: what was compiled before, and a linker that takes a tenth of the time.
+find_program(ccache_PROGRAM ccache)
+if(ccache_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${ccache_PROGRAM})
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endif()
+find_program(fast_linker_PROGRAM NAMES mold ld.lld)
+if(fast_linker_PROGRAM)
+  get_filename_component(fast_linker ${fast_linker_PROGRAM} NAME)
+  string(REPLACE "ld.lld" "lld" fast_linker ${fast_linker})
+  add_link_options(-fuse-ld=${fast_linker})
+endif()
 # GCC collects its own garbage whenever its memory has doubled: that is a seventh of the time of a large batch.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   add_compile_options(--param ggc-min-heapsize=1048576)

@@ -1,7 +1,7 @@
 /// <reference types="vitest/config" />
 import { svelte } from '@sveltejs/vite-plugin-svelte'
 import { defineConfig } from 'vite'
-import units from './tests/units.json'
+import units from './tests/units.json' with { type: 'json' }
 
 // `npm run dev` forwards calls and streams to a server that runs here.
 const server = process.env.SIGNWEAVE ?? 'http://127.0.0.1:8080'

@@ -2,6 +2,10 @@
 import assert from 'node:assert/strict'
 import { begin, faults, plainTest } from './suite.mjs'
 
+// Where the process that started this one is interrupted; it is not waited for.
+process.once('disconnect', () => process.exit(1))
+process.channel.unref()
+
 for (const name of process.argv.slice(2)) {
   begin(name)
   await import(`./${name}.test.mjs`)

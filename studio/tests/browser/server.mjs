@@ -37,9 +37,15 @@ export async function withServer(site, work, prepare = () => {}, { minutes = 2, 
     const words = ['serve', database, '--listen', '127.0.0.1:0', '--files', site, '--characters', kCharacters, '--media', films]
     if (mine) words.splice(2, 0, join(folder, 'mine.db'), '--writable')
     server = spawn(join(kBin, 'signweave'), words, { stdio: ['ignore', 'pipe', 'pipe'] })
+    const end = () => server.kill('SIGKILL')
+    process.once('exit', end) // also where the tests are interrupted
     const log = join(folder, 'server.log')
     writeFileSync(log, '')
-    unwatch = watchLog(log)
+    const forget = watchLog(log)
+    unwatch = () => {
+      process.off('exit', end)
+      forget()
+    }
     let said = ''
     const address = await inTime(
       new Promise((resolve, reject) => {

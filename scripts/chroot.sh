@@ -17,8 +17,9 @@ chroot_make() {
   rm -f "$root/etc/apt/sources.list"
   cp -rT /etc/apt "$root/etc/apt"
   cp /etc/resolv.conf /etc/hosts "$root/etc/" 2>/dev/null || true
+  # A folder used before has links there; as seen from here they lead into this machine, so they are replaced, not written through.
   for folder in /etc/ssl/certs /usr/share/keyrings /usr/local/share/ca-certificates; do
-    [ -d "$folder" ] && mkdir -p "$root$folder" && cp -rLT "$folder" "$root$folder"
+    [ -d "$folder" ] && mkdir -p "$root$folder" && cp -rLT --remove-destination "$folder" "$root$folder"
   done
   chmod 755 "$root"  # mktemp leaves it to root alone
   mount --bind /proc "$root/proc"

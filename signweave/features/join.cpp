@@ -56,9 +56,9 @@ JoinPoint join_point(const PhaseFeatures& phase, bool at_begin) noexcept {
 }
 
 std::string_view name_of(JoinTerm term) noexcept {
-  constexpr std::array<std::string_view, kJoinTerms> kNames = {"place", "velocity", "handshape", "direction",
-                                                               "arms",  "trunk",    "speed"};
-  return kNames[static_cast<std::size_t>(term)];
+  constexpr std::array<std::string_view, kJoinTerms> kTermNames = {"place", "velocity", "handshape", "direction",
+                                                                   "arms",  "trunk",    "speed"};
+  return kTermNames[static_cast<std::size_t>(term)];
 }
 
 JoinTerms join_terms(const JoinPoint& a, const JoinPoint& b, Seconds transition, float limit) noexcept {

@@ -11,6 +11,7 @@
 #include "signweave/core/text.h"
 #include "signweave/query/parse.h"
 #include "signweave/query/parse_series.h"
+#include "signweave/query/words.h"
 
 namespace signweave {
 namespace {

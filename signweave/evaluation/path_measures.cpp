@@ -1,5 +1,6 @@
 #include "signweave/evaluation/path_measures.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <bit>
 #include <cmath>

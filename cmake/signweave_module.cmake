@@ -6,8 +6,8 @@
 define_property(GLOBAL PROPERTY SIGNWEAVE_LAYERS BRIEF_DOCS "rows 'module:dependency,dependency'")
 define_property(GLOBAL PROPERTY SIGNWEAVE_MODULES BRIEF_DOCS "library targets, lowest first")
 
-# What nearly every file reads, compiled once (docs/building.md says what it saves). Includes stay written out in each file, and the
-# test `alone` compiles each without any of this: precompiled headers and batches only save time.
+# What nearly every file reads, compiled once (docs/building.md says what it saves). Includes stay written out in each file, and
+# `scripts/alone` compiles each without any of this: precompiled headers and batches only save time.
 set(read_by_all <Eigen/Geometry> <algorithm> <array> <charconv> <cmath> <filesystem> <functional> <map> <memory> <mutex> <optional> <set>
                 <span> <string> <string_view> <unordered_map> <variant> <vector> <fmt/format.h>)
 file(WRITE ${PROJECT_BINARY_DIR}/pch.cpp "")

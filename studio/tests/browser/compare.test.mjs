@@ -221,8 +221,10 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   assert.ok(apart.inside > 0.005, `made and captured are ${apart.inside} m apart`)
   assert.ok(apart.outside < 1e-4, `${apart.outside} m apart where nothing was made`)
   assert.ok(apart.cameras)
-  const { playing, repeat, speed, loop } = await transport(page)
-  assert.deepEqual({ playing, repeat, speed, loop }, { playing: true, repeat: true, speed: 1, loop: null })
+  await until(async () => {
+    const { playing, repeat, speed, loop } = await transport(page)
+    assert.deepEqual({ playing, repeat, speed, loop }, { playing: true, repeat: true, speed: 1, loop: null })
+  })
   await page.keyboard.press('Space')
   await until(async () => assert.equal((await transport(page)).playing, false))
   // No views, no speed, no other signer; the signer cannot be turned.

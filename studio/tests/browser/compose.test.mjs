@@ -120,7 +120,6 @@ test('shows the tokens of a place with what they cost, and signs the one that is
 test('goes from junction to junction, and repeats what lies around each', async () => {
   await compose('VANNES MATIN PLUIE')
   await page.locator('.junction').first().click()
-  const first = (await transport(page)).loop
   await until(async () => assert.match(await page.locator('aside h2').textContent(), /Junction 1: VANNES – MATIN/))
   const junctions = await page.evaluate(async () => {
     const body = JSON.stringify({ utterance: 'VANNES MATIN PLUIE' })
@@ -129,16 +128,21 @@ test('goes from junction to junction, and repeats what lies around each', async 
     ).json()
     return junctions.map(({ frames, method }) => ({ begin: frames.begin / rate, end: frames.end / rate, method }))
   })
-  near(first.begin, junctions[0].begin - 0.4)
-  near(first.end, junctions[0].end + 0.4)
+  await until(async () => {
+    const { loop } = await transport(page)
+    near(loop.begin, junctions[0].begin - 0.4)
+    near(loop.end, junctions[0].end + 0.4)
+  })
   await until(async () => assert.match(await page.locator('aside .fact').textContent(), new RegExp(junctions[0].method)))
   await button('Junction after').click()
-  near((await transport(page)).loop.begin, junctions[1].begin - 0.4)
+  await until(async () => near((await transport(page)).loop.begin, junctions[1].begin - 0.4))
   await pause()
   await page.getByLabel('Pause').selectOption('comma')
   await shown('VANNES MATIN , PLUIE')
-  const longer = (await transport(page)).loop
-  near(longer.end - longer.begin, junctions[1].end - junctions[1].begin + 0.8 + 0.35, 0.02)
+  await until(async () => {
+    const { loop } = await transport(page)
+    near(loop.end - loop.begin, junctions[1].end - junctions[1].begin + 0.8 + 0.35, 0.02)
+  })
   await button('Repeat it').click()
   await until(async () => assert.equal((await transport(page)).loop, null))
   await page.keyboard.press('Escape')

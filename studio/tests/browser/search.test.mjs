@@ -126,8 +126,11 @@ test('hints at what the database has where nothing was found', async () => {
 
 test('has examples that all find something, and tells what the language can do', async () => {
   await visit('#/demo/search', { still: true })
-  const texts = await page.locator('section:has(#examples-title) code').allTextContents()
-  assert.ok(texts.length > 8)
+  const texts = await until(async () => {
+    const all = await page.locator('section:has(#examples-title) code').allTextContents()
+    assert.ok(all.length > 8, `${all}`)
+    return all
+  })
   for (const text of texts) {
     const found = await (
       await fetch(`${address}/api/databases/demo/query`, {
@@ -167,10 +170,15 @@ mainTest('plays a row as a loop, goes from row to row, and opens the recording t
   await page.keyboard.press('x')
   await page.keyboard.press('Enter')
   await opened(page, '#/demo/recording/meteo')
-  const { loop, time } = await transport(page)
-  near(loop.begin, 2.98)
-  near(loop.end, 4.35)
-  near(time, 2.98)
+  await until(async () => {
+    const { loop, time } = await transport(page)
+    for (const [value, wanted] of [
+      [loop.begin, 2.98],
+      [loop.end, 4.35],
+      [time, 2.98],
+    ])
+      near(value, wanted)
+  })
   await page.waitForFunction(() => document.querySelector('.selection')?.getBoundingClientRect().width > 20)
   await page.goBack() // to the row that was left, what was chosen, and the keys where they were
   await page.waitForFunction(() => document.querySelector('.line.active .name')?.textContent === 'METEO' && document.activeElement?.matches('.rows'))

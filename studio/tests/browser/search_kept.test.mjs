@@ -70,6 +70,7 @@ test('chooses answers by key and mouse, saves them in every format, and signs th
   await told().click()
   await button('CSV').waitFor({ state: 'hidden' })
   await page.getByText('Sign these').click()
+  await page.waitForFunction(() => /[?&]u=/.test(location.hash))
   const { u } = Object.fromEntries(new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]))
   const pieces = rows
     .slice(1)

@@ -131,8 +131,7 @@ test('scrubs, selects and zooms on the timeline by mouse', async () => {
   await page.mouse.up()
   near((await transport(page)).loop.end - (await transport(page)).loop.begin, (100 / lane.width) * duration, 0.02)
   await page.keyboard.press('Home')
-  const spoken = await page.getByRole('slider', { name: 'Time' }).getAttribute('aria-valuetext')
-  assert.match(spoken, /^0:1\d\.\d{3}, /)
+  await until(async () => assert.match(await page.getByRole('slider', { name: 'Time' }).getAttribute('aria-valuetext'), /^0:1\d\.\d{3}, /))
 })
 
 /** How far a joint of a signer's body is at most from where the motion has it, in metres. */
@@ -184,6 +183,7 @@ test('lets the signer be chosen, keeps time and view, and remembers it', async (
   near(await azimuth(page), Math.PI / 2)
   await visit('#/demo/recording/meteo?at=2.2', { body: null })
   await until(async () => assert.equal(await page.evaluate(() => window.signweaveStage.panes[0].motion.character), 'woman'))
+  await who().locator('option').nth(2).waitFor({ state: 'attached' })
   const all = await who()
     .locator('option')
     .evaluateAll((options) => options.map(({ value }) => value))
@@ -251,8 +251,9 @@ test('shows an edited recording beside the original, sign by sign', async () => 
   const steps = await page.evaluate(() => [5, 29.3, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
   near(steps[0], 5, 1e-6)
   assert.ok(Math.abs(steps[2] - 40) > 0.05, 'the original goes on by time')
-  const names = await page.locator('.names li').allTextContents()
-  assert.deepEqual(names.filter(Boolean).slice(0, 4), ['Gloss', 'Phase', 'Source', 'Junction'])
+  await until(async () =>
+    assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 4), ['Gloss', 'Phase', 'Source', 'Junction']),
+  )
   await page.evaluate(() => (window.signweaveStage.transport.seek(29.4), window.signweaveStage.touch())) // both hands are up in both
   await drawn(page)
   for (const pane of [0, 1]) {

@@ -14,7 +14,6 @@
 namespace signweave::kv {
 namespace {
 
-using testing::Each;
 using testing::HasSubstr;
 using testing::Optional;
 

@@ -35,9 +35,6 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # What signweave-config.cmake looks for, and what the headers include.
 set(development_needs libeigen3-dev libfmt-dev liblmdb-dev libmeshoptimizer-dev libpugixml-dev libre2-dev libtinygltf-dev
                       libutf8proc-dev libxml2-dev libxxhash-dev pkgconf zlib1g-dev)
-if(SIGNWEAVE_FBX)
-  list(APPEND development_needs libassimp-dev)
-endif()
 if(SIGNWEAVE_BERKELEY)
   list(APPEND development_needs libdb5.3-dev)
 endif()

@@ -28,7 +28,7 @@ endif()
 # compiled once a batch. Files of one target must therefore not share private names. SIGNWEAVE_BATCHES=OFF compiles each by itself,
 # which is quicker where one file is changed again and again.
 function(signweave_batches target)
-  set(size 16)
+  set(size 40)
   if(ARGC GREATER 1)
     set(size ${ARGV1})
   endif()
@@ -89,6 +89,7 @@ function(signweave_tests name)
   add_executable(${name}_test ${tests} ${arg_SOURCES})
   target_link_libraries(${name}_test PRIVATE ${arg_LIBRARIES} signweave_test_flags)
   target_precompile_headers(${name}_test REUSE_FROM signweave_test_pch)
+  signweave_batches(${name}_test 10)
   add_dependencies(tests_${arg_LABEL} ${name}_test)
   if(SIGNWEAVE_SANITIZE)
     # Instrumented programs take long to start: each runs as a whole, in two halves.

@@ -8,14 +8,13 @@
 #include <numbers>
 
 #include "demo/corpus.h"
+#include "demo/test_rate.h"
 #include "signweave/motion/kinematics.h"
 
 namespace signweave::demo {
 namespace {
 
 using Eigen::Vector3f;
-
-constexpr FrameRate kRate{100, 1};
 
 TEST(KeepOut, PushesPointsOutOfABarAndLeavesOthersAlone) {
   const Capsule bars[] = {{.from = {0, 1, 0}, .to = {0, 1.4f, 0}, .radius = 0.1f}};

@@ -8,11 +8,10 @@
 #include <set>
 
 #include "demo/corpus.h"
+#include "demo/test_rate.h"
 
 namespace signweave::demo {
 namespace {
-
-constexpr FrameRate kRate{100, 1};
 
 TEST(Corpus, OfTwoMinutesIsMeteoAndVilles) {
   for (const double minutes : {0.0, 1.0, 2.0}) {

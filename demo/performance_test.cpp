@@ -10,14 +10,13 @@
 #include "demo/corpus.h"
 #include "demo/face.h"
 #include "demo/plan.h"
+#include "demo/test_rate.h"
 #include "signweave/motion/kinematics.h"
 
 namespace signweave::demo {
 namespace {
 
 using Eigen::Vector3f;
-
-constexpr FrameRate kRate{100, 1};
 
 Script short_script(std::vector<std::vector<std::string_view>> units) {
   return {.name = "short",

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "demo/corpus.h"
+#include "demo/test_rate.h"
 #include "signweave/formats/bvh.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/motion/kinematics.h"
@@ -21,8 +22,6 @@ namespace {
 
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-constexpr FrameRate kRate{100, 1};
 
 /// The two of the paper, and two of the others, which use the rest of the sign table.
 const SyntheticRecording& recording(const std::string& name) {

@@ -10,12 +10,11 @@
 #include <set>
 
 #include "demo/corpus.h"
+#include "demo/test_rate.h"
 #include "signweave/core/error.h"
 
 namespace signweave::demo {
 namespace {
-
-constexpr FrameRate kRate{100, 1};
 
 /// A recording without its motion.
 struct Made {

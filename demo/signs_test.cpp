@@ -9,6 +9,7 @@
 
 #include "demo/corpus.h"
 #include "demo/plan.h"
+#include "demo/test_rate.h"
 #include "signweave/core/error.h"
 #include "signweave/motion/kinematics.h"
 
@@ -16,8 +17,6 @@ namespace signweave::demo {
 namespace {
 
 using Eigen::Vector3f;
-
-constexpr FrameRate kRate{100, 1};
 
 TEST(SignTable, HasEveryGlossOnceAndEveryPlaceWithinReach) {
   std::set<std::string_view> seen;

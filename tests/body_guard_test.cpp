@@ -24,7 +24,7 @@ namespace {
 
 using testing_database::TestFolder;
 
-const Database& corpus() {
+const Database& guarded_corpus() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> database = demo_database(folder / "db", 4);
   return *database;
@@ -57,7 +57,7 @@ float deeper(const Depths& made, const Depths& left, const Depths& right) {
 
 TEST(BodyGuardOnTheDemo, NoMadeFrameIsDeeperThanFiveMillimetresInsideTheBody) {
   std::set<std::string> names;
-  for (const Sign& sign : main_signs_of(corpus().contents()->segments, 0)) {
+  for (const Sign& sign : main_signs_of(guarded_corpus().contents()->segments, 0)) {
     if (sign.stroke_span()) names.insert(sign.gloss);
   }
   const std::vector<std::string> glosses(names.begin(), names.end());
@@ -68,7 +68,7 @@ TEST(BodyGuardOnTheDemo, NoMadeFrameIsDeeperThanFiveMillimetresInsideTheBody) {
     for (int i = 0; i < 8; ++i) {
       asked.places.push_back({.gloss = {glosses[random() % glosses.size()], 0}, .recording = {}, .span = {}});
     }
-    const Synthesized made = synthesize(corpus(), asked);
+    const Synthesized made = synthesize(guarded_corpus(), asked);
     const Motion& motion = made.result.motion;
     const SignerModel signer = model_of(motion);
     ASSERT_TRUE(signer.body);
@@ -92,7 +92,7 @@ TEST(BodyGuardOnTheDemo, NoMadeFrameIsDeeperThanFiveMillimetresInsideTheBody) {
 }
 
 TEST(BodyGuard, LeadsAHandAroundTheBodyAndLeavesTheBordersAlone) {
-  const Motion motion = corpus().read(corpus().contents()->recordings.front().name);
+  const Motion motion = guarded_corpus().read(guarded_corpus().contents()->recordings.front().name);
   const SignerModel signer = model_of(motion);
   const JointGroups groups = joint_groups(motion.skeleton(), signer.rig);
   BodyGuard guard(motion.skeleton(), signer, groups);
@@ -180,7 +180,7 @@ TEST(BodyGuard, LeadsAHandAroundTheBodyAndLeavesTheBordersAlone) {
 }
 
 TEST(BodyGuard, WhereNothingIsTooDeepEveryBitStays) {
-  const Motion motion = corpus().read(corpus().contents()->recordings.front().name);
+  const Motion motion = guarded_corpus().read(guarded_corpus().contents()->recordings.front().name);
   const SignerModel signer = model_of(motion);
   const JointGroups groups = joint_groups(motion.skeleton(), signer.rig);
   BodyGuard guard(motion.skeleton(), signer, groups);

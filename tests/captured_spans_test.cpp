@@ -21,7 +21,7 @@ using testing_database::recording_of;
 using testing_database::TestFolder;
 
 /// The paper's two scenarios in a database, made once.
-const Database& corpus() {
+const Database& two_recordings_corpus() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> database = [] {
     const std::vector<demo::Script> scripts = {demo::meteo(), demo::villes()};
@@ -30,7 +30,7 @@ const Database& corpus() {
   return *database;
 }
 
-Synthesized sign(const Database& database, const char* utterance, const char* method) {
+Synthesized sign_with(const Database& database, const char* utterance, const char* method) {
   return synthesize(database, parse_utterance(utterance),
                     {.method = find_transition_method(method), .duration = {.fitted = false}});
 }
@@ -47,9 +47,9 @@ bool same_frames(const Motion& a, const Motion& b) {
 }
 
 TEST(CapturedSpans, AreTheAnnotatedTransitionsOfTheSkeleton) {
-  const Snapshot snapshot = corpus().snapshot();
-  const auto skeleton = corpus().skeleton("meteo");
-  const CapturedSpans captured = captured_spans(snapshot, *skeleton, groups_of(corpus(), "meteo"));
+  const Snapshot snapshot = two_recordings_corpus().snapshot();
+  const auto skeleton = two_recordings_corpus().skeleton("meteo");
+  const CapturedSpans captured = captured_spans(snapshot, *skeleton, groups_of(two_recordings_corpus(), "meteo"));
   EXPECT_EQ(captured.transitions, 32u + 21u);
   ASSERT_EQ(captured.model->libraries.size(), 1u);
   const std::vector<CapturedSpan>& spans = captured.model->libraries[0]->spans;
@@ -71,24 +71,26 @@ TEST(CapturedSpans, AreTheAnnotatedTransitionsOfTheSkeleton) {
 
 TEST(CapturedSpans, OfAnotherSkeletonThereAreNone) {
   const Motion other = testing_database::signing(10, 1);
-  const CapturedSpans captured =
-      captured_spans(corpus().snapshot(), other.skeleton(), joint_groups(other.skeleton(), map_rig(other)));
+  const CapturedSpans captured = captured_spans(two_recordings_corpus().snapshot(), other.skeleton(),
+                                                joint_groups(other.skeleton(), map_rig(other)));
   EXPECT_EQ(captured.transitions, 0u);
   EXPECT_TRUE(captured.model->libraries.empty());
 }
 
 TEST(RecordedMethod, GoesByTheCapturedTransitionsOfTheDatabase) {
   const char* const utterance = "VANNES PLUIE MATIN";
-  const Synthesized recorded = sign(corpus(), utterance, "recorded");
+  const Synthesized recorded = sign_with(two_recordings_corpus(), utterance, "recorded");
   EXPECT_EQ(recorded.captured_transitions, 53u);
   EXPECT_TRUE(recorded.result.notices.empty());
-  EXPECT_FALSE(same_frames(recorded.result.motion, sign(corpus(), utterance, "kriging").result.motion));
-  EXPECT_TRUE(same_frames(recorded.result.motion, sign(corpus(), utterance, "recorded").result.motion));
+  EXPECT_FALSE(
+      same_frames(recorded.result.motion, sign_with(two_recordings_corpus(), utterance, "kriging").result.motion));
+  EXPECT_TRUE(
+      same_frames(recorded.result.motion, sign_with(two_recordings_corpus(), utterance, "recorded").result.motion));
 }
 
 TEST(RecordedMethod, StrokesKeepTheirBits) {
-  const Synthesized recorded = sign(corpus(), "VANNES PLUIE MATIN", "recorded");
-  const Synthesized other = sign(corpus(), "VANNES PLUIE MATIN", "kriging");
+  const Synthesized recorded = sign_with(two_recordings_corpus(), "VANNES PLUIE MATIN", "recorded");
+  const Synthesized other = sign_with(two_recordings_corpus(), "VANNES PLUIE MATIN", "kriging");
   std::size_t compared = 0;
   for (const Placed& placed : recorded.result.stretches) {
     for (std::int64_t frame = placed.core.begin; frame < placed.core.end; ++frame, ++compared) {
@@ -104,10 +106,11 @@ TEST(RecordedMethod, StrokesKeepTheirBits) {
 
 TEST(RecordedMethod, OtherMethodsAskForNone) {
   for (const TransitionMethod& method : transition_methods()) {
-    const Synthesized made = sign(corpus(), "VANNES PLUIE", std::string(method.name).c_str());
+    const Synthesized made = sign_with(two_recordings_corpus(), "VANNES PLUIE", std::string(method.name).c_str());
     EXPECT_EQ(made.captured_transitions.has_value(), method.name == "recorded") << method.name;
   }
-  EXPECT_FALSE(sign(corpus(), "VANNES", "recorded").captured_transitions.has_value());  // nothing to be made
+  EXPECT_FALSE(
+      sign_with(two_recordings_corpus(), "VANNES", "recorded").captured_transitions.has_value());  // nothing to be made
 }
 
 TEST(RecordedMethod, WithoutAnnotatedTransitionsItMakesTheLikeliestWayAndSaysSo) {
@@ -122,12 +125,12 @@ TEST(RecordedMethod, WithoutAnnotatedTransitionsItMakesTheLikeliestWayAndSaysSo)
   }
   recording.annotation->document.source.clear();
   database.put(recording);
-  const Synthesized recorded = sign(database, "C A", "recorded");
+  const Synthesized recorded = sign_with(database, "C A", "recorded");
   EXPECT_EQ(recorded.captured_transitions, 0u);
   std::vector<std::string> notices;
   for (const Notice& notice : recorded.result.notices) notices.push_back(notice.text);
   EXPECT_THAT(notices, testing::Contains(testing::HasSubstr("no annotated transition of this skeleton")));
-  EXPECT_TRUE(same_frames(recorded.result.motion, sign(database, "C A", "kriging").result.motion));
+  EXPECT_TRUE(same_frames(recorded.result.motion, sign_with(database, "C A", "kriging").result.motion));
 }
 
 }  // namespace

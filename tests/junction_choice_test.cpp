@@ -14,14 +14,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing_database::TestFolder;
 
-const Database& corpus() {
+const Database& two_minutes_corpus() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> database = demo_database(folder / "db", 2);
   return *database;
 }
 
 Synthesized sign(const char* utterance, const SynthesisOptions& options) {
-  return synthesize(corpus(), parse_utterance(utterance), options);
+  return synthesize(two_minutes_corpus(), parse_utterance(utterance), options);
 }
 
 std::string fault_of(const char* utterance, const JunctionChoices& junctions) {
@@ -107,12 +107,12 @@ TEST(Junctions, OfAnEditAreCountedBetweenItsParts) {
   Edit edit;
   edit.replacements.push_back(parse_replacement("BRETAGNE=VANNES"));
   const SynthesisOptions options{.junctions = {{2, {.method = find_transition_method("gap"), .duration = 400ms}}}};
-  const Synthesized made = synthesize(corpus(), "meteo", edit, options);
+  const Synthesized made = synthesize(two_minutes_corpus(), "meteo", edit, options);
   ASSERT_THAT(numbers_of(made), ElementsAre(1, 2));
   EXPECT_EQ(made.result.junctions[1].from, "VANNES");
   EXPECT_EQ(made.result.junctions[1].method, "gap");
   EXPECT_EQ(made.result.junctions[1].frames.size(), 40);
-  const Synthesized plain = synthesize(corpus(), "meteo", edit);
+  const Synthesized plain = synthesize(two_minutes_corpus(), "meteo", edit);
   EXPECT_EQ(made.result.junctions[0].frames, plain.result.junctions[0].frames);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using testing_database::TestFolder;
 
-const Database& corpus() {
+const Database& six_minutes_corpus() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> database = demo_database(folder / "db", 6);
   return *database;
@@ -34,8 +34,8 @@ using Profile = std::vector<std::vector<double>>;
 class Moving {
  public:
   explicit Moving(const std::string& name)
-      : info_(*corpus().info(name)),
-        motion_(corpus().read(name)),
+      : info_(*six_minutes_corpus().info(name)),
+        motion_(six_minutes_corpus().read(name)),
         model_(model_of(motion_, info_.rig)),
         trace_(trace_hands(motion_, model_)) {}
 
@@ -109,26 +109,26 @@ double distance_between(const Profile& a, const Profile& b) {
   return std::sqrt(least[kMoments][kMoments] / (kMoments * points));
 }
 
-struct Candidate {
+struct NearStretch {
   double distance = 0;
   RowId row = 0;
 };
 
 /// All candidates, the nearest first.
 template <typename Wanted>
-std::vector<Candidate> compared(const Example& example, Wanted&& wanted) {
-  const std::shared_ptr<const Contents> contents = corpus().contents();
+std::vector<NearStretch> compared(const Example& example, Wanted&& wanted) {
+  const std::shared_ptr<const Contents> contents = six_minutes_corpus().contents();
   const Segments& segments = contents->segments;
   const std::vector<Point> points =
       example.points.empty() ? std::vector<Point>{Point::palm(Side::right), Point::palm(Side::left)} : example.points;
   const Profile asked = moving(example.recording).profile(example.span, points);
-  std::vector<Candidate> all;
+  std::vector<NearStretch> all;
   for (RowId row = 0; row < segments.row_count(); ++row) {
     if (!wanted(segments, row)) continue;
     const std::string name(segments.recording_name(segments.recording(row)));
     all.push_back({distance_between(asked, moving(name).profile(segments.span(row), points)), row});
   }
-  std::ranges::sort(all, {}, &Candidate::distance);
+  std::ranges::sort(all, {}, &NearStretch::distance);
   return all;
 }
 
@@ -139,12 +139,12 @@ void expect_nearest(const std::string& query, std::optional<std::size_t> limit, 
                     const auto& wanted) {
   SCOPED_TRACE(query);
   const PhaseQuery parsed = parse(query);
-  const std::vector<Segment> found = corpus().find(parsed, {.limit = limit});
-  const std::vector<Candidate> all = compared(example_at(parsed, 0), wanted);
+  const std::vector<Segment> found = six_minutes_corpus().find(parsed, {.limit = limit});
+  const std::vector<NearStretch> all = compared(example_at(parsed, 0), wanted);
   ASSERT_GE(all.size(), at_least);
   ASSERT_EQ(found.size(), std::min(limit.value_or(kNearest), all.size()));
   std::map<RowId, double> distances;
-  for (const Candidate& each : all) distances[each.row] = each.distance;
+  for (const NearStretch& each : all) distances[each.row] = each.distance;
   EXPECT_LT(all.front().distance, 0.5 * all[all.size() / 2].distance) << "all are alike: this shows nothing";
   for (std::size_t i = 0; i < found.size(); ++i) {
     ASSERT_TRUE(distances.contains(found[i].row)) << i << ": " << found[i].name;
@@ -165,7 +165,7 @@ bool any_stroke(const Segments& segments, RowId row) {
 
 /// Some signs of the corpus, far from each other in it.
 std::vector<std::string> examples(bool strokes) {
-  const std::shared_ptr<const Contents> contents = corpus().contents();
+  const std::shared_ptr<const Contents> contents = six_minutes_corpus().contents();
   const Segments& segments = contents->segments;
   std::vector<RowId> rows;
   for (RowId row = 0; row < segments.row_count(); ++row) {

@@ -21,7 +21,7 @@ namespace {
 using testing_database::TestFolder;
 
 /// The demo corpus in a database, made once.
-const Database& corpus() {
+const Database& edited_corpus() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> database = demo_database(folder / "db", 2);
   return *database;
@@ -30,7 +30,7 @@ const Database& corpus() {
 class Scenario : public testing::TestWithParam<std::string> {
  protected:
   Synthesized edit(const Edit& what) const {
-    return synthesize(corpus(), "meteo", what,
+    return synthesize(edited_corpus(), "meteo", what,
                       {.method = find_transition_method(GetParam()), .duration = {.fitted = false}});
   }
 };
@@ -43,7 +43,7 @@ std::vector<std::string> glosses_of(const Synthesis& made) {
 
 std::vector<std::string> glosses_of_meteo() {
   std::vector<std::string> glosses;
-  const AnnotationDocument document = corpus().document("meteo");
+  const AnnotationDocument document = edited_corpus().document("meteo");
   for (const Annotation& annotation : document.find_tier("Gloss")->annotations) glosses.push_back(annotation.label);
   return glosses;
 }
@@ -66,7 +66,7 @@ Edit scenario_2() {
 void expect_captured_frames_are_kept(const Synthesis& made) {
   std::map<std::string, Motion> sources;
   for (const Placed& placed : made.stretches) {
-    if (!sources.contains(placed.recording)) sources.emplace(placed.recording, corpus().read(placed.recording));
+    if (!sources.contains(placed.recording)) sources.emplace(placed.recording, edited_corpus().read(placed.recording));
   }
   std::size_t kept = 0;
   for (std::int64_t frame = 0; frame < made.motion.frame_count(); ++frame) {
@@ -140,7 +140,7 @@ TEST_P(Scenario, TwoSwapsTwoPredictionsWithThreeJunctions) {
 
 TEST_P(Scenario, TransitionsLastTheMeanOfTheCorpus) {
   const Synthesized made = edit(scenario_1());
-  const auto mean = corpus().contents()->transitions.mean.count();
+  const auto mean = edited_corpus().contents()->transitions.mean.count();
   for (const Junction& junction : made.result.junctions) {
     EXPECT_NEAR(static_cast<double>(junction.frames.size()) * 10.0, static_cast<double>(mean), 5.0);
   }
@@ -161,7 +161,7 @@ TEST_P(Scenario, WhatElanShowsIsConsistent) {
 
 TEST_P(Scenario, UneditedStretchesStayAsCaptured) {
   const Synthesized made = edit(scenario_1());
-  const Motion meteo = corpus().read("meteo");
+  const Motion meteo = edited_corpus().read("meteo");
   const Placed& first = made.result.stretches.front();
   for (std::int64_t frame = 0; frame < first.core.end; ++frame) {
     for (std::size_t joint = 0; joint < meteo.skeleton().joint_count(); ++joint) {  // the root too: nothing is aligned
@@ -218,15 +218,15 @@ TEST(Seams, VelocityGoesOnWhereMadeFramesMeetCapturedOnes) {
   constexpr std::int64_t kNear = 10;
   const Utterance utterance = parse_utterance("VANNES MATIN PLUIE FRANCE NUAGES SOLEIL-BRILLER DEMAIN BONJOUR RENNES");
   std::map<std::string, std::array<std::vector<Eigen::Vector3f>, 2>> captured;
-  const std::shared_ptr<const Contents> contents = corpus().contents();
+  const std::shared_ptr<const Contents> contents = edited_corpus().contents();
   for (const RecordingInfo& info : contents->recordings) {
-    captured.emplace(info.name, wrists_of(corpus().read(info.name)));
+    captured.emplace(info.name, wrists_of(edited_corpus().read(info.name)));
   }
   // Those that go on with the velocity at the border as it is, the default among them; others damp it, take it from
   // farther back, or bend away from the border at once.
   for (const char* name : {"learned", "kriging", "inertialize"}) {
     const TransitionMethod method{name, "", nullptr, find_gap_method(name)};
-    const Synthesis made = synthesize(corpus(), utterance, {.method = &method}).result;
+    const Synthesis made = synthesize(edited_corpus(), utterance, {.method = &method}).result;
     const auto wrists = wrists_of(made.motion);
     double worst = 0;
     std::size_t seams = 0;
@@ -259,7 +259,8 @@ TEST(Seams, VelocityGoesOnWhereMadeFramesMeetCapturedOnes) {
 
 /// A full stop is stillness, not a slower way: each hand that does not go to rest and back stands still for most of it.
 TEST(Pauses, AreStillness) {
-  const Synthesis made = synthesize(corpus(), parse_utterance("RENNES . METEO . HIER . VANNES . MATIN . PLUIE")).result;
+  const Synthesis made =
+      synthesize(edited_corpus(), parse_utterance("RENNES . METEO . HIER . VANNES . MATIN . PLUIE")).result;
   const auto wrists = wrists_of(made.motion);
   const double hertz = made.motion.rate().hertz();
   int looked_at = 0;
@@ -284,14 +285,14 @@ TEST(Pauses, AreStillness) {
 }
 
 TEST(Utterances, NeighboursKeepTheirRecordedTransition) {
-  const Synthesized made = synthesize(corpus(), parse_utterance("NUAGES#1 APRES-MIDI PLUIE"));
+  const Synthesized made = synthesize(edited_corpus(), parse_utterance("NUAGES#1 APRES-MIDI PLUIE"));
   EXPECT_EQ(made.result.junctions.size(), 0u);
   EXPECT_EQ(made.result.signs.size(), 3u);
 }
 
 TEST(Utterances, AnUnknownGlossNamesNearOnes) {
   try {
-    synthesize(corpus(), parse_utterance("VANES"));
+    synthesize(edited_corpus(), parse_utterance("VANES"));
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("no sign 'VANES' in this database; did you mean VANNES or NANTES?"));
@@ -300,7 +301,7 @@ TEST(Utterances, AnUnknownGlossNamesNearOnes) {
 
 TEST(Utterances, ATokenBeyondTheLastSaysHowManyThereAre) {
   try {
-    synthesize(corpus(), parse_utterance("VANNES#99"));
+    synthesize(edited_corpus(), parse_utterance("VANNES#99"));
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(),
@@ -312,7 +313,7 @@ TEST(Edits, AGlossThatOccursTwiceNeedsANumber) {
   Edit edit;
   edit.replacements.push_back(parse_replacement("MATIN=VANNES"));
   try {
-    synthesize(corpus(), "meteo", edit);
+    synthesize(edited_corpus(), "meteo", edit);
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(),
@@ -323,10 +324,10 @@ TEST(Edits, AGlossThatOccursTwiceNeedsANumber) {
 TEST(Edits, ReplacingTheFirstSignKeepsTheRecordingWhereItStands) {
   Edit edit;
   edit.replacements.push_back(parse_replacement("BONJOUR=VANNES"));
-  const Synthesized made = synthesize(corpus(), "meteo", edit);
+  const Synthesized made = synthesize(edited_corpus(), "meteo", edit);
   EXPECT_EQ(made.layout_from, "meteo");
   EXPECT_EQ(made.result.junctions.size(), 2u);  // what lies before the first sign stays
-  const Motion meteo = corpus().read("meteo");
+  const Motion meteo = edited_corpus().read("meteo");
   EXPECT_EQ(made.result.motion.pose(0).translations[0], meteo.pose(0).translations[0]);
   const std::int64_t last = made.result.motion.frame_count() - 1;
   EXPECT_EQ(made.result.motion.pose(last).translations[0], meteo.pose(meteo.frame_count() - 1).translations[0]);
@@ -371,7 +372,7 @@ TEST(Edits, SignsWithoutStrokeAtTheRecordingsEndsStay) {
 TEST(Edits, RunsThatShareSignsCannotBeSwapped) {
   Edit edit;
   edit.swap = parse_swap("BRETAGNE..PLUIE,NUAGES#1..DEMAIN");
-  EXPECT_THROW(synthesize(corpus(), "meteo", edit), Error);
+  EXPECT_THROW(synthesize(edited_corpus(), "meteo", edit), Error);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using testing_database::small_recording;
 using testing_database::TestFolder;
 
 /// The demo corpus in a database, made once.
-const Database& corpus() {
+const Database& selected_from_corpus() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> database = demo_database(folder / "db", 6);
   return *database;
@@ -36,14 +36,14 @@ std::size_t chosen_token(const Selection& selection, const std::vector<Choice>& 
 }
 
 TEST(SelectionOnTheDemo, RecordedNeighboursWinByTheirTermsAlone) {
-  const JoinWeights weights = corpus().snapshot().join_weights();
+  const JoinWeights weights = selected_from_corpus().snapshot().join_weights();
   RecordProperty("wins", std::to_string(weights.wins));
   EXPECT_GT(weights.pairs, 50u);
   EXPECT_GT(weights.wins, 0.52f);  // its tokens are nearly alike, so that little tells them apart
 }
 
 TEST(SelectionOnTheDemo, RecordedNeighboursStayTogether) {
-  const Snapshot snapshot = corpus().snapshot();
+  const Snapshot snapshot = selected_from_corpus().snapshot();
   // Every run of three signs of a recording, asked for by gloss: what was recorded so is there again.
   const std::vector<Sign> signs = main_signs_of(snapshot.contents().segments, 0);
   for (std::size_t i = 0; i + 2 < signs.size(); ++i) {
@@ -65,7 +65,7 @@ TEST(SelectionOnTheDemo, RecordedNeighboursStayTogether) {
 }
 
 TEST(SelectionOnTheDemo, WhatIsExplainedIsWhatWasChosenBy) {
-  const Snapshot snapshot = corpus().snapshot();
+  const Snapshot snapshot = selected_from_corpus().snapshot();
   const std::vector<Choice> choices = choices_of(snapshot, "VANNES MATIN NUAGES#1 APRES-MIDI , PLUIE NUIT VANNES");
   const Selection selection = select(snapshot, choices, {.explain = true});
   const Selection silent = select(snapshot, choices);
@@ -85,7 +85,7 @@ TEST(SelectionOnTheDemo, WhatIsExplainedIsWhatWasChosenBy) {
 }
 
 TEST(SelectionOnTheDemo, PlacesThatArriveOneByOneAreChosenAlike) {
-  const Snapshot snapshot = corpus().snapshot();
+  const Snapshot snapshot = selected_from_corpus().snapshot();
   const std::vector<Choice> choices = choices_of(snapshot, "VANNES MATIN NUAGES APRES-MIDI PLUIE NUIT VANNES MATIN");
   const Selection whole = select(snapshot, choices);
   Selector selector(snapshot, {});
@@ -96,7 +96,7 @@ TEST(SelectionOnTheDemo, PlacesThatArriveOneByOneAreChosenAlike) {
 }
 
 TEST(SelectionOnTheDemo, ATokenThatWasAskedForIsTaken) {
-  const Snapshot snapshot = corpus().snapshot();
+  const Snapshot snapshot = selected_from_corpus().snapshot();
   const std::size_t tokens = tokens_of(snapshot.contents(), "VANNES").size();
   ASSERT_GT(tokens, 1u);
   for (std::size_t token = 1; token <= tokens; ++token) {

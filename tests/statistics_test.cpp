@@ -13,7 +13,7 @@
 namespace signweave {
 namespace {
 
-constexpr FrameRate kRate{100, 1};
+constexpr FrameRate kStatedRate{100, 1};
 
 std::vector<Sign> signs_of_document(const AnnotationDocument& document) {
   return signs_in(document, guess_tier_names(document)).signs;
@@ -23,7 +23,7 @@ TEST(Statistics, RecoverTheDurationsThatTheSignerWasTold) {
   std::size_t recordings = 0;
   for (const demo::Script& script : demo::corpus_scripts(44)) {
     SCOPED_TRACE(script.name);
-    const demo::Timeline timeline = demo::timeline_of(script, kRate, 1);
+    const demo::Timeline timeline = demo::timeline_of(script, kStatedRate, 1);
     const std::vector<Sign> signs = signs_of_document(demo::annotation_of(script, timeline));
     const Distribution of = describe(recorded_transitions(script.name, signs)).whole.duration;
     const auto asked = static_cast<double>(script.transition_mean.count());
@@ -41,7 +41,7 @@ TEST(Statistics, RecoverTheDurationsThatTheSignerWasTold) {
 TEST(Statistics, PartsAreThoseOfTheTruth) {
   for (const demo::Script& script : {demo::meteo(), demo::villes()}) {
     SCOPED_TRACE(script.name);
-    const demo::SyntheticRecording recording = demo::make_recording(script, kRate, 1);
+    const demo::SyntheticRecording recording = demo::make_recording(script, kStatedRate, 1);
     struct Span {
       double begin, end;
       auto operator<=>(const Span&) const = default;

@@ -67,7 +67,7 @@ BodyMapping mapping_between(const Database& database, const std::string& from, c
   return map_body(body(from), body(to));
 }
 
-SignerModel model_in(const Database& database, const std::string& recording) {
+SignerModel model_of_recording(const Database& database, const std::string& recording) {
   const Snapshot snapshot = database.snapshot();
   return body_of(snapshot.contents(), recording, *snapshot.motion(snapshot.contents().at(recording))).signer;
 }
@@ -122,8 +122,8 @@ TEST(TwoSkeletons, HandsOfTheOtherPointAsTheyDid) {
                                         {.alignment = Alignment::none});
     ASSERT_EQ(made.layout_from, first);
     const Motion captured = two_rigs().read(other);
-    const SignerModel there = model_in(two_rigs(), other);
-    const SignerModel here = model_in(two_rigs(), first);
+    const SignerModel there = model_of_recording(two_rigs(), other);
+    const SignerModel here = model_of_recording(two_rigs(), first);
     const BodyMapping mapping = mapping_between(two_rigs(), other, first);
     const float ratio = BodyMapper(mapping).retargeter().unit_ratio();
     struct {
@@ -166,7 +166,7 @@ TEST(TwoSkeletons, HandsOfTheOtherPointAsTheyDid) {
 
 TEST(TwoSkeletons, TheSignerStaysWhereItStands) {
   const Synthesized made = synthesize(two_rigs(), parse_utterance(kUtterance));
-  const SignerModel signer = model_in(two_rigs(), "meteo");
+  const SignerModel signer = model_of_recording(two_rigs(), "meteo");
   const Motion& motion = made.result.motion;
   float lowest = 1e9f;
   float highest = -1e9f;
@@ -284,7 +284,7 @@ TEST(TwoSkeletons, AMotionBelowAStillRootIsWrittenAsThatSignerHasIt) {
   const Synthesized made = synthesize(*database, parse_utterance("VANNES BONJOUR RENNES PLUIE"));
   ASSERT_EQ(made.layout_from, "villes");
   const Motion& motion = made.result.motion;
-  const SignerModel signer = model_in(*database, "villes");
+  const SignerModel signer = model_of_recording(*database, "villes");
   const SignerSpace first = signer_space(*signer.body, signer.rig, to_model_space(motion.skeleton(), motion.pose(0)));
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
     ASSERT_LT(motion.pose(frame).rotations[0].angularDistance(Eigen::Quaternionf::Identity()), 1e-3f);

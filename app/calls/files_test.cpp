@@ -31,7 +31,7 @@ Motion smiling() {
 }
 
 /// What is thrown; empty where nothing is.
-std::string fault_of(const std::function<void()>& call) {
+std::string fault_from(const std::function<void()>& call) {
   try {
     call();
   } catch (const Error& error) {
@@ -73,17 +73,17 @@ TEST(WrittenFiles, OfNoOtherEndingAreWritten) {
   const TestFolder folder;
   for (const std::string ending : {".fbx", ".amc", ".asf", ".anvil", ".mp4", ".frames", ".truth"}) {
     const std::string wrong = "'" + ending + "' cannot be written here; use " + kEndings;
-    EXPECT_EQ(fault_of([&] { recording_text(ending, outgoing, "one"); }), "one: " + wrong);
-    EXPECT_THAT(fault_of([&] { synthesis_text(ending, made, {}, ""); }), HasSubstr(wrong));
+    EXPECT_EQ(fault_from([&] { recording_text(ending, outgoing, "one"); }), "one: " + wrong);
+    EXPECT_THAT(fault_from([&] { synthesis_text(ending, made, {}, ""); }), HasSubstr(wrong));
     const std::string path = folder / ("one" + ending);
-    EXPECT_EQ(fault_of([&] { write_recording(path, outgoing); }), path + ": " + wrong);
+    EXPECT_EQ(fault_from([&] { write_recording(path, outgoing); }), path + ": " + wrong);
     // Nothing else is written either.
     const std::string good = folder / "good.bvh";
-    EXPECT_EQ(fault_of([&] { write_synthesis({good, path}, made, {}); }), path + ": " + wrong);
+    EXPECT_EQ(fault_from([&] { write_synthesis({good, path}, made, {}); }), path + ": " + wrong);
     EXPECT_FALSE(fs::exists(path) || fs::exists(good)) << ending;
   }
   const std::string path = folder / "one";
-  EXPECT_EQ(fault_of([&] { write_recording(path, outgoing); }), path + ": has no ending; use " + kEndings);
+  EXPECT_EQ(fault_from([&] { write_recording(path, outgoing); }), path + ": has no ending; use " + kEndings);
   EXPECT_FALSE(fs::exists(path));
 }
 

@@ -65,7 +65,7 @@ Exported exported(ExportCall call, const std::string& output = "out.bvh") {
   return run(database(), call, {output});
 }
 
-std::string fault_of(const ExportCall& call, const std::string& output = "out.bvh") {
+std::string export_fault(const ExportCall& call, const std::string& output = "out.bvh") {
   try {
     exported(call, output);
   } catch (const Error& error) {
@@ -264,20 +264,22 @@ TEST(RemakeOf, FaultsAreToldInOneLine) {
   EXPECT_THAT(check_span("1800..1200"), HasSubstr("FROM must be before TO"));
   EXPECT_THAT(check_span("1800..1800"), HasSubstr("FROM must be before TO"));
 
-  EXPECT_EQ(fault_of({.remake = {"1501..1504"}}), "--remake 1501..1504: no frame lies in it");
+  EXPECT_EQ(export_fault({.remake = {"1501..1504"}}), "--remake 1501..1504: no frame lies in it");
   for (const char* span : {"500..900", "520..900", "3000..3480", "3000..9000", "-9000..9000", "9000..9100"}) {
-    EXPECT_THAT(fault_of({.remake = {span}}), HasSubstr("3 captured frames must lie on both sides of it, and what is "
-                                                        "exported covers 500..3500 ms"))
+    EXPECT_THAT(export_fault({.remake = {span}}),
+                HasSubstr("3 captured frames must lie on both sides of it, and what is "
+                          "exported covers 500..3500 ms"))
         << span;
   }
-  EXPECT_EQ(fault_of({.remake = {"530..900"}}), "no fault");
-  EXPECT_THAT(fault_of({.from = 1000, .to = 1900, .remake = {"1500..1890"}}), HasSubstr("covers 1000..1900 ms"));
+  EXPECT_EQ(export_fault({.remake = {"530..900"}}), "no fault");
+  EXPECT_THAT(export_fault({.from = 1000, .to = 1900, .remake = {"1500..1890"}}), HasSubstr("covers 1000..1900 ms"));
   for (const char* second : {"1700..2000", "1900..2000", "1920..2000", "1500..1900"}) {
-    EXPECT_THAT(fault_of({.remake = {"1500..1900", second}}), HasSubstr("between it and the span before")) << second;
+    EXPECT_THAT(export_fault({.remake = {"1500..1900", second}}), HasSubstr("between it and the span before"))
+        << second;
   }
-  EXPECT_EQ(fault_of({.remake = {"1500..1900", "1930..2000"}}), "no fault");
-  EXPECT_THAT(fault_of({.transition = "sine"}), HasSubstr("--transition says how --remake makes"));
-  EXPECT_THAT(fault_of({.remake = {"1500..1900"}}, "out.eaf"), HasSubstr("ask for a file of motion"));
+  EXPECT_EQ(export_fault({.remake = {"1500..1900", "1930..2000"}}), "no fault");
+  EXPECT_THAT(export_fault({.transition = "sine"}), HasSubstr("--transition says how --remake makes"));
+  EXPECT_THAT(export_fault({.remake = {"1500..1900"}}, "out.eaf"), HasSubstr("ask for a file of motion"));
 }
 
 }  // namespace

@@ -243,7 +243,7 @@ calls::Characters characters_of(const RenderArguments& given) {
 }
 
 /// What would have no effect is told, not passed over.
-void check(const RenderArguments& given) {
+void check_options(const RenderArguments& given) {
   const Drawn& drawn = given.drawn;
   if (drawn.utterance.empty() == drawn.recording.empty()) {
     throw CLI::RequiredError("either UTTERANCE or --recording");
@@ -267,7 +267,7 @@ void check(const RenderArguments& given) {
 }
 
 void run_render(const RenderArguments& given, Io& io) {
-  check(given);
+  check_options(given);
   if (!fs::is_regular_file(fs::path(given.studio) / "render.html")) {
     throw Error(ErrorCode::not_found,
                 fmt::format("{}: no built studio in this folder (render.html); build it with studio/build FOLDER",

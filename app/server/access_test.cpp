@@ -60,7 +60,7 @@ TEST(Access, AnOriginIsTheServersOwnOrAllowed) {
   }
 }
 
-struct Case {
+struct AccessCase {
   RequestHead head;
   int status;  // 0: it goes on
 };
@@ -74,7 +74,7 @@ TEST(Decision, OfHeaders) {
     return decision.reply ? decision.reply->status : 0;
   };
   const std::string long_target = "/" + std::string(9'000, 'a');
-  const Case cases[] = {
+  const AccessCase cases[] = {
       {{.method = "GET", .target = "/api/databases", .host = "localhost"}, 0},
       {{.method = "GET", .target = "/", .host = "localhost"}, 200},
       {{.method = "GET", .target = "/other", .host = "localhost"}, 404},
@@ -102,13 +102,13 @@ TEST(Decision, OfHeaders) {
         .upgrade = true},
        403},
   };
-  for (const Case& one : cases) {
+  for (const AccessCase& one : cases) {
     EXPECT_EQ(status_of(one.head, open), one.status)
         << one.head.method << ' ' << one.head.target.substr(0, 40) << ' ' << one.head.host << ' ' << one.head.origin;
   }
   const std::string in_query = "/api/stream?token=" + kToken;
   const std::string call_in_query = "/api/databases?token=" + kToken;
-  const Case with_token[] = {
+  const AccessCase with_token[] = {
       {{.method = "GET", .target = "/api/databases", .host = "a"}, 401},
       {{.method = "GET", .target = "/api/databases", .host = "a", .authorization = bearer}, 0},
       {{.method = "GET", .target = "/metrics", .host = "a"}, 401},
@@ -118,7 +118,7 @@ TEST(Decision, OfHeaders) {
       {{.method = "GET", .target = in_query, .host = "a", .upgrade = true}, 0},
       {{.method = "GET", .target = call_in_query, .host = "a"}, 401},
   };
-  for (const Case& one : with_token) {
+  for (const AccessCase& one : with_token) {
     EXPECT_EQ(status_of(one.head, closed), one.status) << one.head.target;
   }
 }

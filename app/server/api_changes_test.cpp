@@ -15,12 +15,6 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-Path at(Path rest) {
-  Path path = {"databases", "demo"};
-  path.insert(path.end(), rest.begin(), rest.end());
-  return path;
-}
-
 /// A recording that the databases of the tests do not hold.
 const demo::SyntheticRecording& another() {
   static const demo::SyntheticRecording made = demo::make_recording(demo::corpus_scripts(2).front(), {50, 1}, 7);

@@ -18,12 +18,6 @@ TestApi& reading() {
   return api;
 }
 
-Path at(Path rest) {
-  Path path = {"databases", "demo"};
-  path.insert(path.end(), rest.begin(), rest.end());
-  return path;
-}
-
 TEST(Api, ListsTheDatabasesThatAreServed) {
   const json list = json_in(reading().get({"databases"}))["databases"];
   ASSERT_EQ(list.size(), 1u);

@@ -81,7 +81,7 @@ std::shared_ptr<const Skeleton> person_on_feet() {
   return std::make_shared<const Skeleton>(std::move(joints), std::vector(person->tips().begin(), person->tips().end()));
 }
 
-TestApi& reading() {
+TestApi& with_character() {
   static TestApi api(false);
   static const bool once = [] {
     api.served().characters = calls::Characters(made_character());
@@ -91,16 +91,10 @@ TestApi& reading() {
   return api;
 }
 
-Path at(Path rest) {
-  Path path = {"databases", "demo"};
-  path.insert(path.end(), rest.begin(), rest.end());
-  return path;
-}
-
 TEST(FramesAnswer, HasTheMotionOfTheDatabase) {
-  const Frames got = frames_in(
-      reading().get(at({"recordings", "villes", "motion"}), {{"format", "frames"}, {"from", "1000"}, {"to", "9000"}}));
-  const Motion motion = reading().database().read("villes", {100, 900});
+  const Frames got = frames_in(with_character().get(at({"recordings", "villes", "motion"}),
+                                                    {{"format", "frames"}, {"from", "1000"}, {"to", "9000"}}));
+  const Motion motion = with_character().database().read("villes", {100, 900});
   ASSERT_EQ(got.poses.size(), 800u) << "more than one message";
   EXPECT_EQ(got.head["origin_ms"], 1000.0);
   EXPECT_EQ(got.head["recording"], "villes");
@@ -124,7 +118,7 @@ TEST(FramesAnswer, TellsWhatWasMadeAgain) {
   const auto part = [&](std::map<std::string, std::string> more) {
     std::map<std::string, std::string> query = {{"format", "frames"}, {"from", "28000"}, {"to", "31000"}};
     query.merge(more);
-    return frames_in(reading().get(at({"recordings", "meteo", "motion"}), std::move(query)));
+    return frames_in(with_character().get(at({"recordings", "meteo", "motion"}), std::move(query)));
   };
   const Frames plain = part({});
   for (const TransitionMethod& method : transition_methods()) {
@@ -151,33 +145,33 @@ TEST(FramesAnswer, TellsWhatWasMadeAgain) {
 
 TEST(FramesAnswer, TellsOfWhatWasMadeHowItWasMade) {
   const json sign = {{"utterance", "VANNES MATIN"}, {"format", "frames"}};
-  const Frames got = frames_in(reading().send("POST", at({"sign"}), sign));
+  const Frames got = frames_in(with_character().send("POST", at({"sign"}), sign));
   EXPECT_EQ(got.head["report"]["signs"].size(), 2u);
   EXPECT_EQ(got.head["report"]["frames"], got.poses.size());
   EXPECT_EQ(got.head["origin_ms"], 0.0);
 }
 
 TEST(Characters, AreListedAndAMissingOneIsNamed) {
-  const json list = json_in(reading().get({"characters"}))["characters"];
+  const json list = json_in(with_character().get({"characters"}))["characters"];
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0]["name"], "woman");
   const auto ask = [&](const char* name) {
-    return fault_of(reading().get(at({"recordings", "villes", "motion"}), {{"character", name}}));
+    return fault_of(with_character().get(at({"recordings", "villes", "motion"}), {{"character", name}}));
   };
   EXPECT_EQ(ask("womam"), "404 not_found: no character 'womam'; did you mean woman?");
-  EXPECT_THAT(fault_of(reading().get({"characters", "man"})), StartsWith("404 not_found: no character 'man'"));
+  EXPECT_THAT(fault_of(with_character().get({"characters", "man"})), StartsWith("404 not_found: no character 'man'"));
 }
 
 TEST(Characters, MotionsComeInTheirJoints) {
   const std::string last_joint = whole_person()->joints().back().name;
-  const auto whole =
-      frames_in(reading().get(at({"recordings", "villes", "motion"}), {{"format", "frames"}, {"character", "woman"}}));
+  const auto whole = frames_in(
+      with_character().get(at({"recordings", "villes", "motion"}), {{"format", "frames"}, {"character", "woman"}}));
   EXPECT_EQ(whole.head["character"], "woman");
   EXPECT_EQ(whole.head["joints"].back()["name"], last_joint);
   // A part of a recording is put onto the character as the whole is.
   const auto part =
-      frames_in(reading().get(at({"recordings", "villes", "motion"}),
-                              {{"format", "frames"}, {"character", "woman"}, {"from", "3000"}, {"to", "3100"}}));
+      frames_in(with_character().get(at({"recordings", "villes", "motion"}),
+                                     {{"format", "frames"}, {"character", "woman"}, {"from", "3000"}, {"to", "3100"}}));
   ASSERT_EQ(part.poses.size(), 10u);
   for (std::size_t i = 0; i < part.poses.size(); ++i) {
     for (std::size_t joint = 0; joint < part.poses[i].rotations.size(); ++joint) {
@@ -185,12 +179,14 @@ TEST(Characters, MotionsComeInTheirJoints) {
     }
     ASSERT_EQ(part.poses[i].translations[0], whole.poses[300 + i].translations[0]);
   }
-  const auto signed_frames = frames_in(reading().send(
+  const auto signed_frames = frames_in(with_character().send(
       "POST", at({"sign"}), {{"utterance", "VANNES MATIN"}, {"format", "frames"}, {"character", "woman"}}));
   EXPECT_EQ(signed_frames.head["joints"].back()["name"], last_joint);
   EXPECT_EQ(signed_frames.head["report"]["signs"].size(), 2u);
   const std::string bvh =
-      reading().send("POST", at({"sign"}), {{"utterance", "VANNES"}, {"character", "woman"}, {"format", "bvh"}}).body;
+      with_character()
+          .send("POST", at({"sign"}), {{"utterance", "VANNES"}, {"character", "woman"}, {"format", "bvh"}})
+          .body;
   EXPECT_THAT(bvh, HasSubstr("JOINT " + last_joint));
 }
 

@@ -12,24 +12,22 @@
 namespace signweave::server {
 namespace {
 
-using Json = nlohmann::json;
-
 [[noreturn]] void fail(const std::string& text) {
   throw Error(ErrorCode::bad_input, text);
 }
 
-std::string text_of(const std::string& name, const Json& value) {
+std::string text_of(const std::string& name, const nlohmann::json& value) {
   if (!value.is_string()) fail(fmt::format("'{}' must be a text", name));
   return value.get<std::string>();
 }
 
-double number_of(const std::string& name, const Json& value, double least, double most) {
+double number_of(const std::string& name, const nlohmann::json& value, double least, double most) {
   const double number = value.is_number() ? value.get<double>() : std::nan("");
   if (!(number >= least && number <= most)) fail(fmt::format("'{}' must be a number, {} to {}", name, least, most));
   return number;
 }
 
-std::size_t count_of(const std::string& name, const Json& value, std::size_t least, std::size_t most) {
+std::size_t count_of(const std::string& name, const nlohmann::json& value, std::size_t least, std::size_t most) {
   if (!value.is_number_integer() || value.get<double>() < static_cast<double>(least) ||
       value.get<double>() > static_cast<double>(most)) {
     fail(fmt::format("'{}' must be a whole number, {} to {}", name, least, most));
@@ -37,14 +35,14 @@ std::size_t count_of(const std::string& name, const Json& value, std::size_t lea
   return value.get<std::size_t>();
 }
 
-bool truth_of(const std::string& name, const Json& value) {
+bool truth_of(const std::string& name, const nlohmann::json& value) {
   if (!value.is_boolean()) fail(fmt::format("'{}' must be true or false", name));
   return value.get<bool>();
 }
 
 /// The place of a word among those that are allowed.
 template <std::size_t N>
-std::size_t one_of(const std::string& name, const Json& value, const std::array<std::string_view, N>& words) {
+std::size_t one_of(const std::string& name, const nlohmann::json& value, const std::array<std::string_view, N>& words) {
   if (value.is_string()) {
     for (std::size_t i = 0; i < N; ++i) {
       if (value.get_ref<const std::string&>() == words[i]) return i;
@@ -53,7 +51,7 @@ std::size_t one_of(const std::string& name, const Json& value, const std::array<
   fail(fmt::format("'{}' must be one of {}", name, fmt::join(words, ", ")));
 }
 
-FrameRate rate_of(const std::string& name, const Json& value) {
+FrameRate rate_of(const std::string& name, const nlohmann::json& value) {
   std::optional<FrameRate> rate;
   if (value.is_string()) rate = parse_frame_rate(value.get_ref<const std::string&>());
   if (value.is_number()) rate = parse_frame_rate(value.dump());
@@ -63,7 +61,7 @@ FrameRate rate_of(const std::string& name, const Json& value) {
   return *rate;
 }
 
-DurationModel duration_of(const std::string& name, const Json& value) {
+DurationModel duration_of(const std::string& name, const nlohmann::json& value) {
   if (value.is_number()) {
     return {.fixed = Milliseconds(std::llround(number_of(name, value, 0, 60'000))), .fitted = false};
   }
@@ -71,7 +69,7 @@ DurationModel duration_of(const std::string& name, const Json& value) {
   return {.fixed = {}, .fitted = value == "fitted"};
 }
 
-const TransitionMethod* method_of(const std::string& name, const Json& value) {
+const TransitionMethod* method_of(const std::string& name, const nlohmann::json& value) {
   const std::string wanted = text_of(name, value);
   std::vector<std::string> known;
   for (const TransitionMethod& method : transition_methods()) {
@@ -81,7 +79,7 @@ const TransitionMethod* method_of(const std::string& name, const Json& value) {
   fail(fmt::format("no transition '{}'; there are {}", printable(wanted), fmt::join(known, ", ")));
 }
 
-using Read = void (*)(ControlMessage&, const std::string& name, const Json&);
+using Read = void (*)(ControlMessage&, const std::string& name, const nlohmann::json&);
 
 struct Field {
   Control control;
@@ -91,58 +89,68 @@ struct Field {
 };
 constexpr Field kFields[] = {
     {Control::open, "rate", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.open.player.synthesis.rate = rate_of(n, v); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
+       m.open.player.synthesis.rate = rate_of(n, v);
+     }},
     {Control::open, "batch", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.open.batch = count_of(n, v, 1, 600); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.open.batch = count_of(n, v, 1, 600); }},
     {Control::open, "pace", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) {
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
        m.open.pace = one_of<2>(n, v, {"live", "fast"}) == 0 ? Pace::live : Pace::fast;
      }},
     {Control::open, "idle", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) {
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
        m.open.player.idle = one_of<2>(n, v, {"rest", "end"}) == 0 ? Idle::living_rest : Idle::end;
      }},
     {Control::open, "look_ahead", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.open.player.look_ahead = count_of(n, v, 1, 16); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
+       m.open.player.look_ahead = count_of(n, v, 1, 16);
+     }},
     {Control::open, "loop", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.open.player.loop = truth_of(n, v); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.open.player.loop = truth_of(n, v); }},
     {Control::open, "recording", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.open.player.recording = text_of(n, v); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.open.player.recording = text_of(n, v); }},
     {Control::open, "character", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.open.character = text_of(n, v); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.open.character = text_of(n, v); }},
     {Control::open, "transition", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.open.player.synthesis.method = method_of(n, v); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
+       m.open.player.synthesis.method = method_of(n, v);
+     }},
     {Control::open, "duration", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) {
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
        m.open.player.synthesis.duration = duration_of(n, v);
      }},
     {Control::open, "tempo", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) {
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
        m.open.player.synthesis.tempo = number_of(n, v, 0.25, 4);
      }},
     {Control::open, "align", false,
-     [](ControlMessage& m, const std::string& n, const Json& v) {
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
        constexpr std::array kAlignments = {Alignment::automatic, Alignment::ground, Alignment::none};
        m.open.player.synthesis.alignment = kAlignments[one_of<3>(n, v, {"auto", "ground", "none"})];
      }},
     {Control::sign, "utterance", true,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.utterance = parse_utterance(text_of(n, v)); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
+       m.utterance = parse_utterance(text_of(n, v));
+     }},
     {Control::append, "utterance", true,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.utterance = parse_utterance(text_of(n, v)); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
+       m.utterance = parse_utterance(text_of(n, v));
+     }},
     {Control::seek, "ms", true,
-     [](ControlMessage& m, const std::string& n, const Json& v) {
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
        m.at = Milliseconds(std::llround(number_of(n, v, 0, 1e9)));
      }},
     {Control::tempo, "value", true,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.tempo = number_of(n, v, 0.25, 2); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.tempo = number_of(n, v, 0.25, 2); }},
     {Control::loop, "value", true,
-     [](ControlMessage& m, const std::string& n, const Json& v) { m.loop = truth_of(n, v); }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.loop = truth_of(n, v); }},
 };
 
 constexpr std::array<std::string_view, 10> kTypes = {"open", "sign",  "append", "pause", "resume",
                                                      "seek", "tempo", "loop",   "stop",  "ping"};
 
-Control control_of(const Json& object) {
+Control control_of(const nlohmann::json& object) {
   const auto type = object.find("type");
   if (type == object.end() || !type->is_string()) fail("a control message needs a \"type\"");
   const std::string& wanted = type->get_ref<const std::string&>();
@@ -153,7 +161,7 @@ Control control_of(const Json& object) {
   fail(fmt::format("no control message '{}'{}", printable(wanted), did_you_mean(wanted, known)));
 }
 
-void read_fields(ControlMessage& message, const Json& object) {
+void read_fields(ControlMessage& message, const nlohmann::json& object) {
   for (const auto& [name, value] : object.items()) {
     if (name == "type" || name == "id") continue;
     const auto* field = std::ranges::find_if(
@@ -180,7 +188,7 @@ void read_fields(ControlMessage& message, const Json& object) {
 ControlMessage parse_control(std::string_view text) {
   ControlMessage message;
   try {
-    const Json object = Json::parse(text);
+    const nlohmann::json object = nlohmann::json::parse(text);
     if (!object.is_object()) fail("a control message is a JSON object");
     if (const auto id = object.find("id"); id != object.end()) {
       if (!id->is_string() && !id->is_number()) fail("'id' must be a text or a number");
@@ -190,7 +198,7 @@ ControlMessage parse_control(std::string_view text) {
     }
     message.control = control_of(object);
     read_fields(message, object);
-  } catch (const Json::exception& error) {
+  } catch (const nlohmann::json::exception& error) {
     const std::string_view what = error.what();  // "[json.exception.parse_error.101] parse error at …"
     const std::size_t mark = what.find("] ");
     throw ControlError(ErrorCode::bad_input,

@@ -40,14 +40,14 @@ TEST(ControlMessage, EveryOtherTypeIsRead) {
   EXPECT_EQ(parse_control(R"({"type":"ping"})").control, Control::ping);
 }
 
-struct Case {
+struct MessageCase {
   const char* text;
   const char* says;
   const char* id = "";
 };
 
 TEST(ControlMessage, WhatIsWrongIsSaidWithItsId) {
-  const Case cases[] = {
+  const MessageCase cases[] = {
       {"", "not JSON"},
       {"{", "not JSON"},
       {"[1]", "is a JSON object"},
@@ -77,7 +77,7 @@ TEST(ControlMessage, WhatIsWrongIsSaidWithItsId) {
       {R"({"type":"open","duration":"soon"})", "fitted, corpus"},
       {R"({"type":"ping","id":{"a":1}})", "'id' must be a text or a number"},
   };
-  for (const Case& one : cases) {
+  for (const MessageCase& one : cases) {
     try {
       parse_control(one.text);
       ADD_FAILURE() << one.text;

@@ -65,6 +65,13 @@ class TestApi {
   std::unique_ptr<Api> api_;
 };
 
+/// The path of something in the database that TestApi serves.
+inline Path at(Path rest) {
+  Path path = {"databases", "demo"};
+  path.insert(path.end(), rest.begin(), rest.end());
+  return path;
+}
+
 inline nlohmann::json json_in(const ApiResponse& response) {
   return nlohmann::json::parse(response.body);
 }

@@ -21,7 +21,7 @@ using testing::SizeIs;
 
 constexpr DocumentStorage kStorages[] = {DocumentStorage::document, DocumentStorage::node};
 
-Recording recording_of(const std::string& name, const AnnotationDocument& document) {
+Recording annotated_recording(const std::string& name, const AnnotationDocument& document) {
   Recording recording{.name = name};
   recording.annotation = AnnotationPart{.document = document, .tiers = guess_tier_names(document)};
   return recording;
@@ -237,7 +237,7 @@ RC_GTEST_PROP(DocumentStorageProperty, BothStoragesAnswerEveryExpressionAlike, (
   }
   for (const DocumentStorage storage : kStorages) {
     database->set_document_storage(storage);
-    database->put(recording_of(std::string(name_of(storage)), document));
+    database->put(annotated_recording(std::string(name_of(storage)), document));
     RC_ASSERT(database->document_storage(name_of(storage)) == storage);
     RC_ASSERT(database->document(name_of(storage)) == document);
   }

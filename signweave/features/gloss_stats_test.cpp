@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "signweave/features/test_sign.h"
 #include "signweave/features/transition_stats.h"
 
 namespace signweave {
@@ -10,26 +11,17 @@ namespace {
 
 using testing::ElementsAre;
 
-Sign sign(std::string gloss, Milliseconds begin, Milliseconds stroke, Milliseconds after, Milliseconds end) {
-  return {.gloss = std::move(gloss),
-          .span = {begin, end},
-          .phases = {{PhaseKind::preparation, {begin, stroke}, "P", "p"},
-                     {PhaseKind::stroke, {stroke, after}, "S", "s"},
-                     {PhaseKind::retraction, {after, end}, "R", "r"}},
-          .tier = "Gloss"};
-}
-
 /// A B A B, a rest, A B; strokes 100 ms after the begin of a sign and 100 ms before its end.
 std::vector<Sign> two_units() {
   std::vector<Sign> signs;
   Milliseconds at = 0ms;
   for (const char* gloss : {"A", "B", "A", "B"}) {
-    signs.push_back(sign(gloss, at, at + 100ms, at + 300ms, at + 400ms));
+    signs.push_back(sign_of_three(gloss, at, at + 100ms, at + 300ms, at + 400ms));
     at += 400ms;
   }
   at += 2000ms;
-  signs.push_back(sign("A ", at, at + 100ms, at + 300ms, at + 400ms));
-  signs.push_back(sign("B", at + 450ms, at + 650ms, at + 950ms, at + 1000ms));
+  signs.push_back(sign_of_three("A ", at, at + 100ms, at + 300ms, at + 400ms));
+  signs.push_back(sign_of_three("B", at + 450ms, at + 650ms, at + 950ms, at + 1000ms));
   return signs;
 }
 

@@ -14,14 +14,14 @@ namespace {
 using Eigen::AngleAxisf;
 using Eigen::Vector3f;
 
-SignerModel model_of(const Motion& motion) {
+SignerModel model_of_arm(const Motion& motion) {
   SignerModel model{.rig = rig_of_signer(motion.skeleton()), .body = {}};
   model.body = signer_body(motion, model.rig);
   return model;
 }
 
 HandMotion measured(const Motion& motion) {
-  return measure_hands(motion, model_of(motion), {0, motion.frame_count()});
+  return measure_hands(motion, model_of_arm(motion), {0, motion.frame_count()});
 }
 
 /// Equal to the bit, in all fields.
@@ -45,7 +45,7 @@ RC_GTEST_PROP(MeasureHands, APartEqualsTheWholeToTheBit, ()) {
   const auto frames = *rc::gen::inRange<std::int64_t>(1, 60);
   const Motion motion = moving(whole_person(), frames, *rc::gen::arbitrary<unsigned>(),
                                {*rc::gen::element<std::int64_t>(10, 30, 60, 120), 1});
-  const SignerModel model = model_of(motion);
+  const SignerModel model = model_of_arm(motion);
   const HandMotion whole = measure_hands(motion, model, {-5, frames + 5});
   RC_ASSERT(whole.range == (FrameRange{0, frames}));
   const auto begin = *rc::gen::inRange<std::int64_t>(0, frames);
@@ -127,7 +127,7 @@ TEST(MeasureHands, TellsHowTheTrunkLeansAndTwists) {
   EXPECT_NEAR(std::abs(hands.trunk[2].twist), std::sin(0.4f), 0.02f);
   EXPECT_FALSE(hands.hands[0].frames[0].elbow.isZero());
   EXPECT_GT(hands.hands[0].frames[0].elbow.x(), 0.4f);  // of the left arm, on the left
-  SignerModel model = model_of(motion);
+  SignerModel model = model_of_arm(motion);
   model.rig[Part::pelvis] = {};
   model.rig[Part::left_thigh] = {};
   model.rig[Part::left_forearm] = {};
@@ -177,7 +177,7 @@ TEST(MeasureHands, MeasuresOneFrame) {
 
 TEST(MeasureHands, TellsWhyThereIsNothing) {
   const Motion motion = moving(whole_person(), 10);
-  SignerModel model = model_of(motion);
+  SignerModel model = model_of_arm(motion);
   const auto measure = [&] { return measure_hands(motion, model, {0, 10}); };
 
   model.rig[Part::left_hand] = {};
@@ -187,7 +187,7 @@ TEST(MeasureHands, TellsWhyThereIsNothing) {
   EXPECT_EQ(measure().hands[1].frames.size(), 10U);
   EXPECT_TRUE(measure().hands_distance.empty());
 
-  model = model_of(motion);
+  model = model_of_arm(motion);
   model.rig[Part::left_upper_arm] = {};  // one arm: no line between shoulders
   model.body = signer_body(motion, model.rig);
   for (const auto& hand : measure().hands) {
@@ -195,7 +195,7 @@ TEST(MeasureHands, TellsWhyThereIsNothing) {
     EXPECT_TRUE(hand.frames.empty());
   }
 
-  model = model_of(motion);
+  model = model_of_arm(motion);
   model.body.reset();
   EXPECT_EQ(measure().hands[0].why_not, "the shoulders are in one place, or the motion has no frames");
 }
@@ -214,7 +214,7 @@ TEST(MeasureHands, MeasuresAHandWithoutFingersByItsWrist) {
 
 TEST(MeasureHands, MeasuresAHeadlessBodyAndOneOf300Joints) {
   const Motion motion = moving(whole_person(), 10);
-  SignerModel model = model_of(motion);
+  SignerModel model = model_of_arm(motion);
   model.rig[Part::head] = {};
   EXPECT_EQ(measure_hands(motion, model, {0, 10}).hands[0].frames.size(), 10U);
 

@@ -10,7 +10,7 @@
 namespace signweave {
 namespace {
 
-constexpr FrameRate kRate{100, 1};
+constexpr FrameRate kFeatureRate{100, 1};
 const SignerBody kBody{.shoulder_width = 0.4f,
                        .heights = {-9, -1.2f, -0.6f, -0.2f, 0.2f, 0.4f, 0.6f, 0.9f},
                        .near_reach = 0.8f,
@@ -35,7 +35,7 @@ HandMotion moving(const std::vector<float>& speeds) {
 
 TEST(PhaseFeatures, OneHandsPathPeakAndProfile) {
   const HandMotion measured = moving({1, 1, 1, 3, 1, 1, 1, 1, 1});
-  const PhaseFeatures features = features_over(measured, {10, 19}, kRate, kBody);
+  const PhaseFeatures features = features_over(measured, {10, 19}, kFeatureRate, kBody);
   EXPECT_TRUE(features.known);
   EXPECT_FALSE(features.hands[0].known);
   const HandOver& hand = features.hands[1];
@@ -56,7 +56,7 @@ TEST(PhaseFeatures, OneHandsPathPeakAndProfile) {
 
 TEST(PhaseFeatures, APartIsMeasuredAtItsOwnEnds) {
   const HandMotion measured = moving({1, 2, 3, 4, 5});
-  const PhaseFeatures features = features_over(measured, {12, 14}, kRate, kBody);
+  const PhaseFeatures features = features_over(measured, {12, 14}, kFeatureRate, kBody);
   EXPECT_FLOAT_EQ(features.hands[1].begin.velocity.x(), 3);
   EXPECT_FLOAT_EQ(features.hands[1].end.velocity.x(), 4);
   EXPECT_FLOAT_EQ(features.hands[1].begin.acceleration.y(), 2);
@@ -64,7 +64,7 @@ TEST(PhaseFeatures, APartIsMeasuredAtItsOwnEnds) {
 }
 
 TEST(PhaseFeatures, OneFrameHasOneValueThroughout) {
-  const PhaseFeatures features = features_over(moving({2}), {10, 11}, kRate, kBody);
+  const PhaseFeatures features = features_over(moving({2}), {10, 11}, kFeatureRate, kBody);
   const HandOver& hand = features.hands[1];
   EXPECT_FLOAT_EQ(hand.path_length, 0);
   EXPECT_FLOAT_EQ(hand.peak_time, 0);
@@ -72,13 +72,13 @@ TEST(PhaseFeatures, OneFrameHasOneValueThroughout) {
 }
 
 TEST(PhaseFeatures, AHandThatStandsStillHasNoCurvature) {
-  EXPECT_FLOAT_EQ(features_over(moving({0, 0, 0}), {10, 13}, kRate, kBody).hands[1].mean_curvature, 0);
+  EXPECT_FLOAT_EQ(features_over(moving({0, 0, 0}), {10, 13}, kFeatureRate, kBody).hands[1].mean_curvature, 0);
 }
 
 TEST(PhaseFeatures, ABodyWithoutShouldersGivesAReasonAndNoNumbers) {
   const auto skeleton = std::make_shared<const Skeleton>(
       std::vector<Joint>{{"a", kNoJoint, {0, 1, 0}, true}, {"b", 0, {0, 1, 0}, false}}, std::vector<Tip>{});
-  const Motion motion(skeleton, kRate, 20);
+  const Motion motion(skeleton, kFeatureRate, 20);
   const FrameClock clock{.frame_time = Seconds(0.01)};
   const std::array spans = {TimeSpan{0ms, 100ms}, TimeSpan{50ms, 50ms}, TimeSpan{900ms, 1000ms}};
   const RecordingFeatures features = measure_phases(motion, model_of(motion), spans, clock);
@@ -110,7 +110,7 @@ RC_GTEST_PROP(FeatureRecord, ComesBackAsItWas, (const std::vector<std::vector<st
       measured.hands[0] = measured.hands[1];
       measured.hands_distance = numbers;
     }
-    features.phases.back() = features_over(measured, measured.range, kRate, kBody);
+    features.phases.back() = features_over(measured, measured.range, kFeatureRate, kBody);
   }
   const RecordingFeatures read = stored_and_read(features);
   RC_ASSERT(read.why_not == features.why_not);
@@ -127,7 +127,7 @@ RC_GTEST_PROP(FeatureRecord, ComesBackAsItWas, (const std::vector<std::vector<st
 TEST(FeatureRecord, EveryCutIsRefused) {
   RecordingFeatures features;
   const HandMotion measured = moving({1, 2});
-  features.phases = {features_over(measured, measured.range, kRate, kBody)};
+  features.phases = {features_over(measured, measured.range, kFeatureRate, kBody)};
   ByteWriter out;
   encode(features, out);
   for (std::size_t size = 2; size < out.size(); ++size) {
@@ -139,7 +139,7 @@ TEST(FeatureRecord, EveryCutIsRefused) {
 TEST(FeatureRecord, AnotherVersionIsNoneAndNumbersThatAreNoneAreRefused) {
   RecordingFeatures features;
   const HandMotion measured = moving({1, 2});
-  features.phases = {features_over(measured, measured.range, kRate, kBody)};
+  features.phases = {features_over(measured, measured.range, kFeatureRate, kBody)};
   features.phases[0].hands_distance_end = NAN;
   ByteWriter out;
   encode(features, out);
@@ -153,7 +153,7 @@ TEST(FeatureRecord, AnotherVersionIsNoneAndNumbersThatAreNoneAreRefused) {
 
 TEST(FeatureRecord, ADifferenceIsSeen) {
   const HandMotion measured = moving({1, 2, 1});
-  const PhaseFeatures features = features_over(measured, measured.range, kRate, kBody);
+  const PhaseFeatures features = features_over(measured, measured.range, kFeatureRate, kBody);
   PhaseFeatures other = features;
   EXPECT_TRUE(nearly_same(features, other));
   other.hands[1].begin.position.x() += 0.01f;

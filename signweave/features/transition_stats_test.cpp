@@ -2,20 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "signweave/features/test_sign.h"
+
 namespace signweave {
 namespace {
 
-Sign sign(std::string gloss, Milliseconds begin, Milliseconds stroke, Milliseconds after, Milliseconds end) {
-  return {.gloss = std::move(gloss),
-          .span = {begin, end},
-          .phases = {{PhaseKind::preparation, {begin, stroke}, "P", "p"},
-                     {PhaseKind::stroke, {stroke, after}, "S", "s"},
-                     {PhaseKind::retraction, {after, end}, "R", "r"}},
-          .tier = "Gloss"};
-}
-
 TEST(TransitionStats, ATransitionIsRetractionPlusGapPlusPreparation) {
-  const std::vector<Sign> signs = {sign("A", 0ms, 100ms, 300ms, 400ms), sign("B", 450ms, 700ms, 900ms, 1'000ms)};
+  const std::vector<Sign> signs = {sign_of_three("A", 0ms, 100ms, 300ms, 400ms),
+                                   sign_of_three("B", 450ms, 700ms, 900ms, 1'000ms)};
   const std::vector<Transition> found = transitions_in(signs);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].span, (TimeSpan{300ms, 700ms}));
@@ -24,18 +18,20 @@ TEST(TransitionStats, ATransitionIsRetractionPlusGapPlusPreparation) {
 }
 
 TEST(TransitionStats, ARestIsNoTransition) {
-  std::vector<Sign> signs = {sign("A", 0ms, 100ms, 300ms, 400ms), sign("B", 501ms, 600ms, 700ms, 800ms)};
+  std::vector<Sign> signs = {sign_of_three("A", 0ms, 100ms, 300ms, 400ms),
+                             sign_of_three("B", 501ms, 600ms, 700ms, 800ms)};
   EXPECT_TRUE(transitions_in(signs).empty());
   signs[0].inferred = true;  // without phases the gap is all there is
   EXPECT_EQ(transitions_in(signs).size(), 1u);
-  signs[1] = sign("B", 415ms, 500ms, 600ms, 700ms);  // glosses that touch tell nothing
+  signs[1] = sign_of_three("B", 415ms, 500ms, 600ms, 700ms);  // glosses that touch tell nothing
   EXPECT_TRUE(transitions_in(signs).empty());
-  signs[1] = sign("B", 1'401ms, 1'500ms, 1'600ms, 1'700ms);
+  signs[1] = sign_of_three("B", 1'401ms, 1'500ms, 1'600ms, 1'700ms);
   EXPECT_TRUE(transitions_in(signs).empty());
 }
 
 TEST(TransitionStats, TiersAreNotMixed) {
-  std::vector<Sign> signs = {sign("A", 0ms, 100ms, 300ms, 400ms), sign("B", 450ms, 700ms, 900ms, 1'000ms)};
+  std::vector<Sign> signs = {sign_of_three("A", 0ms, 100ms, 300ms, 400ms),
+                             sign_of_three("B", 450ms, 700ms, 900ms, 1'000ms)};
   signs[1].tier = "Gloss LH";
   EXPECT_TRUE(transitions_in(signs).empty());
 }
@@ -97,7 +93,8 @@ TEST(TransitionStats, PairsAreToldByHowOftenTheyOccur) {
 }
 
 TEST(TransitionStats, RecordedTransitionsNameTheirSigns) {
-  const std::vector<Sign> signs = {sign("A", 0ms, 100ms, 300ms, 400ms), sign("B", 450ms, 700ms, 900ms, 1'000ms)};
+  const std::vector<Sign> signs = {sign_of_three("A", 0ms, 100ms, 300ms, 400ms),
+                                   sign_of_three("B", 450ms, 700ms, 900ms, 1'000ms)};
   const auto motion_of = [](const Sign& from, const Sign& to, const Transition&) -> std::optional<TransitionMotion> {
     TransitionMotion motion;
     motion.whole[0] = {.known = true, .displacement = from.gloss == "A" ? 0.25 : 0, .path = to.gloss == "B" ? 0.5 : 0};

@@ -6,14 +6,14 @@ namespace signweave {
 namespace {
 
 /// Pelvis, neck, head, both shoulders and hands of a signer who faces +x: left is -z.
-struct Person {
+struct Posed {
   Motion motion;
   RigMap rig;
 };
 
-Person person_facing_x() {
+Posed person_facing_x() {
   std::vector<Joint> joints = {{.name = "Hips", .parent = kNoJoint, .offset = {0, 1, 0}, .translated = true}};
-  Person person;
+  Posed person;
   const auto add = [&](Part part, JointIndex parent, const Eigen::Vector3f& offset) {
     person.rig[part] = {.joint = static_cast<JointIndex>(joints.size()), .evidence = Evidence::file, .confidence = 1};
     joints.push_back({.name = std::string(name_of(part)), .parent = parent, .offset = offset});
@@ -30,7 +30,7 @@ Person person_facing_x() {
 }
 
 TEST(UpperBodyOf, StandsInTheSignersAxes) {
-  const Person person = person_facing_x();
+  const Posed person = person_facing_x();
   const UpperBodyTrack track = upper_body_of(person.motion, person.rig);
   ASSERT_EQ(track.times.size(), 3u);
   EXPECT_DOUBLE_EQ(track.times[2].count(), 0.04);
@@ -43,7 +43,7 @@ TEST(UpperBodyOf, StandsInTheSignersAxes) {
 }
 
 TEST(UpperBodyOf, TheMiddleOfThePalmWhereThereAreKnuckles) {
-  Person person = person_facing_x();
+  Posed person = person_facing_x();
   PartPlace& knuckle = person.rig[finger_part(Side::right, Finger::middle, FingerPoint::proximal)];
   knuckle = person.rig[Part::right_hand];
   knuckle.offset = {0.1F, 0, 0};
@@ -52,12 +52,12 @@ TEST(UpperBodyOf, TheMiddleOfThePalmWhereThereAreKnuckles) {
 }
 
 TEST(UpperBodyOf, OneHandMayBeAbsentNotBothNorTheTrunk) {
-  Person person = person_facing_x();
+  Posed person = person_facing_x();
   person.rig[Part::left_hand] = {};
   const UpperBodyTrack track = upper_body_of(person.motion, person.rig);
   EXPECT_FALSE(track.has_hand[0]);
   EXPECT_TRUE(track.has_hand[1]);
-  Person no_trunk = person_facing_x();
+  Posed no_trunk = person_facing_x();
   no_trunk.rig[Part::pelvis] = {};
   EXPECT_THROW(upper_body_of(no_trunk.motion, no_trunk.rig), Error);
   person.rig[Part::right_hand] = {};

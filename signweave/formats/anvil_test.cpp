@@ -29,7 +29,7 @@ const Tier& tier(const File& file, std::string_view id) {
   return *found;
 }
 
-std::vector<std::string> labels(const File& file, std::string_view id) {
+std::vector<std::string> labels_of_tier(const File& file, std::string_view id) {
   std::vector<std::string> list;
   for (const Annotation& one : tier(file, id).annotations) list.push_back(one.label);
   return list;
@@ -43,7 +43,7 @@ File signs() {
   return read(testdata("anvil") / "signs.anvil");
 }
 
-std::string document(std::string_view tracks) {
+std::string anvil_text(std::string_view tracks) {
   return fmt::format("<annotation><head/><body>{}</body></annotation>", tracks);
 }
 
@@ -63,13 +63,13 @@ TEST(Anvil, SecondsAreRoundedToMilliseconds) {
 
 TEST(Anvil, TheLabelIsTheTokenOrWhatBearsTheTracksName) {
   const File file = signs();
-  EXPECT_THAT(labels(file, "Hands.Gloss"), ElementsAre("BONJOUR", "TOUS", ""));
-  EXPECT_THAT(labels(file, "Hands.Phase"),
+  EXPECT_THAT(labels_of_tier(file, "Hands.Gloss"), ElementsAre("BONJOUR", "TOUS", ""));
+  EXPECT_THAT(labels_of_tier(file, "Hands.Phase"),
               ElementsAre("preparation", "stroke", "retraction", "preparation", "stroke", "hold"));
 }
 
 TEST(Anvil, TheLabelIsWhatTheSpecificationDisplays) {
-  EXPECT_THAT(labels(signs(), "Hands.sentence"), ElementsAre("Bonjour à tous"));
+  EXPECT_THAT(labels_of_tier(signs(), "Hands.sentence"), ElementsAre("Bonjour à tous"));
 }
 
 TEST(Anvil, OtherAttributesAreAssociatedOneToOne) {
@@ -77,8 +77,8 @@ TEST(Anvil, OtherAttributesAreAssociatedOneToOne) {
   EXPECT_EQ(times(file.document, "Hands.Gloss.handedness"), "a2.2 500-1250, a3.2 1250-2000");
   EXPECT_EQ(eaf::testing_support::parents(file.document, "Hands.Gloss.handedness"), "a2.2<a2, a3.2<a3");
   EXPECT_EQ(stereotype(file, "Hands.Gloss.handedness"), Stereotype::symbolic_association);
-  EXPECT_THAT(labels(file, "Hands.Gloss.comment"), ElementsAre("looks & smiles"));
-  EXPECT_THAT(labels(file, "Hands.Gloss.see"), ElementsAre("Hands.Gloss[0], nod[0]"));
+  EXPECT_THAT(labels_of_tier(file, "Hands.Gloss.comment"), ElementsAre("looks & smiles"));
+  EXPECT_THAT(labels_of_tier(file, "Hands.Gloss.see"), ElementsAre("Hands.Gloss[0], nod[0]"));
 }
 
 TEST(Anvil, ValueSetsAreVocabularies) {
@@ -107,9 +107,9 @@ TEST(Anvil, SubdivisionsFillTheirReferencesInOrderOfTime) {
 }
 
 TEST(Anvil, SubdivisionsWithGapsLieInsideTheirReferences) {
-  const File file = read_text("x", document("<track name='a' type='primary'><el start='0' end='2'/></track>"
-                                            "<track name='b' type='subdivision' ref='a'><el-group ref='0'>"
-                                            "<el start='0.5' end='0.75'/><el start='1'/></el-group></track>"));
+  const File file = read_text("x", anvil_text("<track name='a' type='primary'><el start='0' end='2'/></track>"
+                                              "<track name='b' type='subdivision' ref='a'><el-group ref='0'>"
+                                              "<el start='0.5' end='0.75'/><el start='1'/></el-group></track>"));
   EXPECT_EQ(times(file.document, "b"), "a2 500-750, a3 1000-2000");
   EXPECT_EQ(stereotype(file, "b"), Stereotype::included_in);
 }
@@ -141,9 +141,9 @@ TEST(Anvil, WithoutSpecificationTheFirstAttributeIsTheLabel) {
   const std::string text = read_file(testdata("anvil") / "signs.anvil");
   const File file = read_text("signs.anvil", text);
   EXPECT_EQ(file.document.find_tier("Hands.sentence.mode"), nullptr);
-  EXPECT_THAT(labels(file, "Hands.sentence"), ElementsAre("Bonjour à tous"));
-  EXPECT_THAT(labels(file, "Hands.Gloss"), ElementsAre("BONJOUR", "TOUS", ""));
-  EXPECT_THAT(labels(file, "nod"), ElementsAre("0.5", "1"));
+  EXPECT_THAT(labels_of_tier(file, "Hands.sentence"), ElementsAre("Bonjour à tous"));
+  EXPECT_THAT(labels_of_tier(file, "Hands.Gloss"), ElementsAre("BONJOUR", "TOUS", ""));
+  EXPECT_THAT(labels_of_tier(file, "nod"), ElementsAre("0.5", "1"));
 }
 
 TEST(Anvil, AMissingSpecificationIsANotice) {
@@ -202,16 +202,16 @@ TEST(Anvil, ItsSignsAndPhasesAreFound) {
 }
 
 TEST(Anvil, AnAttributesTierNeverTakesATracksName) {
-  const File file = read_text("x", document("<track name='a' type='primary'><el start='0' end='1'>"
-                                            "<attribute name='token'>x</attribute><attribute name='b'>y</attribute>"
-                                            "</el></track><track name='a.b' type='primary'/>"));
-  EXPECT_THAT(labels(file, "a.b (attribute)"), ElementsAre("y"));
-  EXPECT_THAT(labels(file, "a.b"), IsEmpty());
+  const File file = read_text("x", anvil_text("<track name='a' type='primary'><el start='0' end='1'>"
+                                              "<attribute name='token'>x</attribute><attribute name='b'>y</attribute>"
+                                              "</el></track><track name='a.b' type='primary'/>"));
+  EXPECT_THAT(labels_of_tier(file, "a.b (attribute)"), ElementsAre("y"));
+  EXPECT_THAT(labels_of_tier(file, "a.b"), IsEmpty());
 }
 
 TEST(Anvil, OverlapsAreNotices) {
-  const File file = read_text("x", document("\n<track name='a' type='primary'><el start='0' end='2'/>\n"
-                                            "<el start='1' end='3'/></track>"));
+  const File file = read_text("x", anvil_text("\n<track name='a' type='primary'><el start='0' end='2'/>\n"
+                                              "<el start='1' end='3'/></track>"));
   ASSERT_THAT(file.notices, SizeIs(1));
   EXPECT_EQ(file.notices[0].where, "x:3");
   EXPECT_EQ(file.notices[0].text, "element 1 overlaps element 0 on track 'a'");
@@ -224,7 +224,7 @@ TEST(Anvil, AChainOfTracksMayBeLong) {
     tracks += fmt::format("<track name='t{}' type='span' ref='t{}'><el start='0' end='0'/></track>", i, i - 1);
   }
   tracks += "<track name='t0' type='primary'><el start='1' end='2'/></track>";
-  const File file = read_text("x", document(tracks));
+  const File file = read_text("x", anvil_text(tracks));
   EXPECT_EQ(times(file.document, fmt::format("t{}", kLength)), "a1 1000-2000");
 }
 
@@ -260,8 +260,8 @@ RC_GTEST_PROP(AnvilProperty, AnyElementsReadAndAreWrittenAsEaf, ()) {
     for (int k = 0; k < parts; ++k) pieces += fmt::format("<el index='{}'/>", 10 * i + k);
     if (parts > 0) pieces += "</el-group>";
   }
-  const File file = read_text("x", document("<track name='p' type='subdivision' ref='s'>" + pieces +
-                                            "</track><track name='s' type='primary'>" + primary + "</track>"));
+  const File file = read_text("x", anvil_text("<track name='p' type='subdivision' ref='s'>" + pieces +
+                                              "</track><track name='s' type='primary'>" + primary + "</track>"));
   const Tier& signs = tier(file, "s");
   RC_ASSERT(signs.annotations.size() == spans.size());
   for (std::size_t i = 0; i < spans.size(); ++i) RC_ASSERT(signs.annotations[i].span == spans[i]);
@@ -274,7 +274,7 @@ RC_GTEST_PROP(AnvilProperty, AnyElementsReadAndAreWrittenAsEaf, ()) {
 }
 
 /// Names without ".anvil".
-std::vector<std::string> broken_files() {
+std::vector<std::string> broken_anvil_files() {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(testdata("anvil_broken"))) {
     if (entry.path().extension() == ".anvil") files.push_back(entry.path().stem().string());
@@ -297,7 +297,7 @@ TEST_P(BrokenAnvil, IsRefusedWithOneClearLine) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Testdata, BrokenAnvil, testing::ValuesIn(broken_files()),
+INSTANTIATE_TEST_SUITE_P(Testdata, BrokenAnvil, testing::ValuesIn(broken_anvil_files()),
                          [](const auto& one) { return one.param; });
 
 TEST(BrokenAnvil, EveryBeginningOfAFileIsReadOrRefused) {

@@ -31,7 +31,7 @@ struct DrawnBone {
   std::vector<std::string> dofs;
 };
 
-struct Drawn {
+struct DrawnSkeleton {
   std::vector<DrawnBone> bones;
   Vector3d position = Vector3d::Zero();
   double length_unit = 1;
@@ -68,8 +68,8 @@ std::vector<std::string> drawn_dofs(std::vector<std::string> all, std::size_t le
   return all;
 }
 
-Drawn draw() {
-  Drawn drawn;
+DrawnSkeleton draw() {
+  DrawnSkeleton drawn;
   drawn.radians = *rc::gen::arbitrary<bool>();
   drawn.amc_radians = *rc::gen::arbitrary<bool>();
   drawn.crlf = *rc::gen::arbitrary<bool>();
@@ -116,7 +116,7 @@ std::string bone_name(int i) {
   return i == 0 ? "root" : "bone" + std::to_string(i);
 }
 
-std::string ended(const Drawn& drawn, const std::string& text) {
+std::string ended(const DrawnSkeleton& drawn, const std::string& text) {
   if (!drawn.crlf) return text;
   std::string result;
   for (const char c : text) result += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -127,7 +127,7 @@ std::string three(const Vector3d& v) {
   return fmt::format("{} {} {}", v.x(), v.y(), v.z());
 }
 
-std::string asf_text(const Drawn& drawn) {
+std::string asf_text(const DrawnSkeleton& drawn) {
   const DrawnBone& root = drawn.bones[0];
   std::string text = fmt::format(
       ":version 1.10\n:units\n length {}\n angle {}\n:root\n order {}\n axis {}\n position {}\n", drawn.length_unit,
@@ -149,7 +149,7 @@ std::string asf_text(const Drawn& drawn) {
   return ended(drawn, text + " end\n");
 }
 
-std::string amc_text(const Drawn& drawn) {
+std::string amc_text(const DrawnSkeleton& drawn) {
   std::string text = fmt::format("# numbers\n:FULLY-SPECIFIED\n{}\n", drawn.amc_radians ? ":RADIANS" : ":DEGREES");
   for (std::size_t frame = 0; frame < drawn.frames.size(); ++frame) {
     text += fmt::format("{}\n", frame + 1);
@@ -161,7 +161,7 @@ std::string amc_text(const Drawn& drawn) {
   return ended(drawn, text);
 }
 
-Matrix3d about(char axis, double radians) {
+Matrix3d about_axis(char axis, double radians) {
   const double c = std::cos(radians);
   const double s = std::sin(radians);
   Matrix3d m;
@@ -179,13 +179,13 @@ Matrix3d axes_of(const DrawnBone& bone, bool radians) {
   Matrix3d m = Matrix3d::Identity();
   for (const char letter : bone.order) {
     const char axis = small(letter);
-    m = Matrix3d(about(axis, bone.axis[axis - 'x'] * (radians ? 1 : std::numbers::pi / 180)) * m);
+    m = Matrix3d(about_axis(axis, bone.axis[axis - 'x'] * (radians ? 1 : std::numbers::pi / 180)) * m);
   }
   return m;
 }
 
 /// A bone's own transform: parent_from_bone.
-Eigen::Isometry3d local_of(const Drawn& drawn, std::size_t frame, int index) {
+Eigen::Isometry3d local_of(const DrawnSkeleton& drawn, std::size_t frame, int index) {
   const auto at = static_cast<std::size_t>(index);
   const DrawnBone& bone = drawn.bones[at];
   const double radian = drawn.amc_radians ? 1 : std::numbers::pi / 180;
@@ -193,7 +193,7 @@ Eigen::Isometry3d local_of(const Drawn& drawn, std::size_t frame, int index) {
   for (std::size_t d = 0; d < bone.dofs.size(); ++d) {
     const double number = drawn.frames[frame][at][d];
     const char kind = small(bone.dofs[d][0]);
-    if (kind == 'r') motion.linear() = Matrix3d(about(small(bone.dofs[d][1]), number * radian) * motion.linear());
+    if (kind == 'r') motion.linear() = Matrix3d(about_axis(small(bone.dofs[d][1]), number * radian) * motion.linear());
     if (kind == 't') motion.translation()[small(bone.dofs[d][1]) - 'x'] = number;
   }
   Eigen::Isometry3d axes = Eigen::Isometry3d::Identity();
@@ -208,7 +208,7 @@ Eigen::Isometry3d local_of(const Drawn& drawn, std::size_t frame, int index) {
   return Eigen::Translation3d(parent.direction * length) * axes * motion * axes.inverse();
 }
 
-Eigen::Isometry3d global_of(const Drawn& drawn, std::size_t frame, int index) {
+Eigen::Isometry3d global_of(const DrawnSkeleton& drawn, std::size_t frame, int index) {
   Eigen::Isometry3d result = local_of(drawn, frame, index);
   for (int on = drawn.bones[static_cast<std::size_t>(index)].parent; on >= 0;
        on = drawn.bones[static_cast<std::size_t>(on)].parent) {
@@ -218,7 +218,7 @@ Eigen::Isometry3d global_of(const Drawn& drawn, std::size_t frame, int index) {
 }
 
 RC_GTEST_PROP(AsfProperty, JointsAndTipsAreWhereMatricesPutThem, ()) {
-  const Drawn drawn = draw();
+  const DrawnSkeleton drawn = draw();
   const std::string asf = asf_text(drawn);
   const std::string amc = amc_text(drawn);
   RC_LOG() << asf << amc;
@@ -259,7 +259,7 @@ RC_GTEST_PROP(AsfProperty, JointsAndTipsAreWhereMatricesPutThem, ()) {
 // The format does not tell how many frames there are: what is cut off is refused, or leaves the frames before as they
 // were; only the last number may have lost digits.
 RC_GTEST_PROP(AsfProperty, FramesCutOffAreFewerOrRefused, ()) {
-  const Drawn drawn = draw();
+  const DrawnSkeleton drawn = draw();
   const std::string asf = asf_text(drawn);
   const std::string amc = amc_text(drawn);
   const auto size = *rc::gen::inRange<std::size_t>(0, amc.size());

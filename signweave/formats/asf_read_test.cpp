@@ -21,7 +21,7 @@ const fs::path kGoodFiles = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata" / "asf";
 const ReadOptions kMetres{.unit = 1.0, .rate = FrameRate{100, 1}};
 
 /// Within 0.01 mm.
-void expect_near(const Vector3f& is, const Vector3f& should) {
+void expect_same_place(const Vector3f& is, const Vector3f& should) {
   EXPECT_LT((is - should).norm(), 1e-5f) << is.transpose() << " instead of " << should.transpose();
 }
 
@@ -60,11 +60,11 @@ TEST(AsfRead, JointsSitAtTheHeadsOfBonesAndTheLastHaveTips) {
   EXPECT_EQ(skeleton.joint(1).name, "upper");
   EXPECT_EQ(skeleton.joint(2).name, "lower");
   EXPECT_EQ(skeleton.joint(2).parent, 1);
-  expect_near(skeleton.joint(1).offset, {0, 0, 0});
-  expect_near(skeleton.joint(2).offset, {0, 2, 0});
+  expect_same_place(skeleton.joint(1).offset, {0, 0, 0});
+  expect_same_place(skeleton.joint(2).offset, {0, 2, 0});
   ASSERT_EQ(skeleton.tips().size(), 1u);
   EXPECT_EQ(skeleton.tips()[0].joint, 2);
-  expect_near(skeleton.tips()[0].offset, {3, 0, 0});
+  expect_same_place(skeleton.tips()[0].offset, {3, 0, 0});
   EXPECT_EQ(file.skeleton, kGoodFiles / "two.asf");
   EXPECT_EQ(file.motion.rate(), (FrameRate{100, 1}));
   EXPECT_EQ(file.notices, std::vector<Notice>{});
@@ -77,12 +77,12 @@ TEST(AsfRead, ABoneTurnsAboutItsOwnAxes) {
   ASSERT_EQ(motion.frame_count(), 2);
   expect_turn(motion.pose(0).rotations[2], 90, Eigen::Vector3d::UnitY());
   const Places first = places(motion, 0);
-  expect_near(first["root"], {0, 1, 0});
-  expect_near(first["lower"], {0, 3, 0});
-  expect_near(first.tip(0), {0, 3, -3});
+  expect_same_place(first["root"], {0, 1, 0});
+  expect_same_place(first["lower"], {0, 3, 0});
+  expect_same_place(first.tip(0), {0, 3, -3});
   const Places second = places(motion, 1);
-  expect_near(second["lower"], {-1, 1, 0});
-  expect_near(second.tip(0), {-1, 4, 0});
+  expect_same_place(second["lower"], {-1, 1, 0});
+  expect_same_place(second.tip(0), {-1, 4, 0});
 }
 
 // Where the bone's x and y point, by hand: each axis turned by 90 degrees about one fixed axis after the other.
@@ -109,16 +109,16 @@ TEST(AsfRead, DofsTurnInTheirOrder) {
     const Motion motion = read_text("a", one_bone({.dof = dof}), "b", "1\nroot 0 0 0\nbone 90 90\n", kMetres).motion;
     return places(motion, 0).tip(0);
   };
-  expect_near(tip_of("rz rx"), {0, 0, 2});
-  expect_near(tip_of("rx rz"), {0, 2, 0});
+  expect_same_place(tip_of("rz rx"), {0, 0, 2});
+  expect_same_place(tip_of("rx rz"), {0, 2, 0});
 }
 
 TEST(AsfRead, TheRootsOrderIsThatOfColumnsAndOfTurns) {
   const std::string asf = one_bone({.order = "RZ TY RX TX TZ", .dof = ""});
   const Motion motion = read_text("a", asf, "b", "1\nroot 90 5 90 3 -1\n", kMetres).motion;
   const Places at = places(motion, 0);
-  expect_near(at["root"], {3, 5, -1});
-  expect_near(at.tip(0), {3, 5, 1});
+  expect_same_place(at["root"], {3, 5, -1});
+  expect_same_place(at.tip(0), {3, 5, 1});
   expect_turn(motion.pose(0).rotations[1], 0, Eigen::Vector3d::UnitX());
 }
 
@@ -128,8 +128,8 @@ TEST(AsfRead, APresetRootStandsAndTurnsBeforeEachFrameDoes) {
       one_bone({.order = "TX TY TZ RX", .root = "position 10 20 30\norientation 0 90 0", .dof = ""});
   const File file = read_text("a", asf, "b", "1\nroot 1 2 3 90\n", kMetres);
   const Places at = places(file.motion, 0);
-  expect_near(at["root"], {11, 22, 33});
-  expect_near(at.tip(0), {11, 24, 33});
+  expect_same_place(at["root"], {11, 22, 33});
+  expect_same_place(at.tip(0), {11, 24, 33});
   EXPECT_TRUE(tells(file.notices, "pre-set"));
 }
 
@@ -137,7 +137,7 @@ TEST(AsfRead, ARootWithoutTranslationsStandsAtItsPosition) {
   const std::string asf = one_bone({.order = "RX", .root = "position 1 2 3", .dof = "rx"});
   const File file = read_text("a", asf, "b", "1\nroot 0\nbone 0\n", kMetres);
   EXPECT_EQ(file.motion.skeleton().translation_count(), 0u);
-  expect_near(places(file.motion, 0)["root"], {1, 2, 3});
+  expect_same_place(places(file.motion, 0)["root"], {1, 2, 3});
 }
 
 TEST(AsfRead, RadiansOfTheSkeletonHoldForTheMotionUnlessItSaysDegrees) {
@@ -157,16 +157,16 @@ TEST(AsfRead, TranslationDofsMoveABoneAlongItsOwnAxes) {
   const std::string asf = two_bones("0 0 90 XYZ", "tx tz rx");
   const Motion motion = read_text("a", asf, "b", "1\nroot 0 0 0\nbone 0\nlast 5 7 0\n", kMetres).motion;
   EXPECT_TRUE(motion.skeleton().joint(2).translated);
-  expect_near(places(motion, 0)["last"], {2, 5, 7});
-  expect_near(motion.skeleton().joint(2).offset, {2, 0, 0});
+  expect_same_place(places(motion, 0)["last"], {2, 5, 7});
+  expect_same_place(motion.skeleton().joint(2).offset, {2, 0, 0});
 }
 
 TEST(AsfRead, ALengthDofIsAddedToTheBoneBeforeItsChildren) {
   const std::string asf = two_bones("0 0 0 XYZ", "rx", "rz l");
   const File file =
       read_text("a", asf, "b", "1\nroot 0 0 0\nbone 90 0.5\nlast 0\n2\nroot 0 0 0\nlast 0\nbone 0 0\n", kMetres);
-  expect_near(places(file.motion, 0)["last"], {0, 2.5f, 0});
-  expect_near(places(file.motion, 1)["last"], {2, 0, 0});
+  expect_same_place(places(file.motion, 0)["last"], {0, 2.5f, 0});
+  expect_same_place(places(file.motion, 1)["last"], {2, 0, 0});
   EXPECT_TRUE(tells(file.notices, "dof l is taken as what is added"));
   EXPECT_FALSE(tells(file.notices, "no bone hangs on"));
   const File end = read_text("a", one_bone({.dof = "l"}), "b", "1\nroot 0 0 0\nbone 9\n", kMetres);
@@ -176,16 +176,16 @@ TEST(AsfRead, ALengthDofIsAddedToTheBoneBeforeItsChildren) {
 TEST(AsfRead, LengthsAreDividedByTheUnitThenTakenToMetres) {
   const std::string asf = one_bone({.length_unit = "0.5", .dof = ""});
   const Motion motion = read_text("a", asf, "b", "1\nroot 3 0 1\n", {.unit = 0.0254}).motion;
-  expect_near(places(motion, 0)["root"], {6 * 0.0254f, 0, 2 * 0.0254f});
-  expect_near(motion.skeleton().tips()[0].offset, {4 * 0.0254f, 0, 0});
+  expect_same_place(places(motion, 0)["root"], {6 * 0.0254f, 0, 2 * 0.0254f});
+  expect_same_place(motion.skeleton().tips()[0].offset, {4 * 0.0254f, 0, 0});
 }
 
 TEST(AsfRead, ZUpIsTurnedToYUp) {
   const std::string asf = one_bone({.dof = "rz"});
   const Motion motion =
       read_text("a", asf, "b", "1\nroot 1 2 3\nbone 90\n", {.unit = 1.0, .up = bvh::UpAxis::z}).motion;
-  expect_near(places(motion, 0)["root"], {1, 3, -2});
-  expect_near(places(motion, 0).tip(0), {1, 3, -4});
+  expect_same_place(places(motion, 0)["root"], {1, 3, -2});
+  expect_same_place(places(motion, 0).tip(0), {1, 3, -4});
   expect_turn(motion.pose(0).rotations[1], 90, Eigen::Vector3d::UnitY());
 }
 
@@ -204,7 +204,7 @@ TEST(AsfRead, OddSpellingsAreOne) {
       "1E0,2 3e-0#\r\n8\r\nroot 0 0 0\r\nbone 0 0";
   const File file = read_text("a", crlf, "b", amc, kMetres);
   ASSERT_EQ(file.motion.frame_count(), 2);
-  expect_near(places(file.motion, 0)["root"], {1, 2, 3});
+  expect_same_place(places(file.motion, 0)["root"], {1, 2, 3});
   expect_turn(file.motion.pose(0).rotations[1], 45, Eigen::Vector3d::UnitX());
   EXPECT_TRUE(tells(file.notices, "b:5: the first frame has the number 7; it becomes frame 0"));
 }

@@ -23,7 +23,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const char* extension) {
   return files;
 }
 
-std::string fault_of(const fs::path& path) {
+std::string fault_in_file(const fs::path& path) {
   try {
     read(path);
   } catch (const Error& error) {
@@ -33,15 +33,15 @@ std::string fault_of(const fs::path& path) {
   return "no fault";
 }
 
-const fs::path kFolder = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata" / "bvh_broken";
+const fs::path kBrokenFolder = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata" / "bvh_broken";
 
 // x.expected beside x.bvh holds what follows "x.bvh:" in the message; a file without one fails here.
 TEST(BvhBroken, EveryBrokenFileIsRefusedWithItsLineAndItsMend) {
-  const std::vector<fs::path> files = files_in(kFolder, ".bvh");
+  const std::vector<fs::path> files = files_in(kBrokenFolder, ".bvh");
   ASSERT_GE(files.size(), 50u);
   for (fs::path path : files) {
     SCOPED_TRACE(path.filename());
-    const std::string fault = fault_of(path);
+    const std::string fault = fault_in_file(path);
     const std::string text = read_file(path);
     std::string by_text;
     try {
@@ -58,7 +58,8 @@ TEST(BvhBroken, EveryBrokenFileIsRefusedWithItsLineAndItsMend) {
 }
 
 TEST(BvhBroken, EveryExpectationHasItsFile) {
-  for (fs::path path : files_in(kFolder, ".expected")) EXPECT_TRUE(fs::exists(path.replace_extension(".bvh"))) << path;
+  for (fs::path path : files_in(kBrokenFolder, ".expected"))
+    EXPECT_TRUE(fs::exists(path.replace_extension(".bvh"))) << path;
 }
 
 // A file cut anywhere must be refused, never crash, and never be taken for whole, unless only blanks are lost.

@@ -52,7 +52,7 @@ Eigen::Vector3d in_file(const Eigen::Vector3d& v, const Style& style) {
   return turned / style.unit;
 }
 
-std::string body(const Style& style) {
+std::string body_text(const Style& style) {
   std::string text = "HIERARCHY\n";
   std::string frame;
   int open = 0;
@@ -94,7 +94,7 @@ float height_of(const File& file) {
 TEST(BvhGuess, TheUnitIsTheOneThatMakesAHumanBody) {
   for (const double unit : {1.0, 0.01, 0.001, 0.0254, 0.0564}) {
     for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
-      const File file = read_text("f", body({.unit = unit, .up = up}));
+      const File file = read_text("f", body_text({.unit = unit, .up = up}));
       EXPECT_EQ(file.layout.unit, unit);
       EXPECT_EQ(file.layout.root_unit, unit);
       EXPECT_EQ(file.layout.up, up);
@@ -104,17 +104,18 @@ TEST(BvhGuess, TheUnitIsTheOneThatMakesAHumanBody) {
 }
 
 TEST(BvhGuess, EveryGuessIsTold) {
-  EXPECT_THAT(notices_of(read_text("f", body({}))),
+  EXPECT_THAT(notices_of(read_text("f", body_text({}))),
               ElementsAre("up axis y and unit cm (stature 1.56 m) guessed; --up and --unit override"));
-  EXPECT_THAT(notices_of(read_text("f", body({.unit = 0.0564, .up = UpAxis::z}))),
+  EXPECT_THAT(notices_of(read_text("f", body_text({.unit = 0.0564, .up = UpAxis::z}))),
               ElementsAre("up axis z and unit 0.0564 m (stature 1.56 m) guessed; --up and --unit override"));
-  EXPECT_THAT(notices_of(read_text("f", body({}), {.up = UpAxis::y})),
+  EXPECT_THAT(notices_of(read_text("f", body_text({}), {.up = UpAxis::y})),
               ElementsAre("unit cm (stature 1.56 m) guessed; --unit overrides"));
-  EXPECT_THAT(notices_of(read_text("f", body({}), {.unit = 0.01})), ElementsAre("up axis y guessed; --up overrides"));
+  EXPECT_THAT(notices_of(read_text("f", body_text({}), {.unit = 0.01})),
+              ElementsAre("up axis y guessed; --up overrides"));
 }
 
 TEST(BvhGuess, WhatIsGivenIsObeyedInSilence) {
-  const File file = read_text("f", body({}), {.up = UpAxis::z, .unit = 1.0});
+  const File file = read_text("f", body_text({}), {.up = UpAxis::z, .unit = 1.0});
   EXPECT_THAT(file.notices, IsEmpty());
   EXPECT_EQ(file.layout.up, UpAxis::z);
   EXPECT_EQ(file.layout.unit, 1.0);
@@ -122,18 +123,18 @@ TEST(BvhGuess, WhatIsGivenIsObeyedInSilence) {
 
 TEST(BvhGuess, UpIsTakenFromPosedFramesAndNotFromTheRestPose) {
   // The skeleton rests Z up and the root turns it Y up in every frame (about X by −90°).
-  const File file = read_text("f", body({.up = UpAxis::z, .root_rotation = "0 -90 0"}));
+  const File file = read_text("f", body_text({.up = UpAxis::z, .root_rotation = "0 -90 0"}));
   EXPECT_EQ(file.layout.up, UpAxis::y);
 }
 
 TEST(BvhGuess, BonesThatOnlyPositionChannelsGiveAreMeasuredInTheFrames) {
-  const File file = read_text("f", body({.unit = 0.001, .offsets_in_frames = true}));
+  const File file = read_text("f", body_text({.unit = 0.001, .offsets_in_frames = true}));
   EXPECT_EQ(file.layout.unit, 0.001);
 }
 
 TEST(BvhGuess, WithoutNamesTheExtentOfTheBodyTells) {
   for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
-    const File file = read_text("f", body({.unit = 0.0254, .up = up, .nameless = true}));
+    const File file = read_text("f", body_text({.unit = 0.0254, .up = up, .nameless = true}));
     EXPECT_EQ(file.layout.up, up);
     EXPECT_EQ(file.layout.unit, 0.0254);
     ASSERT_EQ(file.notices.size(), 1u);
@@ -142,7 +143,7 @@ TEST(BvhGuess, WithoutNamesTheExtentOfTheBodyTells) {
 }
 
 TEST(BvhGuess, WhatIsNoHumanBodyIsTakenForCentimetresWithAWarning) {
-  const File file = read_text("f", body({.unit = 12.0}));
+  const File file = read_text("f", body_text({.unit = 12.0}));
   EXPECT_EQ(file.layout.unit, 0.01);
   ASSERT_EQ(file.notices.size(), 1u);
   EXPECT_THAT(file.notices[0].text, HasSubstr("0.0013 m tall and may well be wrong"));
@@ -150,16 +151,16 @@ TEST(BvhGuess, WhatIsNoHumanBodyIsTakenForCentimetresWithAWarning) {
 
 TEST(BvhGuess, AnUnusualStatureIsCalledSo) {
   // 46 inches of bones: a child, or another unit.
-  const File file = read_text("f", body({.unit = 0.035}));
+  const File file = read_text("f", body_text({.unit = 0.035}));
   ASSERT_EQ(file.notices.size(), 1u);
   EXPECT_THAT(file.notices[0].text, HasSubstr("which is unusual"));
 }
 
 TEST(BvhGuess, ABodyUpsideDownOrLyingIsTold) {
-  const File down = read_text("f", body({.root_rotation = "180 0 0"}));
+  const File down = read_text("f", body_text({.root_rotation = "180 0 0"}));
   ASSERT_EQ(down.notices.size(), 2u);
   EXPECT_THAT(down.notices[1].text, HasSubstr("the head is below the feet"));
-  const File lying = read_text("f", body({.root_rotation = "90 0 0"}));
+  const File lying = read_text("f", body_text({.root_rotation = "90 0 0"}));
   EXPECT_EQ(lying.layout.up, UpAxis::y);
   EXPECT_THAT(lying.notices[0].text, HasSubstr("the body gives no clear answer"));
 }

@@ -25,7 +25,7 @@ const Eigen::Vector3f kX = Eigen::Vector3f::UnitX();
 const Eigen::Vector3f kY = Eigen::Vector3f::UnitY();
 const Eigen::Vector3f kZ = Eigen::Vector3f::UnitZ();
 
-std::string fault_of(std::string_view text, const ReadOptions& options = {}) {
+std::string fault_in_text(std::string_view text, const ReadOptions& options = {}) {
   try {
     read_text("f.bvh", text, options);
   } catch (const Error& error) {
@@ -242,8 +242,8 @@ TEST(BvhRead, ARootThatOnlySometimesHoldsItsOffsetIsNotCalledPermuted) {
 }
 
 TEST(BvhRead, RotationFirstNeedsARootThatCanBePermuted) {
-  EXPECT_THAT(fault_of(one_joint("CHANNELS 3 Zrotation Xrotation Yrotation", "1 2 3"),
-                       {.root_columns = RootColumns::rotation_first}),
+  EXPECT_THAT(fault_in_text(one_joint("CHANNELS 3 Zrotation Xrotation Yrotation", "1 2 3"),
+                            {.root_columns = RootColumns::rotation_first}),
               HasSubstr("leave --root-order away"));
 }
 
@@ -273,13 +273,14 @@ TEST(BvhRead, DeepNestingCostsNoStack) {
   const std::string written = write_text(file.motion, file.layout);
   EXPECT_LT(written.size(), 20'000'000u);
   EXPECT_TRUE(read_plainly(written).motion.skeleton() == file.motion.skeleton());
-  EXPECT_THAT(fault_of(nest(deep, 100'000)), HasSubstr("more than 65535 joints"));
+  EXPECT_THAT(fault_in_text(nest(deep, 100'000)), HasSubstr("more than 65535 joints"));
 }
 
 TEST(BvhRead, AHugeCountOfFramesAllocatesNothing) {
   std::string text = chain({}, {"1 2 3 4 5 6"});
   text.replace(text.find("Frames: 1"), 9, "Frames: 9223372036854775807");
-  EXPECT_THAT(fault_of(text), HasSubstr("the file ends after 1 whole frames, but Frames: says 9223372036854775807"));
+  EXPECT_THAT(fault_in_text(text),
+              HasSubstr("the file ends after 1 whole frames, but Frames: says 9223372036854775807"));
 }
 
 TEST(BvhRead, AFewNumbersDoNotBecomeGigabytesOfJointsAtRest) {
@@ -287,13 +288,13 @@ TEST(BvhRead, AFewNumbersDoNotBecomeGigabytesOfJointsAtRest) {
   for (int i = 0; i < 5'000; ++i) text += "JOINT a\n{\nOFFSET 0 0 0\n}\n";
   text += "}\nMOTION\nFrames: 1000000\nFrame Time: 0.01\n";
   for (int i = 0; i < 1'000'000; ++i) text += "0\n";
-  EXPECT_THAT(fault_of(text), HasSubstr("leave out the joints that do not move"));
+  EXPECT_THAT(fault_in_text(text), HasSubstr("leave out the joints that do not move"));
 }
 
 TEST(BvhRead, AUnitMustBeALength) {
   for (const double unit : {0.0, -1.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
-    EXPECT_THAT(fault_of(kPermuted, {.unit = unit}), HasSubstr("unit"));
-    EXPECT_THAT(fault_of(kPermuted, {.root_unit = unit}), HasSubstr("unit"));
+    EXPECT_THAT(fault_in_text(kPermuted, {.unit = unit}), HasSubstr("unit"));
+    EXPECT_THAT(fault_in_text(kPermuted, {.root_unit = unit}), HasSubstr("unit"));
   }
 }
 

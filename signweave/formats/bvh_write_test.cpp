@@ -259,13 +259,14 @@ RC_GTEST_PROP(BvhWrite, WhatIsWrittenIsReadBackTheSame, ()) {
 }
 
 RC_GTEST_PROP(BvhWrite, InAnyOrderAxisAndUnitItShowsTheSame, ()) {
-  constexpr Channel kX = Channel::x_rotation;
-  constexpr Channel kY = Channel::y_rotation;
-  constexpr Channel kZ = Channel::z_rotation;
+  constexpr Channel kXTurn = Channel::x_rotation;
+  constexpr Channel kYTurn = Channel::y_rotation;
+  constexpr Channel kZTurn = Channel::z_rotation;
   using Order = std::array<Channel, 3>;
   const File first = read_text("first", random_text(), {.unit = 0.01, .mirror = *rc::gen::arbitrary<bool>()});
-  const LayoutWishes wishes{.order = *rc::gen::element(Order{kX, kY, kZ}, Order{kX, kZ, kY}, Order{kY, kX, kZ},
-                                                       Order{kY, kZ, kX}, Order{kZ, kX, kY}, Order{kZ, kY, kX}),
+  const LayoutWishes wishes{.order = *rc::gen::element(Order{kXTurn, kYTurn, kZTurn}, Order{kXTurn, kZTurn, kYTurn},
+                                                       Order{kYTurn, kXTurn, kZTurn}, Order{kYTurn, kZTurn, kXTurn},
+                                                       Order{kZTurn, kXTurn, kYTurn}, Order{kZTurn, kYTurn, kXTurn}),
                             .up = *rc::gen::element(UpAxis::y, UpAxis::z),
                             .unit = *rc::gen::element(1.0, 0.01, 0.0254)};
   const Layout layout = with(first.layout, wishes);

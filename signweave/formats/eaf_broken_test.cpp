@@ -11,7 +11,7 @@ namespace {
 using namespace testing_support;
 
 /// Names without ".eaf".
-std::vector<std::string> broken_files() {
+std::vector<std::string> broken_eaf_files() {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(testdata("eaf_broken"))) {
     if (entry.path().extension() == ".eaf") files.push_back(entry.path().stem().string());
@@ -23,7 +23,7 @@ std::vector<std::string> broken_files() {
 class BrokenEaf : public testing::TestWithParam<std::string> {};
 
 /// The error, where there is one, without the file's folder.
-std::string error_of(const std::filesystem::path& path) {
+std::string eaf_error(const std::filesystem::path& path) {
   try {
     read(path);
   } catch (const Error& error) {
@@ -38,10 +38,10 @@ std::string error_of(const std::filesystem::path& path) {
 TEST_P(BrokenEaf, IsRefusedWithOneClearLine) {
   const std::filesystem::path expected = testdata("eaf_broken") / (GetParam() + ".expected");
   ASSERT_TRUE(std::filesystem::exists(expected)) << "every broken file needs its .expected";
-  EXPECT_EQ(error_of(testdata("eaf_broken") / (GetParam() + ".eaf")), trimmed(read_file(expected)));
+  EXPECT_EQ(eaf_error(testdata("eaf_broken") / (GetParam() + ".eaf")), trimmed(read_file(expected)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Testdata, BrokenEaf, testing::ValuesIn(broken_files()),
+INSTANTIATE_TEST_SUITE_P(Testdata, BrokenEaf, testing::ValuesIn(broken_eaf_files()),
                          [](const auto& one) { return one.param; });
 
 TEST(BrokenEaf, NoExpectationIsWithoutItsFile) {
@@ -49,7 +49,7 @@ TEST(BrokenEaf, NoExpectationIsWithoutItsFile) {
   for (const auto& entry : std::filesystem::directory_iterator(testdata("eaf_broken"))) {
     if (entry.path().extension() == ".expected") ++expectations;
   }
-  EXPECT_EQ(expectations, broken_files().size());
+  EXPECT_EQ(expectations, broken_eaf_files().size());
   EXPECT_GE(expectations, 40U);
 }
 

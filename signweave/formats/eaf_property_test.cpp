@@ -15,12 +15,12 @@ namespace {
 
 using namespace testing_support;
 
-int number(int from, int below) {
+int whole_number(int from, int below) {
   return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(from, below));  // small documents prove little
 }
 
 bool chance(int percent) {
-  return number(0, 100) < percent;
+  return whole_number(0, 100) < percent;
 }
 
 std::string any_label() {
@@ -34,19 +34,21 @@ class Builder {
   AnnotationDocument build() {
     document_.author = any_label();
     document_.date = "2026-01-02T03:04:05Z";
-    for (int i = number(0, 3); i > 0; --i) {
-      document_.linked_files.push_back({any_label(), any_label(), any_label(), Milliseconds(number(-9, 9)), i > 1});
+    for (int i = whole_number(0, 3); i > 0; --i) {
+      document_.linked_files.push_back(
+          {any_label(), any_label(), any_label(), Milliseconds(whole_number(-9, 9)), i > 1});
     }
-    for (int i = number(0, 3); i > 0; --i) document_.properties.emplace_back("p" + std::to_string(i), any_label());
+    for (int i = whole_number(0, 3); i > 0; --i)
+      document_.properties.emplace_back("p" + std::to_string(i), any_label());
     document_.properties.emplace_back(std::string(kLastUsedAnnotationId), "900");
     constexpr Stereotype kAll[] = {Stereotype::none, Stereotype::time_subdivision, Stereotype::included_in,
                                    Stereotype::symbolic_subdivision, Stereotype::symbolic_association};
     for (const Stereotype stereotype : kAll) {
       document_.types.push_back({"type " + std::to_string(static_cast<int>(stereotype)), stereotype, any_label()});
     }
-    const int tiers = number(0, 9);
+    const int tiers = whole_number(0, 9);
     for (int i = 0; i < tiers; ++i) {
-      add_tier(i == 0 || chance(30) ? kNone : static_cast<std::size_t>(number(0, i)));
+      add_tier(i == 0 || chance(30) ? kNone : static_cast<std::size_t>(whole_number(0, i)));
     }
     return document_;
   }
@@ -60,7 +62,8 @@ class Builder {
 
   void add_tier(std::size_t parent) {
     Stereotype stereotype = Stereotype::none;
-    if (parent != kNone) stereotype = static_cast<Stereotype>(number(is_symbolic(stereotypes_[parent]) ? 3 : 1, 5));
+    if (parent != kNone)
+      stereotype = static_cast<Stereotype>(whole_number(is_symbolic(stereotypes_[parent]) ? 3 : 1, 5));
     Tier tier;
     tier.id = "tier " + std::to_string(document_.tiers.size()) + (chance(30) ? any_label() : "");
     tier.type = "type " + std::to_string(static_cast<int>(stereotype));
@@ -94,9 +97,9 @@ class Builder {
   /// Some annotations with times of their own, with and without gaps, some of no length.
   void fill(TimeSpan whole, const std::string& parent, bool no_length_too) {
     Milliseconds at = whole.begin;
-    for (int i = number(0, 12); i > 0; --i) {
-      const Milliseconds begin = at + Milliseconds(chance(50) ? 0 : number(0, 100));
-      const Milliseconds end = begin + Milliseconds(no_length_too && chance(10) ? 0 : number(1, 400));
+    for (int i = whole_number(0, 12); i > 0; --i) {
+      const Milliseconds begin = at + Milliseconds(chance(50) ? 0 : whole_number(0, 100));
+      const Milliseconds end = begin + Milliseconds(no_length_too && chance(10) ? 0 : whole_number(1, 400));
       if (end > whole.end) return;
       add({begin, end}, parent, {});
       at = end;
@@ -104,12 +107,12 @@ class Builder {
   }
 
   void subdivide(const Annotation& above, Bounds outer) {
-    const int count = number(1, 5);
+    const int count = whole_number(1, 5);
     const std::int64_t length = above.span.duration().count();
     std::vector<std::int64_t> cuts{0};
     const bool aligned = chance(60) || length < count;
     for (int i = 1; i < count; ++i) {
-      cuts.push_back(aligned ? number(0, static_cast<int>(length) + 1) : i * (length / count));
+      cuts.push_back(aligned ? whole_number(0, static_cast<int>(length) + 1) : i * (length / count));
     }
     cuts.push_back(length);
     std::sort(cuts.begin(), cuts.end());
@@ -121,7 +124,7 @@ class Builder {
   }
 
   void divide(const Annotation& above) {
-    const int count = number(1, 5);
+    const int count = whole_number(1, 5);
     const double part = static_cast<double>(above.span.duration().count()) / count;
     const auto bound = [&](int i) {
       return i == count ? above.span.end : above.span.begin + Milliseconds(static_cast<std::int64_t>(i * part));
@@ -157,7 +160,7 @@ class Changer {
   explicit Changer(AnnotationDocument& document) : document_(document) {}
 
   void change() {
-    switch (number(0, 9)) {
+    switch (whole_number(0, 9)) {
       case 0:
         change_label();
         break;
@@ -192,12 +195,12 @@ class Changer {
  private:
   Tier* any_tier() {
     if (document_.tiers.empty()) return nullptr;
-    return &document_.tiers[static_cast<std::size_t>(number(0, static_cast<int>(document_.tiers.size())))];
+    return &document_.tiers[static_cast<std::size_t>(whole_number(0, static_cast<int>(document_.tiers.size())))];
   }
 
   Annotation* any_annotation(Tier* tier) {
     if (tier == nullptr || tier->annotations.empty()) return nullptr;
-    return &tier->annotations[static_cast<std::size_t>(number(0, static_cast<int>(tier->annotations.size())))];
+    return &tier->annotations[static_cast<std::size_t>(whole_number(0, static_cast<int>(tier->annotations.size())))];
   }
 
   bool has_children(const std::string& id) const {
@@ -248,7 +251,7 @@ class Changer {
     Tier* tier = any_tier();
     if (tier == nullptr || stereotype(*tier) != Stereotype::none) return;
     const Milliseconds begin = tier->annotations.empty() ? 0ms : tier->annotations.back().span.end;
-    tier->annotations.push_back({new_id(), any_label(), {begin, begin + Milliseconds(number(1, 99))}, "", true});
+    tier->annotations.push_back({new_id(), any_label(), {begin, begin + Milliseconds(whole_number(1, 99))}, "", true});
     touched_.insert(tier->id);
   }
 
@@ -258,8 +261,8 @@ class Changer {
     Annotation* one = any_annotation(tier);
     if (one == nullptr || has_children(one->id) || one->span.duration() < 10ms) return;
     if (stereotype(*tier) != Stereotype::none && stereotype(*tier) != Stereotype::included_in) return;
-    one->span.begin += Milliseconds(number(0, 4));
-    one->span.end -= Milliseconds(number(0, 4));
+    one->span.begin += Milliseconds(whole_number(0, 4));
+    one->span.end -= Milliseconds(whole_number(0, 4));
     touched_.insert(tier->id);
   }
 
@@ -272,7 +275,7 @@ class Changer {
       const bool joined = left.parent == right.parent && left.span.end == right.span.begin;
       if (!joined || !left.aligned || !right.aligned || right.span.duration() < 10ms || chance(50)) continue;
       if (has_children(left.id) || has_children(right.id)) continue;
-      left.span.end = right.span.begin = left.span.end + Milliseconds(number(1, 9));
+      left.span.end = right.span.begin = left.span.end + Milliseconds(whole_number(1, 9));
       touched_.insert(tier->id);
     }
   }
@@ -309,7 +312,7 @@ class Changer {
         tier.annotations.push_back({new_id(), any_label(), one.span, one.id, false});
       }
     }
-    const auto at = static_cast<std::ptrdiff_t>(number(0, static_cast<int>(document_.tiers.size()) + 1));
+    const auto at = static_cast<std::ptrdiff_t>(whole_number(0, static_cast<int>(document_.tiers.size()) + 1));
     document_.tiers.insert(document_.tiers.begin() + at, tier);
   }
 
@@ -366,7 +369,7 @@ RC_GTEST_PROP(EafProperty, ChangesSurviveAndNothingElseChanges, ()) {
   const AnnotationDocument before = read_text("before.eaf", text).document;
   AnnotationDocument after = before;
   Changer changer(after);
-  for (int i = number(1, 5); i > 0; --i) changer.change();
+  for (int i = whole_number(1, 5); i > 0; --i) changer.change();
 
   const std::string written = write_text(after);
   const File again = read_text("after.eaf", written);

@@ -18,11 +18,11 @@ using testing::IsEmpty;
 
 const std::string kHeading = "Timecode,BlendShapeCount,JawOpen,EyeBlinkLeft\n";
 
-face_csv::Face read(const std::string& rows) {
+face_csv::Face read_rows(const std::string& rows) {
   return face_csv::read_text("f.csv", kHeading + rows);
 }
 
-std::string error_of(const std::string& text) {
+std::string face_error(const std::string& text) {
   try {
     face_csv::read_text("f.csv", text);
   } catch (const Error& error) {
@@ -47,7 +47,7 @@ std::string rows_at(int rate, int seconds) {
 
 TEST(FaceCsv, NamesAreArkitsAndTimesCountFromTheFirstRow) {
   const face_csv::Face face =
-      read("11:22:33:30.000,2,0.25,0\n11:22:33:45.000,2,0.5,1e-3\r\n11:22:34:00.000,2,1,-0.5\n");
+      read_rows("11:22:33:30.000,2,0.25,0\n11:22:33:45.000,2,0.5,1e-3\r\n11:22:34:00.000,2,1,-0.5\n");
   ASSERT_EQ(face.tracks.size(), 2u);
   EXPECT_EQ(face.tracks[0].name, "jawOpen");
   EXPECT_THAT(face.tracks[0].values, ElementsAre(0.25f, 0.5f, 1));
@@ -60,25 +60,26 @@ TEST(FaceCsv, NamesAreArkitsAndTimesCountFromTheFirstRow) {
 
 TEST(FaceCsv, TheRateIsTheFramesThatASecondIsSeenToHave) {
   for (const int rate : {24, 25, 30, 60, 100, 120}) {
-    const face_csv::Face face = read(rows_at(rate, 3));
+    const face_csv::Face face = read_rows(rows_at(rate, 3));
     EXPECT_EQ(face.rate, (FrameRate{rate, 1}));
     EXPECT_NEAR(face.times.back().count(), 3 - 1.0 / rate, 1e-9);
   }
-  EXPECT_EQ(read("0:0:0:0,2,0,0\n0:0:0:29,2,0,0\n").rate, (FrameRate{60, 1})) << "too little is seen";
-  EXPECT_EQ(read("0:0:0:0,2,0,0\n0:0:0:30,2,0,0\n0:0:1:0,2,0,0\n0:0:2:0,2,0,0\n").rate, (FrameRate{60, 1}))
+  EXPECT_EQ(read_rows("0:0:0:0,2,0,0\n0:0:0:29,2,0,0\n").rate, (FrameRate{60, 1})) << "too little is seen";
+  EXPECT_EQ(read_rows("0:0:0:0,2,0,0\n0:0:0:30,2,0,0\n0:0:1:0,2,0,0\n0:0:2:0,2,0,0\n").rate, (FrameRate{60, 1}))
       << "rows are not a frame apart";
-  EXPECT_EQ(read("0:0:0:0,2,0,0\n0:0:0:75,2,0,0\n").rate, (FrameRate{90, 1})) << "60 has no frame 75";
+  EXPECT_EQ(read_rows("0:0:0:0,2,0,0\n0:0:0:75,2,0,0\n").rate, (FrameRate{90, 1})) << "60 has no frame 75";
 }
 
 TEST(FaceCsv, TimeGoesOnAfterMidnight) {
-  EXPECT_THAT(times_ms(read("23:59:59:30,2,0,0\n00:00:00:00,2,0,0\n00:00:00:30,2,0,0\n")), ElementsAre(0, 500, 1000));
+  EXPECT_THAT(times_ms(read_rows("23:59:59:30,2,0,0\n00:00:00:00,2,0,0\n00:00:00:30,2,0,0\n")),
+              ElementsAre(0, 500, 1000));
   constexpr long kHour = 3'600'000;
-  EXPECT_THAT(times_ms(read("20:0:0:0,2,0,0\n6:0:0:0,2,0,0\n20:0:0:0,2,0,0\n6:0:0:0,2,0,0\n")),
+  EXPECT_THAT(times_ms(read_rows("20:0:0:0,2,0,0\n6:0:0:0,2,0,0\n20:0:0:0,2,0,0\n6:0:0:0,2,0,0\n")),
               ElementsAre(0, 10 * kHour, 24 * kHour, 34 * kHour));
 }
 
 TEST(FaceCsv, RowsThatSawNoFaceAreBridged) {
-  const face_csv::Face face = read("0:0:0:0,0\n0:0:0:6,2,1,0\n0:0:0:12,0,,\n0:0:0:18,2,0,0\n");
+  const face_csv::Face face = read_rows("0:0:0:0,0\n0:0:0:6,2,1,0\n0:0:0:12,0,,\n0:0:0:18,2,0,0\n");
   EXPECT_THAT(face.tracks[0].values, ElementsAre(1, 0));
   EXPECT_THAT(times_ms(face), ElementsAre(100, 300)) << "from the first row, face or not";
   ASSERT_EQ(face.notices.size(), 1u);
@@ -93,37 +94,38 @@ TEST(FaceCsv, TracksBesideArkitsAreKeptAndTold) {
 }
 
 TEST(FaceCsv, AFaultIsToldWithItsLine) {
-  EXPECT_THAT(error_of(""), HasSubstr("f.csv:1: the file is empty"));
-  EXPECT_THAT(error_of("frame,time_s,Hips.x\n0,0,1\n"), HasSubstr("f.csv:1: expected the heading Timecode,BlendShape"));
-  EXPECT_THAT(error_of("Timecode,BlendShapeCount\n"), HasSubstr("f.csv:1: expected the heading"));
-  EXPECT_THAT(error_of("Timecode,BlendShapeCount,JawOpen,\n"), HasSubstr("f.csv:1: column 4 has no name"));
-  EXPECT_THAT(error_of("Timecode,BlendShapeCount,JawOpen,jawOpen\n"), HasSubstr("column 'jawOpen' is there twice"));
-  EXPECT_THAT(error_of("Timecode,BlendShapeCount,Ear\n"),
+  EXPECT_THAT(face_error(""), HasSubstr("f.csv:1: the file is empty"));
+  EXPECT_THAT(face_error("frame,time_s,Hips.x\n0,0,1\n"),
+              HasSubstr("f.csv:1: expected the heading Timecode,BlendShape"));
+  EXPECT_THAT(face_error("Timecode,BlendShapeCount\n"), HasSubstr("f.csv:1: expected the heading"));
+  EXPECT_THAT(face_error("Timecode,BlendShapeCount,JawOpen,\n"), HasSubstr("f.csv:1: column 4 has no name"));
+  EXPECT_THAT(face_error("Timecode,BlendShapeCount,JawOpen,jawOpen\n"), HasSubstr("column 'jawOpen' is there twice"));
+  EXPECT_THAT(face_error("Timecode,BlendShapeCount,Ear\n"),
               HasSubstr("column 'Ear' and the others are no names of ARKit's"));
-  EXPECT_THAT(error_of(kHeading), HasSubstr("f.csv:2: no row with values"));
-  EXPECT_THAT(error_of(kHeading + "0:0:0:0,0,,\n"), HasSubstr("f.csv:3: no row with values"));
-  EXPECT_THAT(error_of(kHeading + "\n0:0:0:0,2,0,0\n0:0:0:1,2,0\n"),
+  EXPECT_THAT(face_error(kHeading), HasSubstr("f.csv:2: no row with values"));
+  EXPECT_THAT(face_error(kHeading + "0:0:0:0,0,,\n"), HasSubstr("f.csv:3: no row with values"));
+  EXPECT_THAT(face_error(kHeading + "\n0:0:0:0,2,0,0\n0:0:0:1,2,0\n"),
               HasSubstr("f.csv:4: 3 columns where the heading has 4"));
-  EXPECT_THAT(error_of(kHeading + "0:0:0:0,2,0,0,0\n"), HasSubstr("f.csv:2: 5 columns where the heading has 4"));
-  EXPECT_THAT(error_of(kHeading + "0:0:0:0,2,0,x\n"),
+  EXPECT_THAT(face_error(kHeading + "0:0:0:0,2,0,0,0\n"), HasSubstr("f.csv:2: 5 columns where the heading has 4"));
+  EXPECT_THAT(face_error(kHeading + "0:0:0:0,2,0,x\n"),
               HasSubstr("f.csv:2: 'x' in column EyeBlinkLeft is no finite number"));
   for (const char* value : {"nan", "inf", "1e99", "", "0x1", "1,5 "}) {
-    EXPECT_THAT(error_of(kHeading + "0:0:0:0,2,0," + value + "\n"), HasSubstr("f.csv:2: ")) << value;
+    EXPECT_THAT(face_error(kHeading + "0:0:0:0,2,0," + value + "\n"), HasSubstr("f.csv:2: ")) << value;
   }
-  EXPECT_THAT(error_of(kHeading + "0:0:0:0,two,0,0\n"),
+  EXPECT_THAT(face_error(kHeading + "0:0:0:0,two,0,0\n"),
               HasSubstr("f.csv:2: expected a number in the column BlendShape"));
-  EXPECT_THAT(error_of(kHeading + "0:0:0:0\n"), HasSubstr("f.csv:2: expected a number in the column BlendShape"));
+  EXPECT_THAT(face_error(kHeading + "0:0:0:0\n"), HasSubstr("f.csv:2: expected a number in the column BlendShape"));
   for (const char* code : {"", "0", "0:0:0", "24:0:0:0", "0:60:0:0", "0:0:60:0", "-1:0:0:0", "0:0:0:-1", "0:0:0:1e9",
                            "0:0:0:nan", "0:0:0;0", "0:0:0:0:0", "a:0:0:0"}) {
-    EXPECT_THAT(error_of(kHeading + code + ",2,0,0\n"), HasSubstr("is no timecode")) << code;
+    EXPECT_THAT(face_error(kHeading + code + ",2,0,0\n"), HasSubstr("is no timecode")) << code;
   }
-  EXPECT_THAT(error_of(kHeading + "0:0:5:0,2,0,0\n0:0:4:59,2,0,0\n"),
+  EXPECT_THAT(face_error(kHeading + "0:0:5:0,2,0,0\n0:0:4:59,2,0,0\n"),
               HasSubstr("f.csv:3: the timecode 0:0:4:59 goes back"));
-  EXPECT_THAT(error_of(std::string("\0\1", 2)), HasSubstr("f.csv:1: "));
+  EXPECT_THAT(face_error(std::string("\0\1", 2)), HasSubstr("f.csv:1: "));
 }
 
 TEST(FaceCsv, ResamplingIsLinearAndHoldsTheLastValue) {
-  const face_csv::Face face = read("0:0:0:0,2,0,1\n0:0:0:6,2,1,1\n0:0:0:12,2,0,5\n");
+  const face_csv::Face face = read_rows("0:0:0:0,2,0,1\n0:0:0:6,2,1,1\n0:0:0:12,2,0,5\n");
   const std::vector<ScalarTrack> tracks = face_csv::resampled(face, {20, 1}, 7);  // 0, 50, 100, … ms
   ASSERT_EQ(tracks.size(), 2u);
   EXPECT_EQ(tracks[0].name, "jawOpen");
@@ -134,7 +136,7 @@ TEST(FaceCsv, ResamplingIsLinearAndHoldsTheLastValue) {
 }
 
 TEST(FaceCsv, BeginsWhereItIsToldTo) {
-  const face_csv::Face face = read("10:20:30:0,2,0,1\n10:20:30:30,2,1,1\n");
+  const face_csv::Face face = read_rows("10:20:30:0,2,0,1\n10:20:30:30,2,1,1\n");
   EXPECT_DOUBLE_EQ(face.first.count(), 37'230);
   // 4 frames a second: the first row at 0.25 s, the second at 0.75 s.
   EXPECT_THAT(face_csv::resampled(face, {4, 1}, 5, Seconds(0.25))[0].values, ElementsAre(0, 0, 0.5f, 1, 1));
@@ -142,7 +144,7 @@ TEST(FaceCsv, BeginsWhereItIsToldTo) {
 }
 
 TEST(FaceCsv, TimecodesTellWhereItLiesInAMotion) {
-  const face_csv::Face face = read("00:00:01:30,2,0,1\n");
+  const face_csv::Face face = read_rows("00:00:01:30,2,0,1\n");
   EXPECT_DOUBLE_EQ(face_csv::seconds_of("00:00:01:15", {60, 1})->count(), 1.25);
   EXPECT_FALSE(face_csv::seconds_of("1:15", {60, 1}));
   EXPECT_DOUBLE_EQ(face_csv::start_of(face, Seconds(1.25)).count(), 0.25);
@@ -152,9 +154,9 @@ TEST(FaceCsv, TimecodesTellWhereItLiesInAMotion) {
 }
 
 TEST(FaceCsv, BeforeTheFirstFaceItsValuesHoldAndEqualTimesAreAStep) {
-  const face_csv::Face late = read("0:0:0:0,0\n0:0:0:30,2,1,0\n");
+  const face_csv::Face late = read_rows("0:0:0:0,0\n0:0:0:30,2,1,0\n");
   EXPECT_THAT(face_csv::resampled(late, {4, 1}, 4)[0].values, ElementsAre(1, 1, 1, 1));
-  const face_csv::Face step = read("0:0:0:0,2,0,0\n0:0:0:30,2,0,0\n0:0:0:30,2,1,0\n0:0:0:45,2,1,0\n");
+  const face_csv::Face step = read_rows("0:0:0:0,2,0,0\n0:0:0:30,2,0,0\n0:0:0:30,2,1,0\n0:0:0:45,2,1,0\n");
   EXPECT_THAT(face_csv::resampled(step, {4, 1}, 4)[0].values, ElementsAre(0, 0, 1, 1));
 }
 

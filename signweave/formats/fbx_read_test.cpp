@@ -21,11 +21,11 @@ using test::TestNode;
 
 const std::filesystem::path kArm = std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "testdata" / "fbx" / "arm.fbx";
 
-void expect_near(const Eigen::Vector3f& found, const Eigen::Vector3f& expected) {
+void expect_same_point(const Eigen::Vector3f& found, const Eigen::Vector3f& expected) {
   EXPECT_LT((found - expected).norm(), 1e-6f) << found.transpose() << " instead of " << expected.transpose();
 }
 
-std::string fault_of(const std::string& text, const ReadOptions& options = {}) {
+std::string fbx_fault(const std::string& text, const ReadOptions& options = {}) {
   try {
     read_bytes("made", text, options);
   } catch (const Error& error) {
@@ -46,7 +46,7 @@ TestFile two_bones() {
   return file;
 }
 
-std::vector<std::string> texts_of(const std::vector<Notice>& notices) {
+std::vector<std::string> texts_of_notices(const std::vector<Notice>& notices) {
   std::vector<std::string> texts;
   for (const Notice& notice : notices) texts.push_back(notice.text);
   return texts;
@@ -66,13 +66,13 @@ TEST(FbxRead, BonesStandWhereTheHandComputedPlacesAre) {
   EXPECT_EQ(skeleton.joint(1).name, "Someone:Shoulder");
   for (std::int64_t frame = 0; frame < 3; ++frame) {
     const ModelPose pose = to_model_space(skeleton, file.motion.pose(frame));
-    expect_near(pose.positions[1], {0.2f, 1.0f, 0.0f});
-    expect_near(pose.positions[2], {0.2f, 1.3f, 0.0f});
-    expect_near(pose.positions[3], {0.2f, 1.3f, -0.2f});
+    expect_same_point(pose.positions[1], {0.2f, 1.0f, 0.0f});
+    expect_same_point(pose.positions[2], {0.2f, 1.3f, 0.0f});
+    expect_same_point(pose.positions[3], {0.2f, 1.3f, -0.2f});
   }
   // In the last frame the elbow has turned by 90 degrees: its x, first up, points left.
   const ModelPose last = to_model_space(skeleton, file.motion.pose(2));
-  expect_near(last.rotations[2] * Eigen::Vector3f::UnitX(), {-1, 0, 0});
+  expect_same_point(last.rotations[2] * Eigen::Vector3f::UnitX(), {-1, 0, 0});
   // Nothing is stretched over time, so every length is an offset.
   EXPECT_EQ(skeleton.translation_count(), 0u);
   ASSERT_EQ(file.motion.tracks().size(), 1u);
@@ -86,13 +86,13 @@ TEST(FbxRead, TextAndBinaryAreTheSameMotion) {
     const File binary = read(kArm.parent_path() / name);
     EXPECT_TRUE(same_bits(binary.motion, text.motion)) << name;
     EXPECT_EQ(binary.take, text.take);
-    EXPECT_EQ(texts_of(binary.notices), texts_of(text.notices));
+    EXPECT_EQ(texts_of_notices(binary.notices), texts_of_notices(text.notices));
   }
 }
 
 TEST(FbxRead, OneTakeIsReadAndTheOthersAreNamed) {
   const File first = read(kArm);
-  EXPECT_THAT(texts_of(first.notices), testing::Contains("take 1 'Take 001' is read; others: 2 'wave'"));
+  EXPECT_THAT(texts_of_notices(first.notices), testing::Contains("take 1 'Take 001' is read; others: 2 'wave'"));
   const File second = read(kArm, {.take = "wave"});
   EXPECT_EQ(second.take, "wave");
   EXPECT_EQ(second.motion.frame_count(), 1);
@@ -119,7 +119,7 @@ TEST(FbxRead, TheUnitOfTheFileAndThatOfTheUserScaleLengths) {
   const std::string text = test::text_of(file);
   EXPECT_FLOAT_EQ(read_bytes("made", text).motion.skeleton().joint(1).offset.x(), 0.508f);
   EXPECT_FLOAT_EQ(read_bytes("made", text, {.take = "", .unit = 0.5}).motion.skeleton().joint(1).offset.x(), 10.0f);
-  EXPECT_NE(fault_of(text, {.take = "", .unit = -1.0}).find("is no unit"), std::string::npos);
+  EXPECT_NE(fbx_fault(text, {.take = "", .unit = -1.0}).find("is no unit"), std::string::npos);
 }
 
 TEST(FbxRead, ZUpIsTurnedToYUpAndTold) {
@@ -127,8 +127,9 @@ TEST(FbxRead, ZUpIsTurnedToYUpAndTold) {
   file.settings = TestFile::axes(2, 1, 1, -1, 0, 1) + TestFile::unit(1) + TestFile::time_mode(6);
   file.nodes[0].translation = Vector3d(1, 2, 3);
   const File read = read_bytes("made", test::text_of(file));
-  expect_near(read.motion.skeleton().joint(0).offset, {0.01f, 0.03f, -0.02f});
-  EXPECT_THAT(texts_of(read.notices), testing::ElementsAre("turned to Y up: its right is +X, its up +Z, its front -Y"));
+  expect_same_point(read.motion.skeleton().joint(0).offset, {0.01f, 0.03f, -0.02f});
+  EXPECT_THAT(texts_of_notices(read.notices),
+              testing::ElementsAre("turned to Y up: its right is +X, its up +Z, its front -Y"));
 }
 
 TEST(FbxRead, TheFrameRateIsTheFilesElseThatOfItsKeys) {
@@ -202,7 +203,8 @@ TEST(FbxRead, TheTakesRangeIsReadAndKeysOutsideOfItStillBendIt) {
   ASSERT_EQ(read.motion.frame_count(), 3);
   EXPECT_NEAR(read.motion.pose(0).rotations[0].angularDistance(Eigen::Quaternionf::Identity()) * 180 / 3.14159f, 10,
               1e-3);
-  EXPECT_THAT(texts_of(read.notices), testing::Contains(testing::HasSubstr("keys before its start or after its stop")));
+  EXPECT_THAT(texts_of_notices(read.notices),
+              testing::Contains(testing::HasSubstr("keys before its start or after its stop")));
 }
 
 TEST(FbxRead, ABoneWhoseLengthMovesIsTranslatedAndOthersAreNot) {
@@ -211,7 +213,7 @@ TEST(FbxRead, ABoneWhoseLengthMovesIsTranslatedAndOthersAreNot) {
   const File read = read_bytes("made", test::text_of(file));
   ASSERT_EQ(read.motion.skeleton().translation_count(), 1u);
   EXPECT_TRUE(read.motion.skeleton().joint(1).translated);
-  expect_near(read.motion.pose(1).translations[0], {0.25f, 0, 0});
+  expect_same_point(read.motion.pose(1).translations[0], {0.25f, 0, 0});
 }
 
 // The value of a part without a curve is the curve node's, else the node's own: never 0.
@@ -220,7 +222,7 @@ TEST(FbxRead, PartsWithoutACurveKeepTheirOwnValue) {
   file.nodes[0].curves[0][1] = {.ticks = {0, kSecond / 30}, .values = {100, 101}, .attributes = {}};
   file.nodes[0].translation = Vector3d(7, 100, 9);
   const File read = read_bytes("made", test::text_of(file));
-  expect_near(read.motion.pose(1).translations[0], {0.07f, 1.01f, 0.09f});
+  expect_same_point(read.motion.pose(1).translations[0], {0.07f, 1.01f, 0.09f});
 }
 
 TEST(FbxRead, NodesOfOneNameStayTwo) {
@@ -236,17 +238,17 @@ TEST(FbxRead, NodesOfOneNameStayTwo) {
 TEST(FbxRead, AScaleThatStretchesBonesIsRefusedWithItsNode) {
   TestFile file = two_bones();
   file.nodes[0].scaling = Vector3d(1, 2, 1);
-  EXPECT_THAT(fault_of(test::text_of(file)),
+  EXPECT_THAT(fbx_fault(test::text_of(file)),
               testing::HasSubstr("node 'Arm' is scaled by 1, 2, 1 and has bones below it, which would be stretched"));
   file.nodes[0].scaling = Vector3d::Ones();
   file.nodes[0].curves[2][1] = {.ticks = {0, kSecond / 30}, .values = {1, 3}, .attributes = {}};
-  EXPECT_THAT(fault_of(test::text_of(file)), testing::HasSubstr("node 'Arm' is scaled by 1, 3, 1 in frame 1"));
+  EXPECT_THAT(fbx_fault(test::text_of(file)), testing::HasSubstr("node 'Arm' is scaled by 1, 3, 1 in frame 1"));
   file.nodes[0].curves[2] = {};
   file.nodes[0].scaling = -Vector3d::Ones();
-  EXPECT_THAT(fault_of(test::text_of(file)), testing::HasSubstr("mirrored"));
+  EXPECT_THAT(fbx_fault(test::text_of(file)), testing::HasSubstr("mirrored"));
   file.nodes[0].scaling = Vector3d::Ones();
   file.nodes[1].scaling = Vector3d(1, 2, 3);  // nothing hangs from the hand
-  EXPECT_EQ(fault_of(test::text_of(file)), "no fault");
+  EXPECT_EQ(fbx_fault(test::text_of(file)), "no fault");
 }
 
 TEST(FbxRead, AnimatedUniformScaleIsInTheLengths) {
@@ -254,8 +256,8 @@ TEST(FbxRead, AnimatedUniformScaleIsInTheLengths) {
   for (TestCurve& curve : file.nodes[0].curves[2])
     curve = {.ticks = {0, kSecond / 30}, .values = {1, 3}, .attributes = {}};
   const File read = read_bytes("made", test::text_of(file));
-  expect_near(read.motion.pose(0).translations[0], {0.2f, 0, 0});
-  expect_near(read.motion.pose(1).translations[0], {0.6f, 0, 0});
+  expect_same_point(read.motion.pose(0).translations[0], {0.2f, 0, 0});
+  expect_same_point(read.motion.pose(1).translations[0], {0.6f, 0, 0});
 }
 
 // InheritType 2: what hangs from the middle does not take the middle's parent's own scale, its place does.
@@ -267,8 +269,8 @@ TEST(FbxRead, ANodeThatDoesNotInheritItsParentsScalePassesNoneOn) {
   finger.translation = Vector3d(5, 0, 0);
   file.nodes.push_back(finger);
   const File read = read_bytes("made", test::text_of(file));
-  expect_near(read.motion.skeleton().joint(1).offset, {0.4f, 0, 0});
-  expect_near(read.motion.skeleton().joint(2).offset, {0.05f, 0, 0});
+  expect_same_point(read.motion.skeleton().joint(1).offset, {0.4f, 0, 0});
+  expect_same_point(read.motion.skeleton().joint(2).offset, {0.05f, 0, 0});
 }
 
 TEST(FbxRead, OfSeveralTreesTheLargestIsReadAndTheOthersAreNamed) {
@@ -278,7 +280,7 @@ TEST(FbxRead, OfSeveralTreesTheLargestIsReadAndTheOthersAreNamed) {
   file.nodes[2].parent = 1;
   const File read = read_bytes("made", test::text_of(file));
   EXPECT_EQ(read.motion.skeleton().joint_count(), 2u);
-  EXPECT_THAT(texts_of(read.notices),
+  EXPECT_THAT(texts_of_notices(read.notices),
               testing::ElementsAre("2 trees of bones; the one of 'Arm' with 2 bones is read, without 'Ball'"));
   std::rotate(file.nodes.begin(), file.nodes.begin() + 1, file.nodes.end());
   file.nodes[1].parent = 0;
@@ -293,7 +295,8 @@ TEST(FbxRead, NullsAreBonesOnlyWhereNothingElseIs) {
   for (TestNode& node : file.nodes) node.type = "Null";
   const File nulls = read_bytes("made", test::text_of(file));
   EXPECT_EQ(nulls.motion.skeleton().joint_count(), 3u);
-  EXPECT_THAT(texts_of(nulls.notices), testing::ElementsAre(testing::HasSubstr("Null nodes are taken for bones")));
+  EXPECT_THAT(texts_of_notices(nulls.notices),
+              testing::ElementsAre(testing::HasSubstr("Null nodes are taken for bones")));
 }
 
 TEST(FbxRead, InactivePreRotationIsLeftOutAndTold) {
@@ -301,7 +304,7 @@ TEST(FbxRead, InactivePreRotationIsLeftOutAndTold) {
   file.nodes[0].properties = TestFile::vector("PreRotation", Vector3d(90, 0, 0));
   const File read = read_bytes("made", test::text_of(file));
   EXPECT_TRUE(read.motion.pose(0).rotations[0].isApprox(Eigen::Quaternionf::Identity()));
-  EXPECT_THAT(texts_of(read.notices), testing::ElementsAre(testing::HasSubstr("RotationActive turns off")));
+  EXPECT_THAT(texts_of_notices(read.notices), testing::ElementsAre(testing::HasSubstr("RotationActive turns off")));
 }
 
 TEST(FbxRead, ProgressGoesUpToOneAndMayCancel) {
@@ -311,7 +314,7 @@ TEST(FbxRead, ProgressGoesUpToOneAndMayCancel) {
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   EXPECT_EQ(seen.back(), 1.0);
   const auto cancel = [](double) { throw Error(ErrorCode::cancelled, "stopped"); };
-  EXPECT_EQ(fault_of(test::text_of(two_bones()), {.take = "", .progress = cancel}), "stopped");
+  EXPECT_EQ(fbx_fault(test::text_of(two_bones()), {.take = "", .progress = cancel}), "stopped");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 /// A character of two joints, a face of two targets and four bytes that must stay.
-json document() {
+json character_json() {
   return json::parse(R"({
     "asset": {"version": "2.0", "extras": {"signweave": {"version": 1}}},
     "buffers": [{"byteLength": 4}],
@@ -41,7 +41,7 @@ std::string glb(const std::string& text, std::string bytes = "keep") {
          number(bytes.size()) + std::string("BIN\0", 4) + bytes;
 }
 
-struct Read {
+struct ReadCharacter {
   json document;
   std::string bytes;
   std::vector<float> floats(std::size_t accessor) const {
@@ -62,7 +62,7 @@ struct Read {
   }
 };
 
-Read read(const std::string& file) {
+ReadCharacter read_character_text(const std::string& file) {
   std::uint32_t size = 0;
   std::uint32_t all = 0;
   std::memcpy(&all, file.data() + 8, 4);
@@ -99,11 +99,12 @@ ErrorCode code_of(const std::string& file, const Motion& with, std::string& text
 }
 
 TEST(GltfCharacter, AMotionIsAddedAndWhatWasThereStays) {
-  const Read made = read(on_character("x.glb", glb(document().dump()), motion(),
-                                      {.name = "signing", .declarations = {{"signweave:placeholder", "no LSF"}}}));
+  const ReadCharacter made =
+      read_character_text(on_character("x.glb", glb(character_json().dump()), motion(),
+                                       {.name = "signing", .declarations = {{"signweave:placeholder", "no LSF"}}}));
   EXPECT_EQ(made.bytes.substr(0, 4), "keep");
-  EXPECT_EQ(made.document["meshes"], document()["meshes"]);
-  EXPECT_EQ(made.document["nodes"], document()["nodes"]);
+  EXPECT_EQ(made.document["meshes"], character_json()["meshes"]);
+  EXPECT_EQ(made.document["nodes"], character_json()["nodes"]);
   EXPECT_EQ(made.document["asset"]["extras"]["signweave:placeholder"], "no LSF");
   EXPECT_EQ(made.document["asset"]["extras"]["signweave"]["version"], 1);
   EXPECT_EQ(made.document["buffers"][0]["byteLength"], made.bytes.size());
@@ -124,12 +125,13 @@ TEST(GltfCharacter, AMotionIsAddedAndWhatWasThereStays) {
 TEST(GltfCharacter, AMotionWithoutTracksLeavesTheFaceAlone) {
   Motion without = motion();
   without.take_tracks();
-  EXPECT_TRUE(read(on_character("x.glb", glb(document().dump()), without, {})).keys(2, "weights").empty());
+  EXPECT_TRUE(
+      read_character_text(on_character("x.glb", glb(character_json().dump()), without, {})).keys(2, "weights").empty());
 }
 
 TEST(GltfCharacter, WhatIsNoPlainGlbIsRefused) {
   std::string text;
-  const std::string good = glb(document().dump());
+  const std::string good = glb(character_json().dump());
   EXPECT_EQ(code_of("no", motion(), text), ErrorCode::bad_input);
   EXPECT_EQ(text, "x.glb: no GLB: it does not begin with glTF");
   EXPECT_EQ(code_of(good.substr(0, good.size() - 1), motion(), text), ErrorCode::bad_input);
@@ -137,11 +139,11 @@ TEST(GltfCharacter, WhatIsNoPlainGlbIsRefused) {
   EXPECT_EQ(code_of(glb("{"), motion(), text), ErrorCode::bad_input);
   EXPECT_THAT(text, HasSubstr("x.glb: not as glTF has it"));
   EXPECT_EQ(code_of(glb("{}"), motion(), text), ErrorCode::bad_input);
-  json packed = document();
+  json packed = character_json();
   packed["extensionsRequired"] = {"EXT_meshopt_compression"};
   EXPECT_EQ(code_of(glb(packed.dump()), motion(), text), ErrorCode::unsupported);
   EXPECT_THAT(text, HasSubstr("the file is packed (EXT_meshopt_compression)"));
-  json meshless = document();
+  json meshless = character_json();
   meshless["nodes"][2]["mesh"] = 7;
   EXPECT_EQ(code_of(glb(meshless.dump()), motion(), text), ErrorCode::bad_input);
 }
@@ -150,7 +152,7 @@ TEST(GltfCharacter, NumbersThatAreNoneAreRefused) {
   std::string text;
   Motion broken = motion();
   broken.pose(1).rotations[1].x() = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(code_of(glb(document().dump()), broken, text), ErrorCode::bad_input);
+  EXPECT_EQ(code_of(glb(character_json().dump()), broken, text), ErrorCode::bad_input);
   EXPECT_EQ(text, "frame 1: the rotation of 'head' is not a finite number; glTF has no other");
 }
 

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // The files are made by testdata/gltf/make.py; what is expected of them was reckoned by hand.
-const fs::path kFolder = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata" / "gltf";
+const fs::path kGltfFolder = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata" / "gltf";
 
 std::vector<std::string> names_of(const Motion& motion) {
   std::vector<std::string> names;
@@ -62,7 +62,7 @@ std::string fault_of_bytes(const std::string& bytes, const ReadOptions& options 
 }
 
 TEST(GltfRead, KeysOfASkinBecomeFrames) {
-  const ReadFile file = read(kFolder / "linear.glb");
+  const ReadFile file = read(kGltfFolder / "linear.glb");
   EXPECT_THAT(names_of(file.motion), ElementsAre("Hips", "Someone:LeftArm", "Someone:LeftHand"));
   EXPECT_EQ(file.take, "take");
   EXPECT_THAT(texts_of(file), IsEmpty());
@@ -76,7 +76,7 @@ TEST(GltfRead, KeysOfASkinBecomeFrames) {
 }
 
 TEST(GltfRead, StepsHoldUntilTheNextKeyAndBuffersMayLieBesideTheFile) {
-  const Motion motion = read(kFolder / "step.gltf").motion;
+  const Motion motion = read(kGltfFolder / "step.gltf").motion;
   EXPECT_EQ(motion.rate(), (FrameRate{30, 1}));
   ASSERT_EQ(motion.frame_count(), 31);
   expect_near(place_of(motion, "Someone:LeftHand", 14), {1, 1, 0});
@@ -87,7 +87,7 @@ TEST(GltfRead, StepsHoldUntilTheNextKeyAndBuffersMayLieBesideTheFile) {
 }
 
 TEST(GltfRead, CubicCurvesUseTangentsTimesTheirDistance) {
-  const ReadFile file = read(kFolder / "cubic.glb");
+  const ReadFile file = read(kGltfFolder / "cubic.glb");
   EXPECT_THAT(texts_of(file), IsEmpty());
   EXPECT_EQ(file.motion.rate(), (FrameRate{60, 1})) << "keys seconds apart say little of a curve";
   ASSERT_EQ(file.motion.frame_count(), 181);
@@ -98,7 +98,7 @@ TEST(GltfRead, CubicCurvesUseTangentsTimesTheirDistance) {
 }
 
 TEST(GltfRead, UnevenKeysAreReadAt120AndTheLossIsTold) {
-  const ReadFile file = read(kFolder / "uneven.glb");
+  const ReadFile file = read(kGltfFolder / "uneven.glb");
   EXPECT_THAT(texts_of(file),
               ElementsAre("its first key is at 0.1 seconds; that is the motion's first frame",
                           "its keys stand unevenly and were read at 120 frames a second, so at its keys the motion is "
@@ -111,7 +111,7 @@ TEST(GltfRead, UnevenKeysAreReadAt120AndTheLossIsTold) {
 }
 
 TEST(GltfRead, ARateThatIsAskedForIsTheMotions) {
-  const ReadFile file = read(kFolder / "linear.glb", {.take = {}, .rate = FrameRate{50, 1}});
+  const ReadFile file = read(kGltfFolder / "linear.glb", {.take = {}, .rate = FrameRate{50, 1}});
   EXPECT_EQ(file.motion.rate(), (FrameRate{50, 1}));
   ASSERT_EQ(file.motion.frame_count(), 8) << "4/30 of a second is 6.67 frames";
   EXPECT_NEAR(turn_of(file.motion, "Someone:LeftArm", 1), 22.5 * 30 / 50, 1e-4);
@@ -119,21 +119,21 @@ TEST(GltfRead, ARateThatIsAskedForIsTheMotions) {
 }
 
 TEST(GltfRead, ATakeIsChosenByNameOrNumber) {
-  const ReadFile first = read(kFolder / "two_takes.gltf");
+  const ReadFile first = read(kGltfFolder / "two_takes.gltf");
   EXPECT_EQ(first.take, "rest");
   EXPECT_THAT(texts_of(first),
               ElementsAre("it has 3 takes, 'rest', 'wave', '3'; the first was read, --take reads another"));
-  const ReadFile named = read(kFolder / "two_takes.gltf", {.take = "wave"});
+  const ReadFile named = read(kGltfFolder / "two_takes.gltf", {.take = "wave"});
   EXPECT_EQ(named.motion.rate(), (FrameRate{25, 1}));
   EXPECT_NEAR(turn_of(named.motion, "Someone:LeftArm", 2), 90, 1e-4);
   EXPECT_THAT(texts_of(named), IsEmpty());
-  const ReadFile numbered = read(kFolder / "two_takes.gltf", {.take = "3"});
+  const ReadFile numbered = read(kGltfFolder / "two_takes.gltf", {.take = "3"});
   EXPECT_EQ(numbered.take, "3");
   EXPECT_NEAR(turn_of(numbered.motion, "Someone:LeftArm", 2), 45, 1e-4);
   EXPECT_THAT(names_of(numbered.motion), ElementsAre("Hips", "Someone:LeftArm", "Someone:LeftHand"));
   EXPECT_THAT(texts_of(numbered), IsEmpty()) << "cameras are not missed";
   try {
-    read(kFolder / "two_takes.gltf", {.take = "4"});
+    read(kGltfFolder / "two_takes.gltf", {.take = "4"});
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::not_found);
@@ -142,7 +142,7 @@ TEST(GltfRead, ATakeIsChosenByNameOrNumber) {
 }
 
 TEST(GltfRead, HelpersAboveTheRootAreAppliedToIt) {
-  const ReadFile file = read(kFolder / "armature.glb");
+  const ReadFile file = read(kGltfFolder / "armature.glb");
   EXPECT_THAT(names_of(file.motion), ElementsAre("Hips", "Spine", "Head"));
   EXPECT_THAT(texts_of(file), IsEmpty());
   EXPECT_EQ(file.motion.rate(), (FrameRate{24, 1}));
@@ -154,7 +154,7 @@ TEST(GltfRead, HelpersAboveTheRootAreAppliedToIt) {
 }
 
 TEST(GltfRead, MorphWeightsBecomeTracks) {
-  const ReadFile file = read(kFolder / "morph.glb");
+  const ReadFile file = read(kGltfFolder / "morph.glb");
   const std::vector<ScalarTrack>& tracks = file.motion.tracks();
   EXPECT_THAT(tracks, ElementsAre(ScalarTrack{"jawOpen", {0, 0.5f, 1}}, ScalarTrack{"eyeBlinkLeft", {1, 0.5f, 0}},
                                   ScalarTrack{"teeth.weight.0", {0, 0.2f, 1}},
@@ -163,7 +163,7 @@ TEST(GltfRead, MorphWeightsBecomeTracks) {
 }
 
 TEST(GltfRead, QuantisedRotationsAreMadeUnit) {
-  const Motion motion = read(kFolder / "quantised.glb").motion;
+  const Motion motion = read(kGltfFolder / "quantised.glb").motion;
   EXPECT_EQ(motion.rate(), (FrameRate{60, 1}));
   EXPECT_NEAR(turn_of(motion, "Someone:LeftArm", 1), 90, 1e-4);
   EXPECT_NEAR(turn_of(motion, "Someone:LeftArm", 2), 270, 1e-4) << "below 0, and the lowest number there is";
@@ -172,7 +172,7 @@ TEST(GltfRead, QuantisedRotationsAreMadeUnit) {
 }
 
 TEST(GltfRead, InterleavedAndSparseNumbersAreFound) {
-  const Motion motion = read(kFolder / "sparse.glb").motion;
+  const Motion motion = read(kGltfFolder / "sparse.glb").motion;
   EXPECT_EQ(motion.rate(), (FrameRate{50, 1}));
   expect_near(place_of(motion, "Someone:LeftArm", 0), {0, 1, 0});
   expect_near(place_of(motion, "Someone:LeftArm", 1), {0, 1.25f, 0});
@@ -180,7 +180,7 @@ TEST(GltfRead, InterleavedAndSparseNumbersAreFound) {
 }
 
 TEST(GltfRead, PackedBuffersAreUnpacked) {
-  const Motion motion = read(kFolder / "meshopt.glb").motion;
+  const Motion motion = read(kGltfFolder / "meshopt.glb").motion;
   EXPECT_EQ(motion.rate(), (FrameRate{50, 1}));
   ASSERT_EQ(motion.frame_count(), 9);
   for (std::int64_t frame = 0; frame < 9; ++frame) {
@@ -189,14 +189,14 @@ TEST(GltfRead, PackedBuffersAreUnpacked) {
 }
 
 TEST(GltfRead, SkinsThatShareJointsAreOneAndOtherTreesAreTold) {
-  const ReadFile file = read(kFolder / "two_skins.glb");
+  const ReadFile file = read(kGltfFolder / "two_skins.glb");
   EXPECT_THAT(names_of(file.motion), ElementsAre("Hips", "Someone:LeftArm", "Someone:LeftHand", "Sleeve"));
   EXPECT_THAT(texts_of(file), ElementsAre("node 7 'Child' with 2 joints was left out: a motion has one root, and that "
                                           "is under node 0 'Hips'"));
 }
 
 TEST(GltfRead, WithoutASkinTheMovedNodesAndAllBelowAreJoints) {
-  const ReadFile file = read(kFolder / "bare.gltf");
+  const ReadFile file = read(kGltfFolder / "bare.gltf");
   EXPECT_THAT(names_of(file.motion), ElementsAre("Root", "Arm", "Hand"));
   EXPECT_THAT(texts_of(file), IsEmpty());
   expect_near(place_of(file.motion, "Hand", 0), {0.75f, 0, 2});
@@ -204,7 +204,7 @@ TEST(GltfRead, WithoutASkinTheMovedNodesAndAllBelowAreJoints) {
 }
 
 TEST(GltfRead, ABrokenBindPoseIsToldAndChangesNothing) {
-  const ReadFile file = read(kFolder / "bent_bind.glb");
+  const ReadFile file = read(kGltfFolder / "bent_bind.glb");
   EXPECT_THAT(texts_of(file),
               ElementsAre("skin 0: 1 bind matrices are singular or not finite, such as that of node 1 "
                           "'Someone:LeftArm'; only the nodes were read",
@@ -214,14 +214,14 @@ TEST(GltfRead, ABrokenBindPoseIsToldAndChangesNothing) {
 }
 
 TEST(GltfRead, ScalesByAxisAreFoldedWhereNothingShears) {
-  const ReadFile file = read(kFolder / "squashed.glb");
+  const ReadFile file = read(kGltfFolder / "squashed.glb");
   EXPECT_THAT(texts_of(file), ElementsAre("node 0 'Hips': its scale 2, 1, 1 was multiplied into what is below it"));
   expect_near(place_of(file.motion, "Someone:LeftArm", 0), {1, 1, 0});
   expect_near(place_of(file.motion, "Someone:LeftHand", 1), {1, 2.5f, 0});
 }
 
 TEST(GltfRead, TracksInTheExtrasComeBack) {
-  const ReadFile file = read(kFolder / "tracks.glb");
+  const ReadFile file = read(kGltfFolder / "tracks.glb");
   EXPECT_THAT(file.motion.tracks(),
               ElementsAre(ScalarTrack{"gaze", {0, 0.25f, 0.5f, 0.75f, 1}}, ScalarTrack{"slow", {0, 0.5f, 1, 2, 3}}));
   EXPECT_THAT(texts_of(file), ElementsAre("animation 0: 1 'tracks' in its extras that are not name, rate and numbers "
@@ -251,14 +251,15 @@ TEST(GltfRead, OfTwoRatesThatFitTheNearerIsTaken) {
 }
 
 TEST(GltfRead, OutsideBuffersAreNamedAndNeedAFolder) {
-  EXPECT_THAT(files_of(kFolder / "step.gltf"), ElementsAre(kFolder / "step.gltf", kFolder / "step keys.bin"));
-  EXPECT_THAT(files_of(kFolder / "linear.glb"), ElementsAre(kFolder / "linear.glb"));
-  EXPECT_THAT(fault_of_bytes(read_file(kFolder / "step.gltf")),
+  EXPECT_THAT(files_of(kGltfFolder / "step.gltf"),
+              ElementsAre(kGltfFolder / "step.gltf", kGltfFolder / "step keys.bin"));
+  EXPECT_THAT(files_of(kGltfFolder / "linear.glb"), ElementsAre(kGltfFolder / "linear.glb"));
+  EXPECT_THAT(fault_of_bytes(read_file(kGltfFolder / "step.gltf")),
               HasSubstr("buffer 0: it lies in another file, 'step keys.bin'; export as .glb"));
 }
 
 TEST(GltfRead, AMotionFarLargerThanItsFileIsRefusedBeforeItIsMade) {
-  const std::string bytes = read_file(kFolder / "linear.glb");
+  const std::string bytes = read_file(kGltfFolder / "linear.glb");
   EXPECT_THAT(
       fault_of_bytes(
           bytes, {.take = {}, .rate = FrameRate{1'000'000, 1}, .unit = {}, .progress = {}, .most_growth = 1'000'000}),
@@ -266,7 +267,7 @@ TEST(GltfRead, AMotionFarLargerThanItsFileIsRefusedBeforeItIsMade) {
 }
 
 TEST(GltfRead, ProgressMayCancel) {
-  const std::string bytes = read_file(kFolder / "linear.glb");
+  const std::string bytes = read_file(kGltfFolder / "linear.glb");
   ReadOptions options;
   options.progress = [](double) { throw Error(ErrorCode::cancelled, "stopped"); };
   EXPECT_EQ(fault_of_bytes(bytes, options), "stopped");
@@ -275,7 +276,7 @@ TEST(GltfRead, ProgressMayCancel) {
 // A file cut anywhere must be refused and never crash.
 TEST(GltfRead, AFileCutAnywhereIsRefused) {
   for (const char* const name : {"armature.glb", "meshopt.glb", "bare.gltf"}) {
-    const std::string bytes = read_file(kFolder / name);
+    const std::string bytes = read_file(kGltfFolder / name);
     const std::size_t whole = bytes.find_last_not_of("\n") + 1;
     for (std::size_t size = 0; size < whole; ++size) {
       EXPECT_THROW(read_bytes("cut", std::string_view(bytes).substr(0, size), {}), Error) << name << " at " << size;

@@ -33,7 +33,7 @@ using testing_gltf::sampled;
 using testing_gltf::time_of;
 using testing_gltf::written;
 
-std::string error_of(const Motion& motion, gltf::Container container = gltf::Container::binary) {
+std::string writing_error(const Motion& motion, gltf::Container container = gltf::Container::binary) {
   try {
     gltf::to_bytes(motion, {}, container);
   } catch (const Error& error) {
@@ -300,17 +300,17 @@ TEST(Gltf, TheTextFormHoldsTheSame) {
 }
 
 TEST(Gltf, RefusesWhatItCannotHold) {
-  EXPECT_THAT(error_of(Motion(person(), {100, 1}, 0)), HasSubstr("nothing to show"));
-  EXPECT_THAT(error_of(Motion()), HasSubstr("nothing to show"));
+  EXPECT_THAT(writing_error(Motion(person(), {100, 1}, 0)), HasSubstr("nothing to show"));
+  EXPECT_THAT(writing_error(Motion()), HasSubstr("nothing to show"));
   Motion motion = moving_person(4);
   motion.pose(2).rotations[3] = Quaternionf(0, 0, 0, 0);
-  EXPECT_THAT(error_of(motion), HasSubstr("frame 2: the rotation of 'Neck'"));
+  EXPECT_THAT(writing_error(motion), HasSubstr("frame 2: the rotation of 'Neck'"));
   motion = moving_person(4);
   motion.pose(3).translations[0].y() = std::numeric_limits<float>::infinity();
-  EXPECT_THAT(error_of(motion), HasSubstr("frame 3: the translation of 'Hips'"));
+  EXPECT_THAT(writing_error(motion), HasSubstr("frame 3: the translation of 'Hips'"));
   motion = moving_person(4);
   motion.add_track({"jawOpen", {0, std::nanf(""), 0, 0}});
-  EXPECT_THAT(error_of(motion), HasSubstr("frame 1: track 'jawOpen'"));
+  EXPECT_THAT(writing_error(motion), HasSubstr("frame 1: track 'jawOpen'"));
 }
 
 }  // namespace

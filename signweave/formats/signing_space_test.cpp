@@ -23,12 +23,12 @@ using testing::Not;
 constexpr double kWidth = 190, kHeight = 188;
 
 /// The test person before the viewer, 150 pixels a metre, turned by so many degrees.
-struct Drawn {
+struct DrawnSpace {
   SignerBody body;
   FigureView view{.left = 95, .bottom = 180, .low = 0.9, .scale = 150, .near = 0, .far = 0};
   pugi::xml_document document;
 
-  explicit Drawn(float degrees) {
+  explicit DrawnSpace(float degrees) {
     Motion motion(whole_person(), {60, 1}, 1);
     const RigMap rig = rig_of_signer(motion.skeleton());
     body = *signer_body(motion, rig);
@@ -57,7 +57,7 @@ struct Drawn {
 };
 
 TEST(DrawSigningSpace, PutsALineAtEachBorderAndNamesTheHeightsFromTheTop) {
-  const Drawn drawn(0);
+  const DrawnSpace drawn(0);
   const std::vector<double> lines = drawn.lines(true);
   ASSERT_EQ(lines.size(), 7U);
   for (std::size_t i = 0; i < 7; ++i) {
@@ -69,11 +69,11 @@ TEST(DrawSigningSpace, PutsALineAtEachBorderAndNamesTheHeightsFromTheTop) {
 }
 
 TEST(DrawSigningSpace, ShowsTheZonesAcrossFromTheFrontAndTheReachFromTheSide) {
-  const Drawn front(0);
+  const DrawnSpace front(0);
   EXPECT_THAT(front.lines(false),
               testing::ElementsAre(testing::DoubleNear(95 - 32.4, 0.06), testing::DoubleNear(95 + 32.4, 0.06)));
   EXPECT_FALSE(front.document.child("svg").child("rect"));
-  const Drawn side(80);
+  const DrawnSpace side(80);
   ASSERT_EQ(side.lines(false).size(), 3U);
   EXPECT_NEAR(side.lines(false)[2], 95 + 54 * std::sin(1.3963) * static_cast<double>(side.body.near_reach), 0.1);
   EXPECT_TRUE(side.document.child("svg").child("rect"));

@@ -25,7 +25,7 @@ std::size_t count(const std::string& text, const std::string& what) {
   return found;
 }
 
-pugi::xml_document parsed(const std::string& text) {
+pugi::xml_document parsed_plot(const std::string& text) {
   pugi::xml_document document;
   EXPECT_TRUE(document.load_string(text.c_str())) << text;
   return document;
@@ -35,7 +35,7 @@ TEST(TransitionPlot, ABarIsSplitIntoItsParts) {
   TransitionPanel one = panel(1);
   one.bars[0].whole = 750;  // 50 ms between the signs
   const std::string text = transition_plot({one});
-  const pugi::xml_document document = parsed(text);
+  const pugi::xml_document document = parsed_plot(text);
   const pugi::xml_node bar = document.child("svg").child("g");
   std::vector<double> heights;
   std::vector<double> tops;
@@ -74,7 +74,7 @@ TEST(TransitionPlot, TextOfAnyScriptIsEscaped) {
   one.bars[0].from = "天気";
   one.bars[0].to = "</g><script>";
   const std::string text = transition_plot({one});
-  parsed(text);
+  parsed_plot(text);
   EXPECT_THAT(text, Not(HasSubstr("<script>")));
   EXPECT_THAT(text, HasSubstr("天気 → &lt;/g&gt;&lt;script&gt;"));
   one.bars[0].from = "caf\xe9";  // no UTF-8
@@ -82,8 +82,8 @@ TEST(TransitionPlot, TextOfAnyScriptIsEscaped) {
 }
 
 TEST(TransitionPlot, NothingIsADrawingToo) {
-  parsed(transition_plot({}));
-  parsed(transition_plot({{.title = "empty"}}));
+  parsed_plot(transition_plot({}));
+  parsed_plot(transition_plot({{.title = "empty"}}));
 }
 
 TEST(TransitionPlot, InferredTransitionsHaveAKeyOfTheirOwn) {

@@ -48,7 +48,7 @@ Quaterniond exact(const Quaternionf& a, const Quaternionf& b, double t, bool as_
                                      std::sin(angle)));
 }
 
-double angle_between(const Quaterniond& a, const Quaternionf& b) {
+double angle_to_rounded(const Quaterniond& a, const Quaternionf& b) {
   const Quaterniond other = b.cast<double>().normalized();
   return 2.0 * std::atan2((a.conjugate() * other).vec().norm(), std::abs(a.dot(other)));
 }
@@ -59,7 +59,7 @@ TEST(SlerpOfMany, IsWithinAMicroradianOfTheExactArc) {
   for (const float t : {0.0f, 0.01f, 0.3f, 0.5f, 0.77f, 0.999f, 1.0f}) {
     slerp(pairs.a, pairs.b, t, out);
     for (std::size_t i = 0; i < out.size(); ++i) {
-      ASSERT_LT(angle_between(exact(pairs.a[i], pairs.b[i], static_cast<double>(t), false), out[i]), 1e-6)
+      ASSERT_LT(angle_to_rounded(exact(pairs.a[i], pairs.b[i], static_cast<double>(t), false), out[i]), 1e-6)
           << i << ' ' << t;
       ASSERT_NEAR(out[i].norm(), 1.0f, 3e-7f);
     }
@@ -78,7 +78,7 @@ TEST(SlerpOfMany, TakesTheLongerArcWhereSignsSaySo) {
       if (dot < 0) ++longer;
       // Near a whole turn the direction hangs on the last bits of both.
       const double tolerance = dot < 0 ? 5e-6 / std::sqrt(1.0 - static_cast<double>(dot * dot)) : 1e-6;
-      ASSERT_LT(angle_between(exact(pairs.a[i], pairs.b[i], static_cast<double>(t), true), out[i]), tolerance)
+      ASSERT_LT(angle_to_rounded(exact(pairs.a[i], pairs.b[i], static_cast<double>(t), true), out[i]), tolerance)
           << i << ' ' << t;
     }
   }
@@ -126,7 +126,7 @@ TEST(SlerpCoasting, TurnsOnAndBlends) {
     const Quaterniond a = turned(pairs.a[i], left[i], onward);
     const Quaterniond b = turned(pairs.b[i], right[i], back);
     if (a.dot(b) < -0.99) continue;
-    ASSERT_LT(angle_between(exact(a.cast<float>(), b.cast<float>(), 0.3, true), out[i]), 1e-5) << i;
+    ASSERT_LT(angle_to_rounded(exact(a.cast<float>(), b.cast<float>(), 0.3, true), out[i]), 1e-5) << i;
   }
 }
 

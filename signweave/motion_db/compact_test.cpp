@@ -10,12 +10,6 @@
 namespace signweave::motion_db {
 namespace {
 
-Motion read_back(const kv::KvStore& store, const StoredMotion& stored, FrameRange frames, const JointSet& joints = {},
-                 ReadCost* cost = nullptr) {
-  const auto snapshot = store.read();
-  return read(*snapshot, stored, read_skeleton(*snapshot, stored), frames, joints, cost);
-}
-
 /// Some frames by way of a StoredSource.
 Motion read_source(const kv::KvStore& store, const StoredMotion& stored, FrameRange frames) {
   const std::shared_ptr<const kv::ReadTransaction> snapshot = store.read();

@@ -12,12 +12,6 @@ namespace {
 
 using testing::HasSubstr;
 
-Motion read_back(const kv::KvStore& store, const StoredMotion& stored, FrameRange frames, const JointSet& joints = {},
-                 ReadCost* cost = nullptr) {
-  const auto snapshot = store.read();
-  return read(*snapshot, stored, read_skeleton(*snapshot, stored), frames, joints, cost);
-}
-
 /// What must hold on every engine of this build.
 class MotionDbTest : public testing::TestWithParam<std::string> {
  protected:

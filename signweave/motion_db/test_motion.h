@@ -80,4 +80,11 @@ inline StoredMotion put_motion(kv::KvStore& store, const Motion& motion, AccessM
   return stored;
 }
 
+/// Some frames, by a transaction of its own.
+inline Motion read_back(const kv::KvStore& store, const StoredMotion& stored, FrameRange frames,
+                        const JointSet& joints = {}, ReadCost* cost = nullptr) {
+  const auto snapshot = store.read();
+  return read(*snapshot, stored, read_skeleton(*snapshot, stored), frames, joints, cost);
+}
+
 }  // namespace signweave::motion_db

@@ -18,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
 
-std::vector<std::string> answers(std::string_view text, const Segments& segments = weather_corpus().table()) {
+std::vector<std::string> answers_in(std::string_view text, const Segments& segments = weather_corpus().table()) {
   std::vector<std::string> result;
   for (const Segment& segment : find(parse(text), segments)) {
     result.push_back(fmt::format("{} {} {}..{}", segment.recording, segment.name, segment.span.begin.count(),
@@ -68,9 +68,9 @@ TEST(Variables, AreOneLabelInEveryPlace) {
   EXPECT_EQ(found[0].name, "NUAGES");
   EXPECT_THAT(found[0].bindings, ElementsAre(Pair("X", "NUAGES")));
   EXPECT_THAT(found[1].bindings, ElementsAre(Pair("X", "PLUIE")));
-  EXPECT_THAT(answers("gloss = $X ->[..4s] gloss = $X"), ElementsAre("meteo MATIN MATIN 500..4600"));
-  EXPECT_THAT(answers("gloss = $X -> gloss = $X"), ElementsAre());
-  EXPECT_THAT(answers("gloss = \"MATIN\" -> gloss != $X -> gloss = $X"),
+  EXPECT_THAT(answers_in("gloss = $X ->[..4s] gloss = $X"), ElementsAre("meteo MATIN MATIN 500..4600"));
+  EXPECT_THAT(answers_in("gloss = $X -> gloss = $X"), ElementsAre());
+  EXPECT_THAT(answers_in("gloss = \"MATIN\" -> gloss != $X -> gloss = $X"),
               ElementsAre("meteo MATIN NUAGES VANNES 500..3000", "meteo MATIN BROUILLARD PLUIE 4200..6700"));
 }
 
@@ -86,10 +86,10 @@ TEST(Variables, GiveWhatAllLabelsGiveOneByOne) {
           "gloss = {0} & hand = right overlaps gloss != {0} & hand = left overlaps tier(\"Mouthing\") = {0}"}) {
       std::multiset<std::string> expected;
       for (const char* label : {"\"A\"", "\"B\"", "\"C\"", "\"D\""}) {
-        for (std::string& answer : answers(fmt::format(fmt::runtime(form), label), segments))
+        for (std::string& answer : answers_in(fmt::format(fmt::runtime(form), label), segments))
           expected.insert(std::move(answer));
       }
-      const std::vector<std::string> all = answers(fmt::format(fmt::runtime(form), "$X"), segments);
+      const std::vector<std::string> all = answers_in(fmt::format(fmt::runtime(form), "$X"), segments);
       const std::multiset<std::string> found(all.begin(), all.end());
       // One sign overlaps mouthings of two labels at once, and is one answer all the same.
       const std::set<std::string> once(expected.begin(), expected.end());
@@ -114,23 +114,23 @@ TEST(Variables, StandWhereTheyMeanSomething) {
 
 TEST(Units, AreTheSignsBetweenTwoRests) {
   EXPECT_THAT(
-      answers("unit"),
+      answers_in("unit"),
       ElementsAre("cities VANNES BREST 100..1500", "meteo MATIN NUAGES VANNES 500..3000", "meteo NUAGES 1000..2100",
                   "meteo MATIN BROUILLARD PLUIE AUJOURD'HUI 4200..7400", "meteo PLUIE 6000..6900"));
-  EXPECT_THAT(answers("@ unit overlaps gloss = \"BREST\""), ElementsAre("cities VANNES BREST 100..1500"));
-  EXPECT_THAT(answers("unit & hand = left & duration > 1s"), ElementsAre("meteo NUAGES 1000..2100"));
-  EXPECT_THAT(answers("unit -> unit"),
+  EXPECT_THAT(answers_in("@ unit overlaps gloss = \"BREST\""), ElementsAre("cities VANNES BREST 100..1500"));
+  EXPECT_THAT(answers_in("unit & hand = left & duration > 1s"), ElementsAre("meteo NUAGES 1000..2100"));
+  EXPECT_THAT(answers_in("unit -> unit"),
               ElementsAre("meteo MATIN NUAGES VANNES MATIN BROUILLARD PLUIE AUJOURD'HUI 500..7400",
                           "meteo NUAGES PLUIE 1000..6900"));
-  EXPECT_THAT(answers("unit & gloss = \"BREST\""), ElementsAre()) << "a unit has no gloss";
-  EXPECT_THAT(answers("!(unit)"), ElementsAre());
-  EXPECT_THAT(answers("duration > 2s & recording = meteo"), ElementsAre()) << "signs, as ever";
+  EXPECT_THAT(answers_in("unit & gloss = \"BREST\""), ElementsAre()) << "a unit has no gloss";
+  EXPECT_THAT(answers_in("!(unit)"), ElementsAre());
+  EXPECT_THAT(answers_in("duration > 2s & recording = meteo"), ElementsAre()) << "signs, as ever";
 }
 
 TEST(Signers, AreThoseOfTheirTiersOrRecordings) {
-  EXPECT_THAT(answers("signer = \"anna\" & gloss = \"VANNES\""), ElementsAre("meteo VANNES 2300..3000"));
-  EXPECT_THAT(answers("signer != \"anna\" & gloss = \"VANNES\""), ElementsAre("cities VANNES 100..900"));
-  EXPECT_THAT(answers("signer =~ /AN+A/i & gloss = \"VANNES\""), ElementsAre("meteo VANNES 2300..3000"));
+  EXPECT_THAT(answers_in("signer = \"anna\" & gloss = \"VANNES\""), ElementsAre("meteo VANNES 2300..3000"));
+  EXPECT_THAT(answers_in("signer != \"anna\" & gloss = \"VANNES\""), ElementsAre("cities VANNES 100..900"));
+  EXPECT_THAT(answers_in("signer =~ /AN+A/i & gloss = \"VANNES\""), ElementsAre("meteo VANNES 2300..3000"));
 }
 
 TEST(PreparedQuery, MayBeAskedAgainAndGivesRowsWithoutNames) {

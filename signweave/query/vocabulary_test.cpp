@@ -25,7 +25,7 @@ SegmentTable corpus(const std::string& recording, const std::vector<std::string>
   return corpus.table();
 }
 
-std::vector<std::string> shown(const Vocabulary& words) {
+std::vector<std::string> shown_words(const Vocabulary& words) {
   std::vector<std::string> result;
   for (const auto& [gloss, tokens] : words.glosses) result.push_back(fmt::format("{} {}", gloss, tokens));
   return result;
@@ -34,7 +34,7 @@ std::vector<std::string> shown(const Vocabulary& words) {
 TEST(Vocabulary, CountsWhatIsFoundOverAllTables) {
   const Segments segments({{corpus("a", {"PLUIE", "LE MANS", "PLUIE"}), 1}, {corpus("b", {"PLUIE ", "VANNES"}), 2}});
   const Vocabulary words = vocabulary(segments);
-  EXPECT_THAT(shown(words), ElementsAre("LE MANS 1", "PLUIE 3", "VANNES 1"));
+  EXPECT_THAT(shown_words(words), ElementsAre("LE MANS 1", "PLUIE 3", "VANNES 1"));
   EXPECT_THAT(words.recordings, ElementsAre("a", "b"));
   EXPECT_THAT(words.tiers, Contains("Gloss"));
   for (const auto& [gloss, tokens] : words.glosses) {
@@ -46,7 +46,7 @@ TEST(Vocabulary, LeavesOutWhatIsNoMore) {
   const std::vector<Segments::Tombstone> gone = {{"a", 5}};
   const Segments segments({{corpus("a", {"PLUIE", "BREST"}), 1}, {corpus("b", {"PLUIE"}), 2}}, gone);
   const Vocabulary words = vocabulary(segments);
-  EXPECT_THAT(shown(words), ElementsAre("PLUIE 1"));
+  EXPECT_THAT(shown_words(words), ElementsAre("PLUIE 1"));
   EXPECT_THAT(words.recordings, ElementsAre("b"));
 }
 

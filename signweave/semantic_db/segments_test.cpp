@@ -39,7 +39,7 @@ SegmentChunk signs(unsigned number) {
   return chunk;
 }
 
-SegmentTable table_of(const std::map<std::string, SegmentChunk>& chunks) {
+SegmentTable table_of_chunks(const std::map<std::string, SegmentChunk>& chunks) {
   std::vector<SegmentTable::Source> sources;
   for (const auto& [name, chunk] : chunks) sources.push_back({name, &chunk});
   return SegmentTable(sources);
@@ -101,17 +101,17 @@ RC_GTEST_PROP(Segments, OfManyTablesAreThoseOfOne, ()) {
       change([&](kv::WriteTransaction& transaction) { semantic_db::remove_from_tables(transaction, name, next); });
     } else {
       now[name] = signs(*rc::gen::inRange(0U, 1000U));
-      const SegmentTable one = table_of({{name, now[name]}});
+      const SegmentTable one = table_of_chunks({{name, now[name]}});
       const std::vector<std::string> replaced(there ? 1 : 0, name);
       change([&](kv::WriteTransaction& transaction) { semantic_db::add_table(transaction, one, replaced, next); });
     }
     const std::optional<Segments> stored = semantic_db::read_tables(store->read());
     RC_ASSERT(stored.has_value());
-    RC_ASSERT(told(*stored) == told(table_of(now)));
+    RC_ASSERT(told(*stored) == told(table_of_chunks(now)));
     RC_ASSERT(stored->members().size() <= 6U);
   }
   change([&](kv::WriteTransaction& transaction) { semantic_db::merge_tables(transaction, next); });
-  RC_ASSERT(told(*semantic_db::read_tables(store->read())) == told(table_of(now)));
+  RC_ASSERT(told(*semantic_db::read_tables(store->read())) == told(table_of_chunks(now)));
 }
 
 TEST(Segments, DamagedTablesAreNamedAsSuch) {
@@ -122,7 +122,7 @@ TEST(Segments, DamagedTablesAreNamedAsSuch) {
   std::uint64_t generation = 0;
   const auto next = [&] { return ++generation; };
   auto transaction = store->write();
-  semantic_db::replace_tables(*transaction, table_of({{"a", signs(5)}}), next);
+  semantic_db::replace_tables(*transaction, table_of_chunks({{"a", signs(5)}}), next);
   transaction->commit();
   EXPECT_THAT(semantic_db::table_generations(*store->read()), ElementsAre(1U));
   transaction = store->write();
@@ -136,7 +136,7 @@ TEST(Segments, DamagedTablesAreNamedAsSuch) {
   transaction->commit();
   EXPECT_THROW(semantic_db::read_tables(store->read()), Error);
   transaction = store->write();
-  EXPECT_THROW(semantic_db::add_table(*transaction, table_of({{"b", signs(5)}}), {}, next), Error);
+  EXPECT_THROW(semantic_db::add_table(*transaction, table_of_chunks({{"b", signs(5)}}), {}, next), Error);
 }
 
 }  // namespace

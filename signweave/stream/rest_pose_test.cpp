@@ -19,7 +19,7 @@ struct Stance {
   double look = 0;  ///< to the left
 };
 
-Quaternionf about(const Vector3f& axis, double degrees) {
+Quaternionf turn_about(const Vector3f& axis, double degrees) {
   return Quaternionf(Eigen::AngleAxisf(static_cast<float>(degrees * std::numbers::pi / 180), axis));
 }
 
@@ -39,10 +39,11 @@ Motion taking(const std::vector<Stance>& stances, std::int64_t hold = 50) {
           .bow = std::lerp(from.bow, to.bow, t),
           .look = std::lerp(from.look, to.look, t)};
     const MutablePoseView pose = motion.pose(frame);
-    pose.rotations[joint("LeftArm")] = about(Vector3f::UnitX(), -at.bow) * about(Vector3f::UnitZ(), -at.arms);
-    pose.rotations[joint("RightArm")] = about(Vector3f::UnitX(), -at.bow) * about(Vector3f::UnitZ(), at.arms);
-    pose.rotations[joint("Spine")] = about(Vector3f::UnitX(), at.bow);
-    pose.rotations[joint("Head")] = about(Vector3f::UnitX(), -at.bow) * about(Vector3f::UnitY(), at.look);  // looks up
+    pose.rotations[joint("LeftArm")] = turn_about(Vector3f::UnitX(), -at.bow) * turn_about(Vector3f::UnitZ(), -at.arms);
+    pose.rotations[joint("RightArm")] = turn_about(Vector3f::UnitX(), -at.bow) * turn_about(Vector3f::UnitZ(), at.arms);
+    pose.rotations[joint("Spine")] = turn_about(Vector3f::UnitX(), at.bow);
+    pose.rotations[joint("Head")] =
+        turn_about(Vector3f::UnitX(), -at.bow) * turn_about(Vector3f::UnitY(), at.look);  // looks up
   }
   return motion;
 }
@@ -86,8 +87,8 @@ TEST(RestPoseOf, StillRatherThanWalkingAndOnBothFeet) {
   const auto knee = static_cast<std::size_t>(motion.skeleton().find("LeftLeg").value_or(kNoJoint));
   for (std::int64_t frame = 0; frame < 100; ++frame) {
     motion.pose(frame).translations[0].z() = 0.01f * static_cast<float>(frame);
-    motion.pose(100 + frame).rotations[thigh] = about(Vector3f::UnitX(), -60);
-    motion.pose(100 + frame).rotations[knee] = about(Vector3f::UnitX(), 60);
+    motion.pose(100 + frame).rotations[thigh] = turn_about(Vector3f::UnitX(), -60);
+    motion.pose(100 + frame).rotations[knee] = turn_about(Vector3f::UnitX(), 60);
   }
   for (std::int64_t frame = 100; frame < 300; ++frame) motion.pose(frame).translations[0].z() = 0.99f;
   EXPECT_EQ(rest_of(motion).frame / 100, 2) << rest_of(motion).frame;

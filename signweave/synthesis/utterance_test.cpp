@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string fault_of(const std::string& text) {
+std::string fault_in_utterance(const std::string& text) {
   try {
     parse_utterance(text);
   } catch (const Error& error) {
@@ -68,13 +68,13 @@ TEST(Utterance, CommasAndFullStopsAloneArePausesBetweenSigns) {
 }
 
 TEST(Utterance, FaultsNameTheColumnAndTheMend) {
-  EXPECT_THAT(fault_of("A \"LE MANS"), HasSubstr("utterance:1:3: a quote is opened here and never closed"));
-  EXPECT_THAT(fault_of(""), HasSubstr("no sign in it"));
-  EXPECT_THAT(fault_of(" , ."), HasSubstr("no sign in it"));
-  EXPECT_THAT(fault_of("MATIN#0"), HasSubstr("counted from 1"));
-  EXPECT_THAT(fault_of("\"A\"#x"), HasSubstr("neither #TOKEN nor @BEGIN..END"));
-  EXPECT_THAT(fault_of("\"A\"@500..400"), HasSubstr("must end after it begins"));
-  EXPECT_THAT(fault_of("\"  \""), HasSubstr("an empty name"));
+  EXPECT_THAT(fault_in_utterance("A \"LE MANS"), HasSubstr("utterance:1:3: a quote is opened here and never closed"));
+  EXPECT_THAT(fault_in_utterance(""), HasSubstr("no sign in it"));
+  EXPECT_THAT(fault_in_utterance(" , ."), HasSubstr("no sign in it"));
+  EXPECT_THAT(fault_in_utterance("MATIN#0"), HasSubstr("counted from 1"));
+  EXPECT_THAT(fault_in_utterance("\"A\"#x"), HasSubstr("neither #TOKEN nor @BEGIN..END"));
+  EXPECT_THAT(fault_in_utterance("\"A\"@500..400"), HasSubstr("must end after it begins"));
+  EXPECT_THAT(fault_in_utterance("\"  \""), HasSubstr("an empty name"));
 }
 
 RC_GTEST_PROP(Utterance, PrintedTextParsesToTheSameUtterance, ()) {

@@ -15,7 +15,7 @@ constexpr std::size_t kJoints = 2;
 
 /// A root that moves and turns as told, and a joint that turns.
 template <class Place, class Turn>
-Motion motion_of(std::int64_t frames, Place place, Turn turn) {
+Motion arm_motion(std::int64_t frames, Place place, Turn turn) {
   const auto skeleton = std::make_shared<const Skeleton>(
       std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, true}, {"Arm", 0, {0.3f, 0, 0}, false}}, std::vector<Tip>{});
   Motion motion(skeleton, {100, 1}, frames);
@@ -27,7 +27,7 @@ Motion motion_of(std::int64_t frames, Place place, Turn turn) {
   return motion;
 }
 
-JointGroups groups() {
+JointGroups one_arm_groups() {
   JointGroups groups;
   groups.of = {JointGroup::body, JointGroup::left_arm};
   groups.all[0] = {0};
@@ -36,14 +36,14 @@ JointGroups groups() {
   return groups;
 }
 
-struct Filled {
+struct FilledArm {
   std::vector<Eigen::Quaternionf> rotations;
   std::vector<Eigen::Vector3f> translations;
   const Eigen::Quaternionf& arm(std::size_t frame) const { return rotations[frame * kJoints + 1]; }
 };
 
-Filled fill(const char* name, const Motion& motion, FrameRange frames, GroupSet set = GroupSet::all()) {
-  const JointGroups of = groups();
+FilledArm fill_arm(const char* name, const Motion& motion, FrameRange frames, GroupSet set = GroupSet::all()) {
+  const JointGroups of = one_arm_groups();
   const Gap gap{.skeleton = &motion.skeleton(),
                 .groups = &of,
                 .rate = motion.rate(),
@@ -51,8 +51,8 @@ Filled fill(const char* name, const Motion& motion, FrameRange frames, GroupSet 
                 .after = view_of(motion, {frames.end, frames.end + 31}),
                 .count = frames.size()};
   const auto count = static_cast<std::size_t>(frames.size());
-  Filled filled{std::vector<Eigen::Quaternionf>(count * kJoints, Eigen::Quaternionf(0, 0, 0, 1)),
-                std::vector<Eigen::Vector3f>(count, Eigen::Vector3f(7, 7, 7))};
+  FilledArm filled{std::vector<Eigen::Quaternionf>(count * kJoints, Eigen::Quaternionf(0, 0, 0, 1)),
+                   std::vector<Eigen::Vector3f>(count, Eigen::Vector3f(7, 7, 7))};
   GapScratch scratch;
   const GapMethod* method = find_gap_method(name);
   if (method == nullptr) throw std::runtime_error(name);
@@ -61,18 +61,18 @@ Filled fill(const char* name, const Motion& motion, FrameRange frames, GroupSet 
   return filled;
 }
 
-float angle(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
+float small_angle(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   return 2 * std::asin(std::min(1.0f, (a.conjugate() * b).vec().norm()));
 }
 
 TEST(Baselines, BothAreExactWhereAllGoesOnAtOneSpeed) {
-  const Motion motion = motion_of(
+  const Motion motion = arm_motion(
       100, [](float f) { return 0.01f * f; }, [](float f) { return 0.02f * f; });
   for (const char* const name : {"crossfade", "recipe"}) {
-    const Filled filled = fill(name, motion, {40, 60});
+    const FilledArm filled = fill_arm(name, motion, {40, 60});
     for (std::size_t i = 0; i < 20; ++i) {
       const PoseView captured = motion.pose(40 + static_cast<std::int64_t>(i));
-      EXPECT_LT(angle(filled.arm(i), captured.rotations[1]), 1e-3f) << name << ' ' << i;
+      EXPECT_LT(small_angle(filled.arm(i), captured.rotations[1]), 1e-3f) << name << ' ' << i;
       EXPECT_LT((filled.translations[i] - captured.translations[0]).norm(), 1e-4f) << name << ' ' << i;
     }
   }
@@ -80,9 +80,9 @@ TEST(Baselines, BothAreExactWhereAllGoesOnAtOneSpeed) {
 
 TEST(Baselines, ACrossFadeGoesOnAsEachSideCameAndNoFartherThanIsKnown) {
   // Before: moving; after: still at 1. In the first frames the first side leads, in the last ones the second.
-  const Motion motion = motion_of(
+  const Motion motion = arm_motion(
       200, [](float f) { return f <= 60 ? 0.01f * f : 1.0f; }, [](float) { return 0.0f; });
-  const Filled filled = fill("crossfade", motion, {60, 120});
+  const FilledArm filled = fill_arm("crossfade", motion, {60, 120});
   const float left = 0.59f;
   for (std::size_t i = 0; i < 60; ++i) {
     const float t = static_cast<float>(i + 1) / 61;
@@ -95,39 +95,39 @@ TEST(Baselines, TheRecipeCutsWherePosesAreMostAlike) {
   // The arm goes up by 0.9 and comes down by 0.6 again, so that the frames nearest to each other are 30 frames before
   // the left border (0.6 up) and the right border (0.3 up).
   const auto turn = [](float f) { return f < 90 ? 0.01f * f : 0.9f - 0.02f * (f - 90); };
-  const Motion motion = motion_of(
+  const Motion motion = arm_motion(
       200, [](float) { return 0.0f; }, turn);
-  const Filled filled = fill("recipe", motion, {90, 120});
+  const FilledArm filled = fill_arm("recipe", motion, {90, 120});
   // From 0.59 (30 frames before frame 89) to 0.3 (frame 120) in 61 steps; the filter changes no straight line inside.
   for (std::size_t i = 1; i + 1 < 30; ++i) {
     const float wanted = 0.59f + (0.3f - 0.59f) * static_cast<float>(31 + i) / 61;
-    EXPECT_NEAR(angle(Eigen::Quaternionf::Identity(), filled.arm(i)), wanted, 2e-3f) << i;
+    EXPECT_NEAR(small_angle(Eigen::Quaternionf::Identity(), filled.arm(i)), wanted, 2e-3f) << i;
   }
   // The first made frame is the mean of the border, itself and the next.
   const float second = 0.59f + (0.3f - 0.59f) * 32.0f / 61;
   const float first = 0.59f + (0.3f - 0.59f) * 31.0f / 61;
-  EXPECT_NEAR(angle(Eigen::Quaternionf::Identity(), filled.arm(0)), (0.89f + first + second) / 3, 2e-3f);
+  EXPECT_NEAR(small_angle(Eigen::Quaternionf::Identity(), filled.arm(0)), (0.89f + first + second) / 3, 2e-3f);
 }
 
 TEST(Baselines, GroupsThatAreNotAskedForStayAsTheyAre) {
-  const Motion motion = motion_of(
+  const Motion motion = arm_motion(
       100, [](float f) { return 0.01f * f; }, [](float f) { return 0.02f * f; });
   for (const char* const name : {"crossfade", "recipe"}) {
-    const Filled arm = fill(name, motion, {40, 50}, {JointGroup::left_arm});
+    const FilledArm arm = fill_arm(name, motion, {40, 50}, {JointGroup::left_arm});
     EXPECT_EQ(arm.translations[3], Eigen::Vector3f(7, 7, 7)) << name;
     EXPECT_EQ(arm.rotations[3 * kJoints].z(), 1) << name;
-    const Filled body = fill(name, motion, {40, 50}, {JointGroup::body});
+    const FilledArm body = fill_arm(name, motion, {40, 50}, {JointGroup::body});
     EXPECT_EQ(body.arm(3).z(), 1) << name;
     EXPECT_NE(body.translations[3], Eigen::Vector3f(7, 7, 7)) << name;
   }
 }
 
 TEST(Baselines, QuaternionsGoOnInTheLeftBordersHemisphere) {
-  Motion motion = motion_of(
+  Motion motion = arm_motion(
       100, [](float f) { return 0.01f * f; }, [](float f) { return 0.02f * f; });
   for (std::int64_t frame = 50; frame < 100; ++frame) motion.pose(frame).rotations[1].coeffs() *= -1;
   for (const char* const name : {"crossfade", "recipe"}) {
-    const Filled filled = fill(name, motion, {40, 50});
+    const FilledArm filled = fill_arm(name, motion, {40, 50});
     for (std::size_t i = 0; i < 10; ++i) EXPECT_GT(filled.arm(i).dot(motion.pose(39).rotations[1]), 0) << name;
   }
 }

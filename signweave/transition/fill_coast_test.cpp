@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "signweave/transition/method.h"
+#include "signweave/transition/test_way.h"
 
 namespace signweave {
 namespace {
 
-double angle(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
-  return 2.0 * std::atan2((a.conjugate() * b).vec().cast<double>().norm(), std::abs(static_cast<double>(a.dot(b))));
-}
+using testing_way::angle;
 
 std::shared_ptr<const Skeleton> skeleton() {
   return std::make_shared<const Skeleton>(std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, true},
@@ -35,7 +34,7 @@ Motion moving(std::int64_t frames, float seed) {
 }
 
 /// Joints 2 and 3 are the left arm, the others the body.
-JointGroups groups() {
+JointGroups arm_groups() {
   JointGroups groups;
   groups.of = {JointGroup::body, JointGroup::body, JointGroup::left_arm, JointGroup::left_arm};
   groups.all[0] = {0, 1};
@@ -55,7 +54,7 @@ Motion with_gap(const Motion& a, const Motion& b, std::int64_t count, std::vecto
   };
   copy(a, 0);
   copy(b, a.frame_count() + count);
-  const JointGroups joints = groups();
+  const JointGroups joints = arm_groups();
   const FrameRange gap{a.frame_count(), a.frame_count() + count};
   GapScratch scratch;
   for (const GroupSet part : parts) {

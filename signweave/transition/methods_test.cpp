@@ -28,14 +28,6 @@ const GapMethod& method_of(std::string_view name) {
   return *method;
 }
 
-template <class Value>
-bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Value)) == 0;
-}
-bool same_bits(const Filled& a, const Filled& b) {
-  return same_bits(a.rotations, b.rotations) && same_bits(a.translations, b.translations);
-}
-
 class EveryMethod : public testing::TestWithParam<GapMethod> {};
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(gap_methods().begin(), gap_methods().end()),
                          [](const auto& one) { return std::string(one.param.name); });

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -135,6 +136,14 @@ inline Filled fill(const GapMethod& method, const Gap& gap, const TransitionMode
 /// Radians between two rotations, whatever their signs.
 inline double angle(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   return 2.0 * std::atan2((a.conjugate() * b).vec().cast<double>().norm(), std::abs(static_cast<double>(a.dot(b))));
+}
+
+template <class Value>
+bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Value)) == 0;
+}
+inline bool same_bits(const Filled& a, const Filled& b) {
+  return same_bits(a.rotations, b.rotations) && same_bits(a.translations, b.translations);
 }
 
 /// The default model with captured spans, so that every method has something to do.

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_way;
 
-const GapMethod& method_of(std::string_view name) {
+const GapMethod& known_method(std::string_view name) {
   return *find_gap_method(name);
 }
 
@@ -35,12 +35,6 @@ double error_of(const Filled& made, const Motion& motion, FrameRange frames, std
     error += angle(made.at(frame, joint), motion.pose(frames.begin + frame).rotations[joint]);
   }
   return error / static_cast<double>(frames.size());
-}
-
-bool same_bits(const Filled& a, const Filled& b) {
-  return std::memcmp(a.rotations.data(), b.rotations.data(), a.rotations.size() * sizeof(a.rotations[0])) == 0 &&
-         std::memcmp(a.translations.data(), b.translations.data(), a.translations.size() * sizeof(a.translations[0])) ==
-             0;
 }
 
 TEST(Trainer, WhatIsLeftOutIsNotLookedAt) {
@@ -142,8 +136,8 @@ TEST(Trainer, WaysThatBendAreBentInWhatWasNotSeen) {
     for (int i = 1; i < 5; ++i) {
       const Gap gap = cut(motion, of, gap_in(i));
       for (const std::size_t joint : {kUpper, kFore}) {
-        taught += error_of(fill(method_of(name), gap, *model), motion, gap_in(i), joint);
-        plain += error_of(fill(method_of(name), gap, untaught()), motion, gap_in(i), joint);
+        taught += error_of(fill(known_method(name), gap, *model), motion, gap_in(i), joint);
+        plain += error_of(fill(known_method(name), gap, untaught()), motion, gap_in(i), joint);
       }
     }
     EXPECT_LT(taught, 0.75 * plain) << name;
@@ -182,14 +176,14 @@ TEST(Trainer, AModelOutlivesItAndStaysAsItWas) {
   const JointGroups of = groups();
   const Motion motion = lively(0.15);
   const Gap gap = cut(motion, of, {100, 140});
-  const Filled made = fill(method_of("recorded"), gap, *model);
-  EXPECT_FALSE(same_bits(made, fill(method_of("kriging"), gap, *model)));
+  const Filled made = fill(known_method("recorded"), gap, *model);
+  EXPECT_FALSE(same_bits(made, fill(known_method("kriging"), gap, *model)));
   add(*trainer, 1, lively(0.2), {100, 140});
   ASSERT_EQ(model->libraries.size(), 1u);
   EXPECT_EQ(model->libraries[0]->spans.size(), 1u);
   EXPECT_EQ(trainer->model()->libraries[0]->spans.size(), 2u);
   trainer.reset();
-  EXPECT_TRUE(same_bits(fill(method_of("recorded"), gap, *model), made));
+  EXPECT_TRUE(same_bits(fill(known_method("recorded"), gap, *model), made));
 }
 
 TEST(SpanLibrary, GivesBackASpanThatIsInIt) {
@@ -200,8 +194,8 @@ TEST(SpanLibrary, GivesBackASpanThatIsInIt) {
     SpanCollector collector;
     ASSERT_TRUE(collector.add(gap, view_of(motion, frames)));
     const auto model = collector.take_model();
-    const Filled made = fill(method_of("recorded"), gap, *model);
-    const Filled kriged = fill(method_of("kriging"), gap, *model);
+    const Filled made = fill(known_method("recorded"), gap, *model);
+    const Filled kriged = fill(known_method("kriging"), gap, *model);
     for (std::size_t joint = 0; joint < kJoints; ++joint) {
       const double off = error_of(made, motion, frames, joint);
       EXPECT_LT(off, 0.01) << frames.size() << ", joint " << joint;
@@ -216,10 +210,10 @@ TEST(SpanLibrary, IsNotLookedAtForAPurgedRecording) {
   TransitionTrainer trainer;
   add(trainer, 5, motion, {100, 150});
   const Gap gap = cut(motion, of, {100, 150});
-  EXPECT_TRUE(same_bits(fill(method_of("recorded"), gap, *trainer.model_without(5)),
-                        fill(method_of("kriging"), gap, untaught())));
+  EXPECT_TRUE(same_bits(fill(known_method("recorded"), gap, *trainer.model_without(5)),
+                        fill(known_method("kriging"), gap, untaught())));
   EXPECT_FALSE(
-      same_bits(fill(method_of("recorded"), gap, *trainer.model()), fill(method_of("kriging"), gap, untaught())));
+      same_bits(fill(known_method("recorded"), gap, *trainer.model()), fill(known_method("kriging"), gap, untaught())));
 }
 
 TEST(SpanLibrary, IsOfOneSkeleton) {
@@ -231,7 +225,7 @@ TEST(SpanLibrary, IsOfOneSkeleton) {
   EXPECT_TRUE(collector.add(cut(other, of, {100, 150}), view_of(other, {100, 150})));
   const auto model = collector.take_model();
   const Gap gap = cut(motion, of, {100, 150});
-  EXPECT_TRUE(same_bits(fill(method_of("recorded"), gap, *model), fill(method_of("kriging"), gap, *model)));
+  EXPECT_TRUE(same_bits(fill(known_method("recorded"), gap, *model), fill(known_method("kriging"), gap, *model)));
   EXPECT_EQ(collector.take_model()->libraries.size(), 0u);
 }
 

@@ -17,14 +17,15 @@ if((CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION MATCHES "^
    (CMAKE_CXX_COMPILER_ID STREQUAL Clang AND CMAKE_CXX_COMPILER_VERSION MATCHES "^14\\."))
   target_compile_options(signweave_flags INTERFACE -Werror)
 endif()
-# Used where they are there: what was compiled before, and a linker that takes a tenth of the time.
+# Used where they are there: what was compiled before, and a linker that takes a tenth of the time (a cross compiler
+# takes one of its own only).
 find_program(ccache_PROGRAM ccache)
 if(ccache_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${ccache_PROGRAM})
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endif()
 find_program(fast_linker_PROGRAM NAMES mold ld.lld)
-if(fast_linker_PROGRAM)
+if(fast_linker_PROGRAM AND NOT CMAKE_CROSSCOMPILING)
   get_filename_component(fast_linker ${fast_linker_PROGRAM} NAME)
   string(REPLACE "ld.lld" "lld" fast_linker ${fast_linker})
   add_link_options(-fuse-ld=${fast_linker})

@@ -94,16 +94,17 @@ class Sums {
  private:
   __m128 sums_[2] = {_mm_setzero_ps(), _mm_setzero_ps()};
 #else
+  // As above to the bit: a difference that is no number counts as nothing, and the sums are added in the same order.
   void add(const Lanes& values, const Lanes& low, const Lanes& high) noexcept {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const float outside = std::max(std::max(values[i] - high[i], low[i] - values[i]), 0.0f);
+      const float outside = std::max(0.0f, std::max(low[i] - values[i], values[i] - high[i]));
       sums_[i] += outside * outside;
     }
   }
   float all() const noexcept {
-    float sum = 0;
-    for (const float part : sums_) sum += part;
-    return sum;
+    std::array<float, 4> four;
+    for (std::size_t i = 0; i < four.size(); ++i) four[i] = sums_[i] + sums_[4 + i];
+    return (four[0] + four[2]) + (four[1] + four[3]);
   }
 
  private:

@@ -53,6 +53,17 @@ test('keeps what was done last: where the page is left at once, and where someth
   await until(async () => assert.deepEqual(await cards(), ['VANNES']))
 })
 
+test('signs what was typed before the glosses were loaded', async () => {
+  await visit('')
+  let go
+  const held = new Promise((resolve) => (go = resolve))
+  await page.route('**/vocabulary*', async (route) => (await held, route.continue()))
+  await page.evaluate(() => (location.hash = '#/demo/compose'))
+  await field().fill('VANNES')
+  go()
+  await shown('VANNES')
+})
+
 test('makes files side by side, and says so', async () => {
   await compose('VANNES')
   let go

@@ -7,12 +7,12 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-std::string line_of(const OrderedJson& json) {
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+std::string line_of(const OrderedJson& object) {
+  return object.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
-void add_id(OrderedJson& json, std::string_view id) {
-  if (!id.empty()) json["id"] = OrderedJson::parse(id);
+void add_id(OrderedJson& object, std::string_view id) {
+  if (!id.empty()) object["id"] = OrderedJson::parse(id);
 }
 
 OrderedJson list_of(const Eigen::Vector3f& v) {
@@ -55,48 +55,48 @@ std::string header_text(const StreamHeader& header, const HeaderContext& context
   for (const JointIndex joint : skeleton.translated_joints()) translated.push_back(static_cast<std::int64_t>(joint));
   OrderedJson declarations = OrderedJson::array();
   for (const auto& [name, value] : header.declarations) declarations.push_back({{"name", name}, {"value", value}});
-  OrderedJson json = {{"type", "header"}, {"database", context.database}, {"recording", header.layout_from}};
-  if (!context.character.empty()) json["character"] = context.character;
-  json["declarations"] = std::move(declarations);
-  json["rate"] = header.rate.hertz();
-  json["rate_fraction"] = {header.rate.numerator, header.rate.denominator};
+  OrderedJson object = {{"type", "header"}, {"database", context.database}, {"recording", header.layout_from}};
+  if (!context.character.empty()) object["character"] = context.character;
+  object["declarations"] = std::move(declarations);
+  object["rate"] = header.rate.hertz();
+  object["rate_fraction"] = {header.rate.numerator, header.rate.denominator};
   if (context.pace) {
-    json["pace"] = *context.pace == Pace::live ? "live" : "fast";
-    json["batch"] = context.batch;
+    object["pace"] = *context.pace == Pace::live ? "live" : "fast";
+    object["batch"] = context.batch;
   }
-  json["layout"] = 1;
-  json["message_header_bytes"] = kMessageHeaderBytes;
-  json["frame_bytes"] = bytes_of(header.shape());
-  json["joints"] = std::move(joints);
-  json["translated"] = std::move(translated);
-  json["tips"] = std::move(tips);
-  json["tracks"] = header.tracks;
-  return line_of(json);
+  object["layout"] = 1;
+  object["message_header_bytes"] = kMessageHeaderBytes;
+  object["frame_bytes"] = bytes_of(header.shape());
+  object["joints"] = std::move(joints);
+  object["translated"] = std::move(translated);
+  object["tips"] = std::move(tips);
+  object["tracks"] = header.tracks;
+  return line_of(object);
 }
 
 std::string ok_text(std::string_view id, std::uint64_t frame) {
-  OrderedJson json = {{"type", "ok"}, {"frame", frame}};
-  add_id(json, id);
-  return line_of(json);
+  OrderedJson object = {{"type", "ok"}, {"frame", frame}};
+  add_id(object, id);
+  return line_of(object);
 }
 
 std::string error_text(ErrorCode code, std::string_view message, std::string_view id) {
-  OrderedJson json = {{"type", "error"}, {"code", name_of(code)}, {"message", message}};
-  add_id(json, id);
-  return line_of(json);
+  OrderedJson object = {{"type", "error"}, {"code", name_of(code)}, {"message", message}};
+  add_id(object, id);
+  return line_of(object);
 }
 
 std::string event_text(const PlayerEvent& event) {
-  OrderedJson json = {{"type", event_name(event.kind)}, {"frame", event.frame}};
+  OrderedJson object = {{"type", event_name(event.kind)}, {"frame", event.frame}};
   if (event.kind == PlayerEvent::Kind::place) {
-    json["place"] = event.place;
-    json["gloss"] = event.gloss;
-    json["token"] = event.token;
-    json["recording"] = event.recording;
+    object["place"] = event.place;
+    object["gloss"] = event.gloss;
+    object["token"] = event.token;
+    object["recording"] = event.recording;
   }
-  json["ms"] = event.at.count();
-  if (!event.text.empty()) json["text"] = event.text;
-  return line_of(json);
+  object["ms"] = event.at.count();
+  if (!event.text.empty()) object["text"] = event.text;
+  return line_of(object);
 }
 
 }  // namespace signweave::server

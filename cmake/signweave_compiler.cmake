@@ -1,4 +1,4 @@
-# One set of flags for every target: the x86-64 baseline, no fast-math, no fused multiply-add behind our back, so that
+# One set of flags for every target: the baseline of x86-64 or aarch64, no fast-math, no fused multiply-add behind our back, so that
 # two builds of one source give the same bits.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -16,6 +16,10 @@ target_compile_options(signweave_flags INTERFACE -pthread -ffp-contract=off -Wal
 if((CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12\\.") OR
    (CMAKE_CXX_COMPILER_ID STREQUAL Clang AND CMAKE_CXX_COMPILER_VERSION MATCHES "^14\\."))
   target_compile_options(signweave_flags INTERFACE -Werror)
+endif()
+# -ffp-contract=off does not bind Eigen, which asks for such instructions by name where the machine has them.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  target_include_directories(signweave_flags SYSTEM INTERFACE ${PROJECT_SOURCE_DIR}/cmake/unfused)
 endif()
 # Used where they are there: what was compiled before, and a linker that takes a tenth of the time (a cross compiler
 # takes one of its own only).

@@ -1,5 +1,5 @@
-# A bare Debian 12 in a folder (debootstrap, as root), for scripts/fresh and scripts/package to source. Package sources and their
-# settings are taken from this machine.
+# A bare Debian 12 in a folder (debootstrap, as root), for scripts/fresh, scripts/package and scripts/aarch64 to source. Package sources
+# and their settings are taken from this machine.
 #   chroot_make [FOLDER]   makes it in $root: FOLDER, or one under /tmp that is removed at the end of the script
 #   chroot_run COMMAND     runs a command of bash in it
 

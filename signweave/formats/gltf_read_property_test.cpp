@@ -134,17 +134,17 @@ class RandomFile {
   }
 
   std::string glb() const {
-    std::string json = json_.dump();
-    json.resize((json.size() + 3) / 4 * 4, ' ');
+    std::string text = json_.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
     std::string out = "glTF";
     const auto add = [&](std::size_t value) {
       const auto narrow = static_cast<std::uint32_t>(value);
       out.append(reinterpret_cast<const char*>(&narrow), 4);
     };
     add(2);
-    add(28 + json.size() + bytes_.size());
-    add(json.size());
-    out += "JSON" + json;
+    add(28 + text.size() + bytes_.size());
+    add(text.size());
+    out += "JSON" + text;
     add(bytes_.size());
     out.append("BIN\0", 4);
     return out + bytes_;

@@ -1,5 +1,5 @@
-# Clang where it is installed: it makes the same results in three quarters of the time, and tests in a third (docs/building.md).
-# CXX=g++ or -DCMAKE_CXX_COMPILER=g++ says otherwise; both are held to build.
+# Clang where it is installed: it makes the same results in three quarters of the time (docs/building.md).
+# CXX=g++ or -DCMAKE_CXX_COMPILER=g++ chooses GCC.
 if(NOT CMAKE_CXX_COMPILER AND NOT DEFINED ENV{CXX} AND NOT CMAKE_TOOLCHAIN_FILE)
   find_program(signweave_CLANG NAMES clang++)
   if(signweave_CLANG)

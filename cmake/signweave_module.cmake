@@ -65,10 +65,10 @@ function(signweave_module name)
 endfunction()
 
 # signweave_tests(NAME [LABEL full] LIBRARIES …): one test program from every *_test.cpp of the folder it is called from. Its tests
-# are of the tier `quick` unless LABEL says otherwise (CONTRIBUTING.md).
+# are of the tier `quick` unless LABEL says otherwise (CONTRIBUTING.md). UNRUN: they are compiled, and not run.
 define_property(GLOBAL PROPERTY SIGNWEAVE_TEST_FILES BRIEF_DOCS "every *_test.cpp of a test program, whether this build makes it or not")
 function(signweave_tests name)
-  cmake_parse_arguments(arg "" "LABEL" "LIBRARIES;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "UNRUN" "LABEL" "LIBRARIES;SOURCES" ${ARGN})
   if(NOT SIGNWEAVE_TESTS)
     return()
   endif()
@@ -91,6 +91,9 @@ function(signweave_tests name)
   target_precompile_headers(${name}_test REUSE_FROM signweave_test_pch)
   signweave_batches(${name}_test 10)
   add_dependencies(tests_${arg_LABEL} ${name}_test)
+  if(arg_UNRUN)
+    return()
+  endif()
   if(SIGNWEAVE_SANITIZE)
     # Instrumented programs take long to start: each runs as a whole, in two halves.
     foreach(half IN ITEMS 0 1)

@@ -1,6 +1,7 @@
 import { ACESFilmicToneMapping, PCFShadowMap, WebGLRenderer } from 'three'
 import { StudioFault } from '../api/fault'
 import type { View } from './camera'
+import { drawsBySoftware, Pace } from './pace'
 import type { Pane } from './pane'
 import type { Transport } from './transport'
 
@@ -38,6 +39,8 @@ export class Stage {
   readonly costs = new Float32Array(120)
   pictures = 0
   private readonly renderer: WebGLRenderer
+  /** Where software draws, which takes both smooth edges and shadows three times as long. */
+  private readonly pace?: Pace
   private readonly observer: ResizeObserver
   private request = 0
   /** Of the picture before, ms of the page's clock. */
@@ -50,8 +53,13 @@ export class Stage {
     private readonly canvas: HTMLCanvasElement,
     readonly transport: Transport,
   ) {
-    this.renderer = signerRenderer(canvas)
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio))
+    const software = drawsBySoftware()
+    this.renderer = signerRenderer(canvas, !software)
+    this.renderer.setPixelRatio(software ? 1 : Math.min(2, window.devicePixelRatio))
+    if (software) {
+      this.renderer.shadowMap.enabled = false
+      this.pace = new Pace(this.renderer.getContext() as WebGL2RenderingContext)
+    }
     this.observer = new ResizeObserver(() => this.resize())
     this.observer.observe(canvas.parentElement!)
     canvas.addEventListener('webglcontextlost', this.lost)
@@ -126,12 +134,13 @@ export class Stage {
   private readonly frame = (now: number): void => {
     this.request = requestAnimationFrame(this.frame)
     const start = performance.now()
-    const moved = this.transport.tick(now)
-    if (!moved && !this.dirty) return
+    if (this.transport.tick(now)) this.dirty = true
+    if (!this.dirty || this.pace?.ready(now) === false) return
     this.dirty = false
     this.onPicture?.(this.transport.time)
     this.draw(this.transport.time, Math.min(0.1, Math.max(0, (now - this.last) / 1000)))
     this.last = now
+    this.pace?.drew(now)
     this.costs[this.pictures++ % this.costs.length] = performance.now() - start
   }
 

@@ -179,6 +179,18 @@ async function shown(page) {
   await page.evaluate(() => document.querySelector('.play').click()) // at once: while it plays, software has no time for a mouse
 }
 
+/** Has a page take the software that draws here for a graphics card: shadows and smooth edges, however long they take. */
+function likeACard() {
+  const { getParameter } = WebGL2RenderingContext.prototype
+  WebGL2RenderingContext.prototype.getParameter = function (name) {
+    return name === 0x9246 ? 'a card' : getParameter.call(this, name) // UNMASKED_RENDERER_WEBGL
+  }
+  const { getContext } = HTMLCanvasElement.prototype
+  HTMLCanvasElement.prototype.getContext = function (kind, options) {
+    return getContext.call(this, kind, { ...options, failIfMajorPerformanceCaveat: false })
+  }
+}
+
 mkdirSync(out, { recursive: true })
 await withServer(
   site,
@@ -196,6 +208,7 @@ await withServer(
             const page = await context.newPage()
             if (view.still) await page.emulateMedia({ reducedMotion: 'reduce' })
             await page.addInitScript((body) => localStorage.setItem('signweave.body', body), view.body ?? 'woman')
+            if (!/search/.test(view.name)) await page.addInitScript(likeACard)
             if (/compare|guide|evaluate/.test(view.name))
               await page.addInitScript(() => {
                 if (!sessionStorage.begun) ['guide', 'study.demo'].forEach((key) => localStorage.removeItem(`signweave.${key}`))

@@ -3,6 +3,6 @@
  * database and a browser of its own.
  */
 export const kHalves = [
-  ['studio', 'search', 'search_kept', 'evaluate', 'guide', 'verb', 'sizes'],
-  ['compose', 'compose_keeps', 'compare', 'corpus', 'import_choices', 'phases', 'render'],
+  ['studio', 'search', 'search_kept', 'evaluate', 'guide', 'verb', 'import_choices', 'sizes'],
+  ['compose', 'compose_keeps', 'compare', 'corpus', 'phases', 'render'],
 ]

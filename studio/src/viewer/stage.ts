@@ -138,7 +138,7 @@ export class Stage {
     if (!this.dirty || this.pace?.ready(now) === false) return
     this.dirty = false
     this.onPicture?.(this.transport.time)
-    this.draw(this.transport.time, Math.min(0.1, Math.max(0, (now - this.last) / 1000)))
+    this.draw(this.transport.time, Math.min(0.25, Math.max(0, (now - this.last) / 1000)))
     this.last = now
     this.pace?.drew(now)
     this.costs[this.pictures++ % this.costs.length] = performance.now() - start

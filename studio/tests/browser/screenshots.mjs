@@ -209,11 +209,11 @@ await withServer(
             if (view.still) await page.emulateMedia({ reducedMotion: 'reduce' })
             await page.addInitScript((body) => localStorage.setItem('signweave.body', body), view.body ?? 'woman')
             if (!/search/.test(view.name)) await page.addInitScript(likeACard)
-            if (/compare|guide|evaluate/.test(view.name))
-              await page.addInitScript(() => {
-                if (!sessionStorage.begun) ['guide', 'study.demo'].forEach((key) => localStorage.removeItem(`signweave.${key}`))
-                sessionStorage.begun = '1'
-              })
+            await page.addInitScript(() => {
+              // no view sees what another has begun
+              if (!sessionStorage.begun) ['guide', 'study.demo'].forEach((key) => localStorage.removeItem(`signweave.${key}`))
+              sessionStorage.begun = '1'
+            })
             await page.goto(`${address}/${view.hash}`, { timeout: 120_000 })
             await opened(page, view.hash, true)
             if (view.seek !== undefined)

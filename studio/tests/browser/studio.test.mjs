@@ -98,6 +98,16 @@ mainTest('plays, steps and selects by keyboard', async () => {
   near(time, duration)
 })
 
+test('draws without shadows and smoothed edges where software draws', async () => {
+  await visit('#/demo/recording/meteo?at=2.2')
+  await drawn(page)
+  const { shadows, smoothed } = await page.evaluate(() => {
+    const { renderer } = window.signweaveStage
+    return { shadows: renderer.shadowMap.enabled, smoothed: renderer.getContextAttributes().antialias }
+  })
+  assert.deepEqual({ shadows, smoothed }, { shadows: false, smoothed: false })
+})
+
 test('turns and changes its view by keyboard and mouse', async () => {
   await visit('#/demo/recording/meteo?at=2.2')
   await page.keyboard.press('2')

@@ -23,13 +23,23 @@ export async function opened(page, hash, whole = false) {
  * takes.
  */
 export async function drawn(page) {
-  await page.waitForFunction(async () => {
-    const stage = window.signweaveStage
-    if (!stage || stage.transport.playing) return true
-    const from = stage.pictures
-    for (let i = 0; i < 3; ++i) await new Promise(requestAnimationFrame)
-    await new Promise((resolve) => setTimeout(resolve, 400))
-    return stage.still && stage.pictures === from
+  // Not waitForFunction, which asks once where the answer is a promise, and takes any.
+  await page.evaluate(async () => {
+    const pictures = async (count) => {
+      for (let i = 0; i < count; ++i) await new Promise(requestAnimationFrame)
+    }
+    for (;;) {
+      await pictures(3)
+      const stage = window.signweaveStage
+      if (!stage || stage.transport.playing) return
+      if (!stage.still) continue
+      // A pixel can be read when all that the graphics card was asked for, here software, is done; then the browser shows it.
+      const before = stage.pictures,
+        gl = stage.renderer.getContext()
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4))
+      await pictures(3)
+      if (stage.still && stage.pictures === before) return
+    }
   })
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 
@@ -115,25 +116,23 @@ TEST(ServerThreads, EndsWithoutAnsweringAllThatWait) {
   options.limits.drain = 50ms;
   TestServer server(options);
   std::string utterance = "DEMAIN";
-  for (int i = 0; i < 12; ++i) utterance += " MATIN DEMAIN";
+  for (int i = 0; i < 4; ++i) utterance += " MATIN DEMAIN";
   const std::string body = R"({"format":"csv","rate":200,"utterance":")" + utterance + "\"}";
   const std::string request =
       "POST /api/databases/demo/sign HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
       "application/json\r\nContent-Length: " +
       std::to_string(body.size()) + "\r\n\r\n" + body;
-  const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(testing::ask(server.port(), request).status, 200);
-  const auto one = std::chrono::steady_clock::now() - begin;
   std::vector<Client> clients;
   for (int i = 0; i < 30; ++i) {
     clients.emplace_back(server.port());
     clients.back().send(request);
   }
-  std::this_thread::sleep_for(50ms);
-  const auto stopped = std::chrono::steady_clock::now();
+  EXPECT_EQ(testing::read_answer(clients.front()).status, 200);
   server.server->stop();
   server.server->wait();
-  EXPECT_LT(std::chrono::steady_clock::now() - stopped, 8 * one + 1s);
+  server.server.reset();
+  const auto answered = [](Client& client) { return testing::read_answer(client).status == 200; };
+  EXPECT_LT(std::ranges::count_if(clients.begin() + 1, clients.end(), answered), 20);
 }
 
 TEST(ServerThreads, AnAddressThatIsTakenIsAnError) {

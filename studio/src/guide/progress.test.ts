@@ -79,11 +79,11 @@ describe('steps', () => {
       expect(met('demo', 'token', facts(`#/demo/compose?${name}=VANNES+MATIN`))).toBe(false)
       expect(met('demo', 'token', facts(`#/demo/compose?${name}=VANNES+MATIN%232`))).toBe(true)
     }
-    expect(met('demo', 'transition', facts('#/demo/compose?u=A+B&junctions=1%3Dgap'))).toBe(true)
-    expect(met('demo', 'transition', facts('#/demo/compose?u=A+B'))).toBe(false)
+    expect(met('demo', 'transition', facts('#/demo/compose?utterance=A+B&junctions=1%3Dgap'))).toBe(true)
+    expect(met('demo', 'transition', facts('#/demo/compose?utterance=A+B'))).toBe(false)
   })
   it('are told by calls that were answered', () => {
-    const on = (...calls: ReturnType<typeof call>[]) => facts('#/demo/compose?u=A', { calls })
+    const on = (...calls: ReturnType<typeof call>[]) => facts('#/demo/compose?utterance=A', { calls })
     expect(met('demo', 'save', on(call('POST', 'databases/demo/sign', '{"utterance":"A","format":"frames"}')))).toBe(false)
     expect(met('demo', 'save', on(call('POST', 'databases/demo/sign', '{"utterance":"A"}')))).toBe(false)
     expect(met('demo', 'save', on(call('POST', 'databases/demo/sign', '{"utterance":"A","format":"bvh"}')))).toBe(true)

@@ -33,11 +33,7 @@ const work =
   ({ database }: About): Route => ({ page, database, state: {} })
 const recording = ({ database, recording }: About): Route => (recording ? { page: 'recording', database, recording, at: 0 } : { page: 'recordings', database })
 const stateOf = (facts: Facts, page: WorkPage) => (facts.route.page === page && 'state' in facts.route ? facts.route.state : undefined)
-/** The page that composes holds what it makes under one of these names. */
-const utteranceOf = (facts: Facts) => {
-  const state = stateOf(facts, 'compose')
-  return state ? (state.utterance ?? state.u ?? '') : ''
-}
+const utteranceOf = (facts: Facts) => stateOf(facts, 'compose')?.utterance ?? ''
 const called = (facts: Facts, method: string, where: RegExp) => facts.calls.some((call) => call.method === method && where.test(call.where))
 /** A file that was made here: the call that makes it says as what. */
 const isFile = ({ method, where, body }: Answered) =>

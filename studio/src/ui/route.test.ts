@@ -4,7 +4,7 @@ import { addressOf, parseRoute, type Route } from './route'
 it('says in the address what is shown, and reads it back', () => {
   const routes: Route[] = [
     { page: 'recordings', database: 'demo' },
-    { page: 'compose', database: 'demo', recording: undefined, state: { u: 'VANNES "LE MANS"' } },
+    { page: 'compose', database: 'demo', recording: undefined, state: { utterance: 'VANNES "LE MANS"' } },
     { page: 'phases', database: 'demo', recording: 'a/b', state: {} },
     { page: 'recording', database: 'a/b', recording: 'ISL Thanks?', beside: 'été', at: 1.5, span: undefined },
     { page: 'recording', database: 'demo', recording: 'meteo', beside: undefined, at: 0, span: [-120, 3400] },

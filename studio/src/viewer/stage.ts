@@ -31,7 +31,7 @@ export function signerRenderer(canvas: HTMLCanvasElement, antialias = true): Web
 /** Draws one or two motions in step on one canvas, only while something changes. */
 export class Stage {
   readonly panes: Pane[] = []
-  /** Called before each picture with the time in seconds; must be quick and allocate nothing. */
+  /** Called after each picture with its time in seconds; must be quick and allocate nothing. */
   onPicture?: (seconds: number) => void
   /** Called where the browser takes the picture away, and where it gives it back. */
   onLost?: (lost: boolean) => void
@@ -137,8 +137,9 @@ export class Stage {
     if (this.transport.tick(now)) this.dirty = true
     if (!this.dirty || this.pace?.ready(now) === false) return
     this.dirty = false
-    this.onPicture?.(this.transport.time)
-    this.draw(this.transport.time, Math.min(0.25, Math.max(0, (now - this.last) / 1000)))
+    const { time } = this.transport
+    this.draw(time, Math.min(0.25, Math.max(0, (now - this.last) / 1000)))
+    this.onPicture?.(time) // afterwards: drawing finds out whether time is held, and then no other picture may follow
     this.last = now
     this.pace?.drew(now)
     this.costs[this.pictures++ % this.costs.length] = performance.now() - start

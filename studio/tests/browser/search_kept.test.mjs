@@ -70,20 +70,21 @@ test('chooses answers by key and mouse, saves them in every format, and signs th
   await told().click()
   await button('CSV').waitFor({ state: 'hidden' })
   await page.getByText('Sign these').click()
-  await page.waitForFunction(() => /[?&]u=/.test(location.hash))
-  const { u } = Object.fromEntries(new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]))
+  const inAddress = await page.waitForFunction(() => new URLSearchParams(location.hash.split('?')[1]).get('utterance'))
+  const utterance = await inAddress.jsonValue()
   const pieces = rows
     .slice(1)
     .map((row) => row.split(','))
     .map(([recording, , , begin, end]) => `"${recording}"@${begin}..${end}`)
-  assert.equal(u.split(' ').length, 3)
-  assert.deepEqual(u.split(' ').toSorted(), pieces.toSorted())
+  assert.equal(utterance.split(' ').length, 3)
+  assert.deepEqual(utterance.split(' ').toSorted(), pieces.toSorted())
   const made = await fetch(`${address}/api/databases/demo/sign`, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
-    body: JSON.stringify({ utterance: u }),
+    body: JSON.stringify({ utterance }),
   })
   assert.equal(made.status, 200)
+  assert.equal(await page.locator('.card').count(), 3, 'Compose holds the chosen answers')
 })
 
 test('keeps queries under names, and remembers what was asked', async () => {

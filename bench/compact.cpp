@@ -179,8 +179,8 @@ void measure_speed(const Named& named) {
         unpack_at(0, many, whole.poses({0, many}));
       },
       [&] {
-        std::memcpy(whole.poses({0, many}).rotations.data()->coeffs().data(), motion.rotations().data(),
-                    16 * joints * static_cast<std::size_t>(many));
+        std::memcpy(whole.poses({0, many}).rotations.data()->coeffs().data(),
+                    motion.rotations().data()->coeffs().data(), 16 * joints * static_cast<std::size_t>(many));
         bench::keep(whole);
       });
   bench::print("unpack_packet_against_memcpy/" + named.name,

@@ -124,7 +124,8 @@ void each_annotation(const std::string& name, const std::vector<std::pair<std::s
   for (const auto& annotation : annotations) {
     const std::string& recording = annotation.first;
     const std::string& id = annotation.second;
-    if (ask(*node.database, recording, id) != ask(*document.database, recording, id)) differ(name + " " + id);
+    if (ask(*node.database, recording, id) != ask(*document.database, recording, id))
+      differ(fmt::format("{} {}", name, id));
     ours.push_back(bench::seconds_of([&] { bench::keep(ask(*node.database, recording, id)); }, 10));
     theirs.push_back(bench::seconds_of([&] { bench::keep(ask(*document.database, recording, id)); }));
     ratios.push_back(ours.back() / theirs.back());

@@ -2,9 +2,13 @@
 
 // How much memory an import takes for itself.
 
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -53,16 +57,26 @@ inline int import_and_tell(const std::filesystem::path& bvh_path, const std::fil
 inline void measure_memory(const std::filesystem::path& bvh_path, const std::string& name, std::int64_t frames,
                            const std::string& goal) {
   const Folder folder("import_memory");
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  const std::string command = fmt::format("'{}' --import-memory '{}' '{}'", program.string(), bvh_path.string(),
-                                          (folder.path() / "db").string());
-  std::FILE* const pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("no process for the import");
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe");
+  const std::string database = folder.path() / "db";
+  const std::string printed = folder.path() / "printed";
+  std::string words[] = {program, "--import-memory", bvh_path, database};
+  char* const arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, 1, printed.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  pid_t process = 0;
+  const int fault = posix_spawn(&process, program.c_str(), &files, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (fault != 0) throw std::runtime_error("no process for the import");
+  int status = 0;
+  waitpid(process, &status, 0);
   std::size_t grown = 0;
   std::size_t motion = 0;
   long long imported = 0;
-  const int read = std::fscanf(pipe, "%zu %zu %lld", &grown, &motion, &imported);
-  if (::pclose(pipe) != 0 || read != 3) throw std::runtime_error("the import in a process of its own failed");
+  if (status != 0 || !(std::ifstream(printed) >> grown >> motion >> imported)) {
+    throw std::runtime_error("the import in a process of its own failed");
+  }
   if (imported != frames) throw std::runtime_error(name + ": another count of frames was imported");
   const double mega = 1e-6;
   print("import_memory/" + name, static_cast<double>(grown) * mega, "MB", static_cast<double>(motion) * mega,

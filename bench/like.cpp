@@ -31,8 +31,9 @@ HandTrace wandering_hands(std::int64_t frames, FrameRate rate, std::mt19937& ran
     while (samples.size() < trace.samples()) {
       const Eigen::Vector3f to(0.8f * place(random), 0.7f * place(random) - 0.3f, 0.6f + 0.4f * place(random));
       const float duration = seconds(random);
-      for (float time = 0; time < duration && samples.size() < trace.samples(); time += sample_time) {
-        const float part = time / duration;
+      const int steps = static_cast<int>(std::ceil(duration / sample_time));
+      for (int step = 0; step < steps && samples.size() < trace.samples(); ++step) {
+        const float part = static_cast<float>(step) * sample_time / duration;
         const float s = 0.5f - 0.5f * std::cos(std::numbers::pi_v<float> * part);
         const float rise = 0.5f * std::numbers::pi_v<float> / duration * std::sin(std::numbers::pi_v<float> * part);
         const Eigen::Vector3f position = from + s * (to - from);

@@ -254,19 +254,11 @@ void opening(const Corpus& corpus) {
   bench::print(fmt::format("{}/open_bound", corpus.name), 1e3 * compared.ours, "ms", 10, 100 * compared.ours, "<= 1");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  bool quick = false;
-  bool growth_only = false;
-  for (int i = 1; i < argc; ++i) {
-    quick = quick || std::strcmp(argv[i], "--quick") == 0;
-    growth_only = growth_only || std::strcmp(argv[i], "--growth") == 0;
-  }
+void run(bool quick, bool growth_only) {
   const std::vector<AnnotationDocument> sources = bench::documents();
   const bench::Folder folder("query");
   bench::measure_growth(sources, folder.path(), quick);
-  if (growth_only) return 0;
+  if (growth_only) return;
   const std::size_t thousand = quick ? 100 : 1000;
   Times gloss[2], stroke[2], overlap[2];
   for (int i = 0; i < 2; ++i) {
@@ -288,4 +280,22 @@ int main(int argc, char** argv) {
   grows("gloss", gloss, "<= 1.3");
   grows("stroke_of_gloss", stroke, "<= 2.5");
   grows("overlap_of_gloss", overlap, "<= 2.5");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool quick = false;
+  bool growth_only = false;
+  for (int i = 1; i < argc; ++i) {
+    quick = quick || std::strcmp(argv[i], "--quick") == 0;
+    growth_only = growth_only || std::strcmp(argv[i], "--growth") == 0;
+  }
+  try {
+    run(quick, growth_only);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "query: %s\n", error.what());
+    return 1;
+  }
+  return 0;
 }

@@ -141,7 +141,7 @@ class BareCopy {
  private:
   template <typename T>
   static void copy(T* to, std::span<const T> from) {
-    if (!from.empty()) std::memcpy(static_cast<void*>(to), from.data(), from.size_bytes());
+    if (!from.empty()) std::memcpy(static_cast<void*>(to), static_cast<const void*>(from.data()), from.size_bytes());
   }
 
   const Corpus& corpus_;

@@ -130,9 +130,9 @@ std::size_t size_of(const Motion& motion) {
 
 /// All of a motion's numbers, to `to`.
 void copy(const Motion& motion, std::byte* to) {
-  std::memcpy(to, motion.rotations().data(), motion.rotations().size_bytes());
+  std::memcpy(to, motion.rotations().data()->coeffs().data(), motion.rotations().size_bytes());
   to += motion.rotations().size_bytes();
-  std::memcpy(to, motion.translations().data(), motion.translations().size_bytes());
+  std::memcpy(to, motion.translations().data()->data(), motion.translations().size_bytes());
   to += motion.translations().size_bytes();
   for (const ScalarTrack& track : motion.tracks()) {
     std::memcpy(to, track.values.data(), track.values.size() * sizeof(float));
@@ -189,7 +189,7 @@ int main(int count, char** arguments) {
       if (word == "--table") {
         table = true;
       } else if (word == "--minutes" && i + 1 < count) {
-        minutes = std::atof(arguments[++i]);
+        minutes = std::stod(arguments[++i]);
       } else {
         fmt::print(stderr, "bench_table1: '{}'? It knows --table and --minutes M\n", word);
         return 2;

@@ -117,7 +117,8 @@ TEST(HandPlan, WaysAreCurvedAndFastestBeforeTheirMiddle) {
     if (line.norm() < 0.12f) continue;
     float aside = 0, fastest = 0;
     double fastest_at = 0;
-    for (double at = begin; at < end; ++at) {
+    for (int k = 0; begin + k < end; ++k) {
+      const double at = begin + k;
       const Vector3f way = made.plan.at(Side::right, at) - from;
       aside = std::max(aside, (way - way.dot(line) / line.squaredNorm() * line).norm());
       const float speed = (made.plan.at(Side::right, at + 1) - made.plan.at(Side::right, at)).norm();
@@ -361,7 +362,8 @@ TEST_F(Performance, TheChestBreathesAtTwelveToEighteenAMinute) {
     return 2 * std::hypot(c, s) / static_cast<double>(pitch.size());
   };
   double best = 0, at = 0;
-  for (double hertz = 0.12; hertz < 0.6; hertz += 0.01) {
+  for (int hundredths = 12; hundredths < 60; ++hundredths) {
+    const double hertz = 0.01 * hundredths;
     if (strength(hertz) > best) {
       best = strength(hertz);
       at = hertz;

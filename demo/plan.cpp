@@ -20,7 +20,7 @@ constexpr double kRisesEarlier = 0.15;  ///< than the other hand, from rest
 constexpr float kLetGo = 0.07f;         ///< a hand that holds sinks a little
 
 Vector3f place_of(const End& end, Side side) {
-  const Vector3f rest = rest_place(end.rest);
+  Vector3f rest = rest_place(end.rest);
   if (end.sign == nullptr || !acts(*end.sign->shape, side)) return rest;
   const Vector3f place = stroke_place(*end.sign->shape, side, static_cast<float>(end.stroke), end.sign->token);
   return place + end.let_go * (rest - place);

@@ -62,7 +62,7 @@ double way_from_rest(const SignShape& sign, float done, Rest rest = Rest::belly)
 
 /// Durations with the script's mean and deviation, the longer ones for the longer ways, not strictly: a signer is no
 /// clock.
-void give_durations(std::vector<Junction*> junctions, const Script& script, Random& random, double least) {
+void give_durations(const std::vector<Junction*>& junctions, const Script& script, Random& random, double least) {
   // Between the deviation over n and the one over n − 1, so that either reading finds the paper's figure.
   const auto count = static_cast<double>(junctions.size());
   const double deviation = Seconds(script.transition_deviation).count() * (1 - 0.25 / count);

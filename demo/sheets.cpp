@@ -72,8 +72,9 @@ std::string sentence_sheet(const SyntheticRecording& recording, std::size_t sent
   if (signs.empty()) return contact_sheet(recording.motion, options);
   options.title = recording.name + ":";
   for (const PlacedSign* sign : signs) options.title += fmt::format(" {}", sign->shape->gloss);
-  for (double at = static_cast<double>(signs.front()->begin); at < static_cast<double>(signs.back()->end); at += step) {
-    const auto frame = static_cast<std::int64_t>(std::llround(at));
+  for (int k = 0;; ++k) {
+    const auto frame = static_cast<std::int64_t>(std::llround(static_cast<double>(signs.front()->begin) + k * step));
+    if (frame >= signs.back()->end) break;
     const auto sign = std::find_if(signs.begin(), signs.end(), [&](const PlacedSign* one) { return frame < one->end; });
     const bool stroke = frame >= (*sign)->stroke_begin && frame <= (*sign)->stroke_end;
     options.frames.push_back(frame);

@@ -238,7 +238,7 @@ TEST(TwoSkeletons, EditsTakeSignsOfTheOther) {
 /// What a player shows of a database.
 Shown shown_of(const Database& database, const std::string& utterance, SynthesisOptions synthesis = {}) {
   SigningBase shared(database);
-  Player player(shared, {.synthesis = synthesis, .idle = Idle::end});
+  Player player(shared, {.synthesis = std::move(synthesis), .idle = Idle::end});
   player.sign(parse_utterance(utterance));
   Shown shown;
   show(player, shown);

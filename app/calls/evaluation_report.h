@@ -39,7 +39,7 @@ Estimate estimate_of(const EvaluatedTask& task, const MethodScores& method, cons
 /// How many spans there are, and a table for each of some measures, of the moving hand: rows are methods, columns
 /// groups; for the wrist's error also over slerp's, for the fingertips' also over hermite's. What is the same for each
 /// method is one row.
-std::string summary_text(const EvaluatedTask& task, std::span<const Measure> measures, Bootstrap& bootstrap);
+std::string summary_text(const EvaluatedTask& task, std::span<const Measure> chosen, Bootstrap& bootstrap);
 /// All measures of the first method, which is the default: rows are measures, columns groups.
 std::string default_text(const EvaluatedTask& task, Bootstrap& bootstrap);
 /// Everything, with intervals: for each group and hand tables of some measures; rows are methods.

@@ -18,8 +18,6 @@
 #include "signweave/core/error.h"
 #include "signweave/core/text.h"
 
-extern char** environ;
-
 namespace signweave::cli {
 namespace {
 
@@ -35,7 +33,7 @@ fs::path in_path(const std::string& name) {
   std::string_view left = path == nullptr ? "" : path;
   while (!left.empty()) {
     const std::size_t end = std::min(left.find(':'), left.size());
-    const fs::path file = fs::path(left.substr(0, end)) / name;
+    fs::path file = fs::path(left.substr(0, end)) / name;
     if (runs(file)) return file;
     left.remove_prefix(std::min(end + 1, left.size()));
   }
@@ -48,7 +46,7 @@ fs::path find_browser(const std::string& wanted) {
   const char* const set = std::getenv("CHROMIUM");
   const std::string named = !wanted.empty() ? wanted : set == nullptr ? "" : set;
   if (!named.empty()) {
-    const fs::path found = named.find('/') != named.npos ? fs::path(named) : in_path(named);
+    fs::path found = named.find('/') != named.npos ? fs::path(named) : in_path(named);
     if (!found.empty() && runs(found)) return found;
     throw Error(ErrorCode::not_found, fmt::format("{}: no program of this name", printable(named)));
   }

@@ -59,7 +59,7 @@ void info_of_motion(const std::string& path, const calls::MotionReading& motion_
   }
   const std::vector<Defect> defects = find_defects(file.motion, rig);
   if (io.json) {
-    json names = json::array();
+    auto names = nlohmann::ordered_json::array();
     for (const Joint& joint : skeleton.joints()) names.push_back(joint.name);
     fields["joint_names"] = std::move(names);
     fields["rig"] = json_of_rig(skeleton, rig);

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -78,8 +79,11 @@ struct Size {
 
 std::optional<Size> parse_size(const std::string& text) {
   Size size;
-  char beyond = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &beyond) != 2) return std::nullopt;
+  const char* const end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  if (width.ec != std::errc() || width.ptr == end || *width.ptr != 'x') return std::nullopt;
+  const auto height = std::from_chars(width.ptr + 1, end, size.height);
+  if (height.ec != std::errc() || height.ptr != end) return std::nullopt;
   const bool good = size.width >= 16 && size.height >= 16 && size.width <= 4096 && size.height <= 4096 &&
                     size.width % 2 == 0 && size.height % 2 == 0;
   return good ? std::optional(size) : std::nullopt;

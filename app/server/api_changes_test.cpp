@@ -25,7 +25,7 @@ std::string another_bvh() {
 }
 
 std::string upload_of(TestApi& api, const std::vector<std::pair<std::string, std::string>>& files) {
-  const std::string id = json_in(api.send("POST", at({"uploads"})))["upload"];
+  std::string id = json_in(api.send("POST", at({"uploads"})))["upload"];
   for (const auto& [name, body] : files) EXPECT_EQ(api.put(at({"uploads", id, "files", name}), body).status, 200);
   return id;
 }

@@ -22,7 +22,7 @@ class IoThread;
 
 /// What all connections of a server share.
 struct Context {
-  Context(ServedDatabases& served, Api& calls, ServerOptions wanted);
+  Context(ServedDatabases& served, Api& called, ServerOptions wanted);
   ~Context();
 
   ServerOptions options;
@@ -70,7 +70,7 @@ class Connection {
 /// locks.
 class IoThread {
  public:
-  explicit IoThread(Context& context);
+  explicit IoThread(Context& shared);
 
   Context& context;
   Metrics metrics;

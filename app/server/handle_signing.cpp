@@ -172,7 +172,7 @@ ApiResponse export_motion(Call& call) {
   call.declare(made.info.declarations);
   call.notices.insert(call.notices.end(), made.notices.begin(), made.notices.end());
   if (format == "frames") {
-    const double origin = 1e3 * made.info.clock.time_of(made.frames.begin).count();
+    const double origin = 1e3 * made.info.clock.time_of(static_cast<double>(made.frames.begin)).count();
     nlohmann::json report;  // of what was captured there is none
     if (!made.remade.empty()) report = {{"remade", calls::json_of_remade(made)}};
     return file_answer(file, made.info.name,

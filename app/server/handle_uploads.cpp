@@ -43,7 +43,7 @@ struct ResolveFiles {
 json without_folder(json value, const std::string& folder) {
   if (value.is_string()) {
     auto text = value.get<std::string>();
-    for (std::size_t at; (at = text.find(folder)) != std::string::npos;) text.erase(at, folder.size());
+    for (std::size_t at = text.find(folder); at != text.npos; at = text.find(folder, at)) text.erase(at, folder.size());
     return text;
   }
   if (value.is_structured()) {
@@ -214,7 +214,7 @@ ApiResponse inspect_upload(Call& call) {
           try {
             Told told(held.pairing, held.folder.string() + "/", job);
             calls::inspect(served.database(), held.pairing, held.options, held.folder.string() + ".inspected",
-                           told.listener(), [&](nlohmann::ordered_json one) { told.add(std::move(one)); });
+                           told.listener(), [&](const nlohmann::ordered_json& one) { told.add(one); });
             uploads.release(upload, false);
             return json();  // what was told
           } catch (...) {

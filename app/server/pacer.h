@@ -16,6 +16,8 @@ class Paced : public boost::intrusive::list_base_hook<boost::intrusive::link_mod
  public:
   static constexpr Clock::time_point kNever = Clock::time_point::max();
 
+  Paced(const Paced&) = delete;
+
   /// Sends what is due at `now`; tells when to be woken next. The frame path: allocates nothing, locks nothing.
   virtual Clock::time_point tick(Clock::time_point now) noexcept = 0;
   /// A piece of work that may wait for the ticks that are due, such as making frames ahead. True: there is more.
@@ -23,8 +25,7 @@ class Paced : public boost::intrusive::list_base_hook<boost::intrusive::link_mod
 
  protected:
   Paced() = default;
-  Paced(const Paced&) = delete;
-  virtual ~Paced() = default;
+  ~Paced() = default;
 
  private:
   friend class Pacer;

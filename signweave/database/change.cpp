@@ -219,10 +219,9 @@ void Database::put(const Recording& recording, const Progress& progress) {
     }
   }
   info.rig = rig;
-  if (new_rig) info.defects = std::move(defects);
+  if (new_rig || recording.motion) info.defects = std::move(defects);
   if (recording.motion) {
     make_visible(*transaction, info, *stored);
-    info.defects = std::move(defects);
     info.layout = recording.motion->layout;
     info.motion_file = recording.motion->file;
     info.motion_fingerprint = recording.motion->fingerprint;

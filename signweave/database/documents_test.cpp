@@ -30,7 +30,7 @@ Recording annotated_recording(const std::string& name, const AnnotationDocument&
 class DocumentStorageTest : public testing::TestWithParam<std::string> {
  protected:
   std::filesystem::path make(DocumentStorage storage) {
-    const std::filesystem::path path = folder_ / std::string(name_of(storage));
+    std::filesystem::path path = folder_ / std::string(name_of(storage));
     Database::create(path, {.engine = GetParam(), .access_mode = {}, .documents = storage});
     return path;
   }

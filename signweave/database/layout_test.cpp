@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <zlib.h>
+
 #include <fstream>
 #include <iterator>
+#include <memory>
 
 #include "signweave/database/check.h"
 #include "signweave/database/test_recording.h"
@@ -23,6 +25,20 @@ using testing::ElementsAre;
 namespace fs = std::filesystem;
 
 const fs::path kTestdata = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata";
+
+/// Writes a file ending in .gz beside it, unpacked and without that ending, and removes it.
+void unpack(const fs::path& packed) {
+  const std::unique_ptr<gzFile_s, decltype(&gzclose)> from(gzopen(packed.c_str(), "rb"), gzclose);
+  ASSERT_NE(from, nullptr) << packed;
+  std::ofstream to(fs::path(packed).replace_extension(), std::ios::binary);
+  std::vector<char> some(1 << 16);
+  for (int n = 0; (n = gzread(from.get(), some.data(), static_cast<unsigned>(some.size()))) != 0;) {
+    ASSERT_GT(n, 0) << packed;
+    to.write(some.data(), n);
+  }
+  ASSERT_TRUE(to.flush()) << packed;
+  fs::remove(packed);
+}
 
 std::string file_text(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -59,7 +75,7 @@ TEST(Layout, DatabasesOfEveryReleasedLayoutAreReadAndChanged) {
     for (const fs::directory_entry& file : fs::directory_iterator(stored)) {  // an engine's empty megabyte
       if (file.path().extension() != ".gz") continue;
       const fs::path packed = folder / "db" / file.path().filename();
-      ASSERT_EQ(std::system(("gzip -d '" + packed.string() + "'").c_str()), 0);
+      unpack(packed);
     }
     const auto look = [&](const Database& database) {
       EXPECT_THAT(check(database).faults, ElementsAre());

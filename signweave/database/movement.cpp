@@ -78,10 +78,10 @@ std::shared_ptr<MovementCache::Recording> MovementCache::find(std::uint32_t reco
 }
 
 std::shared_ptr<MovementCache::Recording> MovementCache::add(std::uint32_t recording,
-                                                             std::shared_ptr<Recording> entry) {
+                                                             const std::shared_ptr<Recording>& entry) {
   const std::lock_guard guard(mutex_);
   make_room(sizeof(Recording));
-  return recordings_.try_emplace(recording, std::move(entry)).first->second;
+  return recordings_.try_emplace(recording, entry).first->second;
 }
 
 void MovementCache::grew(std::size_t bytes) {

@@ -47,7 +47,7 @@ class MovementCache {
   /// The entry of a recording (numbered as in Segments), or null.
   std::shared_ptr<Recording> find(std::uint32_t recording) const;
   /// Adds an entry, unless another thread did; in either case what is there.
-  std::shared_ptr<Recording> add(std::uint32_t recording, std::shared_ptr<Recording> entry);
+  std::shared_ptr<Recording> add(std::uint32_t recording, const std::shared_ptr<Recording>& entry);
   /// So many bytes came to an entry.
   void grew(std::size_t bytes);
 

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 class PairingTest : public ImportTest {
  protected:
   std::vector<std::string> paired(const std::vector<std::filesystem::path>& inputs,
-                                  std::optional<std::filesystem::path> table = {}) {
+                                  const std::optional<std::filesystem::path>& table = {}) {
     std::vector<std::string> result;
     for (const ImportJob& job : pair_files(inputs, table).jobs) {
       result.push_back(job.name + ": " + (job.motion ? job.motion->filename().string() : "-") + " " +

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 
 #include "signweave/evaluation/compare.h"
 #include "signweave/evaluation/regenerate.h"
@@ -133,7 +134,8 @@ TEST(Evaluate, TwoRunsGiveTheSameBitsButForTheTimeTheyTook) {
         if (info.measure == Measure::microseconds) continue;
         const Score& a = one[m].spans[i].at(HandChoice::moving, info.measure);
         const Score& b = other[m].spans[i].at(HandChoice::moving, info.measure);
-        EXPECT_EQ(std::memcmp(&a.value, &b.value, sizeof a.value), 0) << one[m].name << ' ' << info.name;
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(a.value), std::bit_cast<std::uint64_t>(b.value))
+            << one[m].name << ' ' << info.name;
       }
     }
   }

@@ -56,7 +56,7 @@ bool in_t_pose(const RigMap& rig, const ModelPose& model) {
 
 }  // namespace
 
-TPoseWatch::TPoseWatch(const Motion& motion, const RigMap& rig) : motion_(motion), rig_(rig), can_tell_(true) {
+TPoseWatch::TPoseWatch(const Motion& motion, const RigMap& rig) : motion_(motion), rig_(rig) {
   for (int side = 0; side < 2; ++side) {
     can_tell_ = can_tell_ && rig.has(of_side(side, Part::left_upper_arm)) && rig.has(of_side(side, Part::left_hand));
   }
@@ -133,8 +133,8 @@ double bones_between(const Motion& motion, JointIndex foot, JointIndex head) {
     const std::optional<std::size_t> translation = skeleton.translation_of(joint);
     if (!translation) return static_cast<double>(skeleton.joint(joint).offset.norm());
     double sum = 0;
-    double seen = 0;
-    for (std::int64_t frame = 0; frame < motion.frame_count(); frame += step, seen += 1) {
+    int seen = 0;
+    for (std::int64_t frame = 0; frame < motion.frame_count(); frame += step, ++seen) {
       sum += static_cast<double>(motion.pose(frame).translations[*translation].norm());
     }
     return sum / seen;

@@ -23,16 +23,16 @@ constexpr double kBodyMoves = 0.9;       // share of the stretch in which the bo
 constexpr std::int64_t kBodyPart = 4;    // a body moves where one in so many of its joints does
 constexpr std::int64_t kAlike = 2;       // frames by which stretches of joints lost together may differ
 
-bool same_bits(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) noexcept {
-  return std::memcmp(a.coeffs().data(), b.coeffs().data(), sizeof(float) * 4) == 0;
-}
-
 using Bits = std::array<std::uint32_t, 4>;
 
 Bits bits_of(const Eigen::Quaternionf& rotation) noexcept {
   Bits bits;
   std::memcpy(bits.data(), rotation.coeffs().data(), sizeof bits);
   return bits;
+}
+
+bool same_bits(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) noexcept {
+  return bits_of(a) == bits_of(b);
 }
 
 }  // namespace

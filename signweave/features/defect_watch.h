@@ -133,7 +133,7 @@ class TPoseWatch {
 
   const Motion& motion_;
   const RigMap& rig_;
-  bool can_tell_;
+  bool can_tell_ = true;
   std::int64_t first_ = -1;  ///< frame that was shown
   std::int64_t since_ = -1;
   std::int64_t until_ = -1;  ///< after the last frame of the stretch

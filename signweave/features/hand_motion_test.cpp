@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <numbers>
+#include <span>
 
 #include "signweave/rig/test_rig.h"
 
@@ -26,7 +27,8 @@ HandMotion measured(const Motion& motion) {
 
 /// Equal to the bit, in all fields.
 bool same_bits(const HandFrame& a, const HandFrame& b) {
-  const auto same = [](const auto& one, const auto& other) { return std::memcmp(&one, &other, sizeof one) == 0; };
+  const auto bytes = [](const auto& one) { return std::as_bytes(std::span(&one, 1)); };
+  const auto same = [&](const auto& one, const auto& other) { return std::ranges::equal(bytes(one), bytes(other)); };
   return same(a.position, b.position) && same(a.velocity, b.velocity) && same(a.acceleration, b.acceleration) &&
          same(a.curvature, b.curvature) && same(a.palm, b.palm) && same(a.fingers, b.fingers) &&
          same(a.elbow, b.elbow) && same(a.openness, b.openness) && same(a.handshape.values, b.handshape.values) &&

@@ -6,7 +6,7 @@
 namespace signweave {
 
 Signal smoothed(const Signal& signal, double sigma) {
-  const auto radius = static_cast<std::ptrdiff_t>(4.0 * sigma + 0.5);
+  const auto radius = static_cast<std::ptrdiff_t>(std::lround(4.0 * sigma));
   std::vector<float> weights(static_cast<std::size_t>(2 * radius + 1));
   float sum = 0;
   for (std::ptrdiff_t i = -radius; i <= radius; ++i) {

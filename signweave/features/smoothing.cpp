@@ -9,8 +9,9 @@ namespace signweave {
 Smoother::Smoother(Seconds width, FrameRate rate, std::int64_t frames)
     : frames_(frames), hertz_(static_cast<float>(rate.hertz())) {
   // Rounded up by less than what a frame time printed in a file is off.
-  const double half = std::clamp(std::floor(0.5 * width.count() * rate.hertz() + 1e-3), 1.0,
-                                 static_cast<double>((kMostWindow - 1) / 2));
+  constexpr auto kMostHalf = (kMostWindow - 1) / 2;
+  const double half =
+      std::clamp(std::floor(0.5 * width.count() * rate.hertz() + 1e-3), 1.0, static_cast<double>(kMostHalf));
   size_ = std::clamp<std::int64_t>(2 * static_cast<std::int64_t>(half) + 1, 1, std::max<std::int64_t>(frames, 1));
   // With s counted from the middle, 1, s and s² − mean(s²) are orthogonal over the window: no system to solve.
   const double middle = 0.5 * static_cast<double>(size_ - 1);

@@ -44,7 +44,7 @@ class AmcReader {
   void read_number();
   void read_bone();
   std::size_t bone_of(std::string_view name);
-  void check_limits(std::size_t bone);
+  void check_limits(std::size_t at);
   void check_complete() const;
   void check_size() const;
   bool is_sparse() const noexcept;

@@ -23,7 +23,7 @@ std::string root_name(std::string_view text) {
       skip = rest.find("-->");
     } else if (rest.starts_with("<!")) {  // a DOCTYPE, whose own declarations stand in brackets
       const std::size_t bracket = rest.find_first_of("[>");
-      skip = bracket == rest.npos || rest[bracket] == '>' ? bracket : rest.find("]", bracket);
+      skip = bracket == rest.npos || rest[bracket] == '>' ? bracket : rest.find(']', bracket);
     } else {
       return std::string(rest.substr(1, rest.find_first_of(" \t\r\n/>", 1) - 1));
     }

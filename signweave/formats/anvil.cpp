@@ -287,7 +287,7 @@ fs::path specification_in(const fs::path& folder, const std::string& name) {
 
 }  // namespace
 
-File read_text(std::string name, std::string_view text, std::string_view specification) {
+File read_text(const std::string& name, std::string_view text, std::string_view specification) {
   const eaf::Xml xml(name, text, kWanted);
   refuse_control_characters(xml);
   Specification parsed;

@@ -32,7 +32,7 @@ inline constexpr std::size_t kLargestSpecification = std::size_t{1} << 24;
 File read(const std::filesystem::path& path);
 
 /// The same from text; `name` stands for the file in errors, `specification` is the specification's text, or empty.
-File read_text(std::string name, std::string_view text, std::string_view specification = {});
+File read_text(const std::string& name, std::string_view text, std::string_view specification = {});
 
 /// The specification that a file is read with: its path, or an empty one.
 std::filesystem::path specification_of(const std::filesystem::path& path);

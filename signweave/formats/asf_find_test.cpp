@@ -15,12 +15,14 @@ namespace fs = std::filesystem;
 
 /// A folder of its own with empty files.
 class AsfFind : public testing::Test {
+ public:
+  ~AsfFind() override { fs::remove_all(folder_); }
+
  protected:
   AsfFind() : folder_(fs::path(testing::TempDir()) / ("asf_find_" + std::to_string(::getpid()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
-  ~AsfFind() override { fs::remove_all(folder_); }
   void put(const std::string& name, const std::string& text = "") { std::ofstream(folder_ / name) << text; }
   std::string found(const std::string& amc) { return skeleton_of(folder_ / amc).filename().string(); }
 

@@ -70,9 +70,9 @@ TEST(BodyPlan, IsThatOfAPoseSinceARestPoseMayBeNoBody) {
     const float side = joints[static_cast<std::size_t>(collar)].offset.x() > 0 ? 1.0f : -1.0f;
     const Eigen::Quaternionf turn(AngleAxisf(side * std::numbers::pi_v<float> / 2, Vector3f::UnitY()));
     posed.pose(0).rotations[static_cast<std::size_t>(collar)] = turn;
-    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
-      for (JointIndex above = joints[joint].parent; above != kNoJoint; above = straight->joint(above).parent) {
-        if (above == collar) joints[joint].offset = turn.conjugate() * joints[joint].offset;
+    for (Joint& joint : joints) {
+      for (JointIndex above = joint.parent; above != kNoJoint; above = straight->joint(above).parent) {
+        if (above == collar) joint.offset = turn.conjugate() * joint.offset;
       }
     }
   }

@@ -257,7 +257,8 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
   if (!options.title.empty()) put_text({2 * kMargin, 23, kTitleSize, room, "start"}, options.title, out);
   for (std::size_t cell = 0; cell < shown.size(); ++cell) {
     const double x = kMargin + kCellWidth * static_cast<double>(cell % columns);
-    const double y = header + kCellHeight * static_cast<double>(cell / columns);
+    const std::size_t row = cell / columns;
+    const double y = header + kCellHeight * static_cast<double>(row);
     fmt::format_to(std::back_inserter(out),
                    "<g transform=\"translate({:.1f} {:.1f})\">\n<rect x=\"2\" y=\"2\" width=\"{:.1f}\" "
                    "height=\"{:.1f}\" fill=\"#f6f7f9\" rx=\"4\"/>\n",

@@ -25,7 +25,7 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
 
 /// What is written reads as what was meant.
 std::string written(const AnnotationDocument& document) {
-  const std::string text = write_text(document);
+  std::string text = write_text(document);
   EXPECT_EQ(without_source(read_text("written.eaf", text).document), without_source(document));
   return text;
 }

@@ -27,7 +27,8 @@ constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", 
 constexpr const char* kDashes[] = {"", "6 3", "2 3"};
 
 double line_axis_step(double top) {
-  for (double step = 1e-4;; step *= 10) {
+  for (int power = -4;; ++power) {
+    const double step = std::pow(10, power);
     for (const double factor : {1.0, 2.0, 5.0}) {
       if (top / (step * factor) <= 6) return step * factor;
     }
@@ -98,7 +99,8 @@ void draw(LineCanvas& canvas, const ErrorPanel& panel, double y) {
   const auto height_at = [&](double value) { return bottom - kLinesHeight * std::clamp(value / top, -0.05, 1.0); };
   canvas.words(kLinesLeft, head - 16, 15, "start", kLinesInk, panel.title);
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
-  for (double at = 0; at <= top; at += step) {
+  for (int k = 0; k * step <= top; ++k) {
+    const double at = k * step;
     canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#c8ccd1\" stroke-width=\"0.7\"/>", kLinesLeft, height_at(at),
                kField);
     canvas.words(kLinesLeft - 8, height_at(at) + 4, 12, "end", kLinesInk, fmt::format("{:.{}f}", at, decimals));

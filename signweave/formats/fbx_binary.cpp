@@ -13,7 +13,7 @@ constexpr std::uint64_t kMostDeflation = 1032;
 
 class BinaryReader {
  public:
-  explicit BinaryReader(const Source& source) : source_(source), wide_(false) {}
+  explicit BinaryReader(const Source& source) : source_(source) {}
 
   Record root() {
     Record root;
@@ -162,7 +162,7 @@ class BinaryReader {
   }
 
   const Source& source_;
-  bool wide_;
+  bool wide_ = false;
   std::size_t at_ = 0;
   std::size_t values_ = 0;
 };

@@ -28,7 +28,7 @@ json character_json() {
   })");
 }
 
-std::string glb(const std::string& text, std::string bytes = "keep") {
+std::string glb(const std::string& text, const std::string& bytes = "keep") {
   std::string chunk = text;
   chunk.resize((chunk.size() + 3) / 4 * 4, ' ');
   const auto number = [](std::size_t value) {

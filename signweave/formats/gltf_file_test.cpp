@@ -18,12 +18,14 @@ namespace {
 using testing::HasSubstr;
 
 class GltfFile : public testing::Test {
+ public:
+  ~GltfFile() override { std::filesystem::remove_all(folder_); }
+
  protected:
   GltfFile() {
     std::string name = (std::filesystem::temp_directory_path() / "gltf_test.XXXXXX").string();
     folder_ = mkdtemp(name.data());
   }
-  ~GltfFile() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path folder_;
 };
 

@@ -66,8 +66,8 @@ class JointChoice {
 
   bool seed_skins() {
     bool any = false;
-    for (std::size_t i = 0; i < content_.model.skins.size(); ++i) {
-      for (const int joint : content_.model.skins[i].joints) {
+    for (const tinygltf::Skin& skin : content_.model.skins) {
+      for (const int joint : skin.joints) {
         seeds_[static_cast<std::size_t>(joint)] = true;
         any = true;
       }

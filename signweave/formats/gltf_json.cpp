@@ -63,7 +63,7 @@ class WantedBuilder {
   bool number_integer(number_integer_t number) { return value(number); }
   bool number_unsigned(number_unsigned_t number) { return value(number); }
   bool number_float(number_float_t number, const string_t& /*text*/) { return value(number); }
-  bool string(string_t& text) { return skipped_ > 0 || wanted_ == false ? value(nullptr) : value(std::move(text)); }
+  bool string(string_t& text) { return skipped_ > 0 || !wanted_ ? value(nullptr) : value(std::move(text)); }
   bool binary(binary_t& /*bytes*/) { return value(nullptr); }
 
   bool start_object(std::size_t /*count*/) { return open(nlohmann::json::object()); }

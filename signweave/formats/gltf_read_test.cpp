@@ -277,7 +277,7 @@ TEST(GltfRead, ProgressMayCancel) {
 TEST(GltfRead, AFileCutAnywhereIsRefused) {
   for (const char* const name : {"armature.glb", "meshopt.glb", "bare.gltf"}) {
     const std::string bytes = read_file(kGltfFolder / name);
-    const std::size_t whole = bytes.find_last_not_of("\n") + 1;
+    const std::size_t whole = bytes.find_last_not_of('\n') + 1;
     for (std::size_t size = 0; size < whole; ++size) {
       EXPECT_THROW(read_bytes("cut", std::string_view(bytes).substr(0, size), {}), Error) << name << " at " << size;
     }

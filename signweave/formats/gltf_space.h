@@ -44,6 +44,6 @@ struct NodeRest {
 
 /// Throws Error{bad_input} where its numbers are not finite, its rotation has no length or its matrix has a
 /// perspective.
-NodeRest rest_of(const Content& content, std::size_t node);
+NodeRest rest_of(const Content& content, std::size_t index);
 
 }  // namespace signweave::gltf

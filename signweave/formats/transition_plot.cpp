@@ -33,7 +33,8 @@ constexpr const char* kBarsInk = "#202226";
 
 /// A round step of the axis that makes about five of them.
 double bar_axis_step(double top) {
-  for (double step = 1;; step *= 10) {
+  for (int power = 0;; ++power) {
+    const double step = std::pow(10, power);
     for (const double factor : {1.0, 2.0, 5.0}) {
       if (top / (step * factor) <= 6) return step * factor;
     }
@@ -142,7 +143,8 @@ void draw_row(BarCanvas& canvas, const Row& row, double y, double top, double st
   const double band_top = std::min(top, panel.mean + panel.deviation);
   const double band_low = std::max(0.0, panel.mean - panel.deviation);
   canvas.box(kBarsLeft, bottom - band_top * scale, kWidth, (band_top - band_low) * scale, kBand);
-  for (double at = 0; at <= top * 1.0001; at += step) {
+  for (int k = 0; k * step <= top * 1.0001; ++k) {
+    const double at = k * step;
     const double line = bottom - at * scale;
     canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#b4b8bd\" stroke-width=\"0.6\"/>", kBarsLeft, line, kWidth);
     canvas.text(kBarsLeft - 8, line + 4, 12, "end", fmt::format("{:.0f}", at));

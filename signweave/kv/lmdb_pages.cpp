@@ -106,7 +106,7 @@ void check_lmdb_header(const std::filesystem::path& folder) {
   if (number_at<std::uint32_t>(*head, 16) != kMagic) refuse("the file is damaged, or not LMDB's");
   const auto page_size = number_at<std::uint32_t>(*head, 40);
   if (page_size < 512 || page_size > 65'536 || (page_size & (page_size - 1)) != 0) refuse("the file's head is damaged");
-  if (size < static_cast<off_t>(2 * page_size)) refuse("the file is cut short");
+  if (size < 2 * static_cast<off_t>(page_size)) refuse("the file is cut short");
 }
 
 }  // namespace signweave::kv

@@ -39,7 +39,7 @@ inline ChildResult in_child(const std::function<void()>& action) {
   ::close(ends[1]);
   ChildResult result;
   char buffer[1'000];
-  for (ssize_t got; (got = ::read(ends[0], buffer, sizeof buffer)) > 0;) {
+  for (ssize_t got = 0; (got = ::read(ends[0], buffer, sizeof buffer)) > 0;) {
     result.text.append(buffer, static_cast<std::size_t>(got));
   }
   ::close(ends[0]);
@@ -63,7 +63,7 @@ inline ChildResult without_right_to_write(const std::filesystem::path& path, con
   fs::permissions(path.parent_path(), fs::perms(0755));
   for (const auto& entry : fs::directory_iterator(path)) fs::permissions(entry.path(), fs::perms(0444));
   fs::permissions(path, fs::perms(0555));
-  const ChildResult result = in_child([&] {
+  ChildResult result = in_child([&] {
     if (::geteuid() == 0) require(::setgid(65'534) == 0 && ::setuid(65'534) == 0, "become nobody");
     action();
   });

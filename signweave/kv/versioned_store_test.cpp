@@ -38,14 +38,14 @@ class FakeStore final : public PlainStore {
     std::copy_n(bytes_of(at->second).begin(), at->second.size(), buffer.begin());
     return ByteSpan(buffer).first(at->second.size());
   }
-  bool has(ByteSpan key) const override { return content_.count(std::string(text_of(key))) > 0; }
+  bool has(ByteSpan key) const override { return content_.contains(std::string(text_of(key))); }
   std::uint64_t entries() const override { return content_.size(); }
   void visit(const std::function<void(ByteSpan, std::size_t)>& see) const override {
     for (const auto& [key, value] : content_) see(bytes_of(key), value.size());
   }
   void begin(std::size_t, std::uint64_t) override { fake.before_each_step(); }
   void put(ByteSpan key, ByteSpan value) override {
-    if (content_.count("half") > 0) fail_at("put");
+    if (content_.contains("half")) fail_at("put");
     content_[std::string(text_of(key))] = text_of(value);
   }
   void erase(ByteSpan key) override { content_.erase(std::string(text_of(key))); }

@@ -38,7 +38,7 @@ Pairs many_pairs(std::size_t count) {
 }
 
 Quaterniond exact(const Quaternionf& a, const Quaternionf& b, double t, bool as_signed) {
-  const Quaterniond from = a.cast<double>().normalized();
+  Quaterniond from = a.cast<double>().normalized();
   Quaterniond to = b.cast<double>().normalized();
   if (!as_signed && from.dot(to) < 0) to.coeffs() *= -1.0;
   // From the chord, which is exact for small angles too.

@@ -28,7 +28,7 @@ AccessMode any_mode(std::int64_t frames) {
 
 StoredMotion put_compact(kv::KvStore& store, const Motion& motion, AccessMode mode) {
   static std::uint64_t generation = 0;
-  const StoredMotion stored = describe(motion, mode, ++generation, 1e-4f);
+  StoredMotion stored = describe(motion, mode, ++generation, 1e-4f);
   put(store, stored, motion);
   return stored;
 }

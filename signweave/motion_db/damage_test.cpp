@@ -61,7 +61,7 @@ std::string fault_in(const kv::KvStore& store, const StoredMotion& stored, Frame
 class DamageTest : public testing::TestWithParam<std::string> {
  protected:
   StoredMotion put_as(AccessMode mode) {
-    const StoredMotion stored = describe(motion_, mode, ++generation_);
+    StoredMotion stored = describe(motion_, mode, ++generation_);
     put(*store_, stored, motion_);
     return stored;
   }

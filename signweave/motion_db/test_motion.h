@@ -75,7 +75,7 @@ struct TestStore {
 
 inline StoredMotion put_motion(kv::KvStore& store, const Motion& motion, AccessMode mode,
                                std::uint64_t generation = 1) {
-  const StoredMotion stored = describe(motion, mode, generation);
+  StoredMotion stored = describe(motion, mode, generation);
   put(store, stored, motion);
   return stored;
 }

@@ -56,7 +56,7 @@ float warped(const Shape& a, const Shape& b, float limit, const std::array<float
       const float straight = before[k];
       const float down = before[k + 1];
       const float across = k > 0 ? row[k - 1] : kInfinity;
-      const float from = i == 0 && k == kR ? 0 : std::min({straight, down, across});
+      const float from = i == 0 && k == kR ? 0.0f : std::min({straight, down, across});
       row[k] = from + cost[k];
       least = std::min(least, row[k]);
     }

@@ -98,7 +98,8 @@ RC_GTEST_PROP(Example, TheSearchFindsWhatLookingAtAllFinds, (std::uint32_t seed)
     if (kind == 0 && !shapes.empty()) {
       shapes.push_back(shapes[random() % shapes.size()]);
     } else {
-      shapes.push_back(kind == 1 ? wander(random, points) : wander(random, points, &example, 0.02f * (random() % 50)));
+      shapes.push_back(kind == 1 ? wander(random, points)
+                                 : wander(random, points, &example, 0.02f * static_cast<float>(random() % 50)));
     }
     all.push_back({warped_distance(example, shapes.back()), id});
   }

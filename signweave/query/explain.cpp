@@ -39,7 +39,7 @@ void find_slow(const Expression& expression, std::vector<std::string>& found) {
 std::string kept(const Expression& expression) {
   std::vector<std::string> slow;
   find_slow(expression, slow);
-  const std::string text = to_string(expression);
+  std::string text = to_string(expression);
   if (slow.empty()) return text;
   if (slow.size() == 1 && slow.front() == text) return text + ", read from the motion";
   return fmt::format("{}; read from the motion, where the rest does not tell: {}", text, fmt::join(slow, ", "));

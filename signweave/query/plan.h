@@ -74,9 +74,9 @@ struct Plan {
 
 Plan plan(BoundQuery& query);
 
-/// Puts the rows of the accesses into `rows`, ascending, each once.
+/// Puts the rows of the accesses into `result`, ascending, each once.
 void candidates(std::span<const Access> accesses, const SegmentTable& table, const MovingTable& moving, Watch& watch,
-                std::vector<RowId>& rows);
+                std::vector<RowId>& result);
 /// Makes rows of a table of so many ascending, each once. Looks at the watch.
 void sort_rows(std::vector<RowId>& rows, RowId table_size, Watch& watch);
 /// The same where it is one list of an index: that.

@@ -44,7 +44,7 @@ class MadeTracks : public Movement {
   std::vector<float> track(std::uint32_t recording, std::string_view name, FrameRange frames) const override {
     read.push_back(frames);
     const auto at = values.find(name);
-    if (at == values.end() || faceless.count(recording) != 0) return {};
+    if (at == values.end() || faceless.contains(recording)) return {};
     return {at->second.begin() + frames.begin, at->second.begin() + frames.end};
   }
   std::vector<Gaze> gaze(std::uint32_t, FrameRange frames) const override {

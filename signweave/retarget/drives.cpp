@@ -116,7 +116,7 @@ class Builder {
     for (JointIndex joint = to_low; joint != kNoJoint; joint = target().joint(joint).parent) {
       drive(joint, from_low, turn);
     }
-    const auto or_one = [](std::vector<JointIndex> path, JointIndex one) {
+    const auto or_one = [](const std::vector<JointIndex>& path, JointIndex one) {
       return path.empty() ? std::vector<JointIndex>{one} : path;
     };
     const auto keys = places(or_one(path_between(source_, from_low, from_high), from_low), from_axes_);

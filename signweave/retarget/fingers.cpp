@@ -63,10 +63,9 @@ void CharacterFingers::bound(const CharacterFinger& finger, std::size_t i, const
 }
 
 void CharacterFingers::place(const CharacterFinger& finger, const Skeleton& skeleton, ModelPose& pose) const noexcept {
-  for (std::size_t i = 0; i < finger.joints.size(); ++i) {
-    const Joint& joint = skeleton.joint(finger.joints[i]);
-    pose.positions[at(finger.joints[i])] =
-        pose.positions[at(joint.parent)] + pose.rotations[at(joint.parent)] * joint.offset;
+  for (const JointIndex index : finger.joints) {
+    const Joint& joint = skeleton.joint(index);
+    pose.positions[at(index)] = pose.positions[at(joint.parent)] + pose.rotations[at(joint.parent)] * joint.offset;
   }
 }
 

@@ -37,8 +37,8 @@ class TableBuilder {
     const SegmentChunk& chunk = *source.chunk;
     std::vector<std::uint32_t> texts;
     for (const std::string& label : chunk.labels) texts.push_back(text(label));
-    for (std::size_t i = 0; i < chunk.rows.size(); ++i) {  // the match form of each text
-      lists_.labels_of_texts[texts[chunk.rows[i].text]] = texts[chunk.rows[i].label];
+    for (const auto& row : chunk.rows) {  // the match form of each text
+      lists_.labels_of_texts[texts[row.text]] = texts[row.label];
     }
     std::vector<RowId> places(chunk.rows.size());  // [row of the chunk] its row here
     for (std::size_t begin = 0; begin < chunk.rows.size();) {

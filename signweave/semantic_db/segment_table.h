@@ -70,7 +70,7 @@ class SegmentTable {
   std::uint32_t tier(RowId row) const noexcept { return places_[places_of_rows_[row]].tier; }
   std::uint32_t recording(RowId row) const noexcept { return places_[places_of_rows_[row]].recording; }
   /// All of them.
-  SegmentRow row(RowId row) const noexcept;
+  SegmentRow row(RowId id) const noexcept;
 
   std::string_view text_at(std::uint32_t text) const noexcept { return texts_.at(text); }
   std::string_view tier_at(std::uint32_t tier) const noexcept { return tiers_.at(tier); }

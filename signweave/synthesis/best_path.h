@@ -56,8 +56,7 @@ Path best_path(std::span<const PlaceCosts> places, const JoinScale& scale);
 class PathAhead {
  public:
   /// `ahead` of at least 1.
-  explicit PathAhead(JoinScale scale, std::size_t ahead = 3)
-      : scale_(std::move(scale)), ahead_(std::max<std::size_t>(ahead, 1)) {}
+  explicit PathAhead(JoinScale scale, std::size_t ahead = 3) : scale_(scale), ahead_(std::max<std::size_t>(ahead, 1)) {}
 
   /// Tells the next place. The candidate of the place `ahead` before it, once there is one.
   std::optional<std::size_t> push(PlaceCosts place);

@@ -31,7 +31,7 @@ Standing standing_of(const Laid& laid, const JunctionSettings& settings) {
   const FrameRange frames{0, std::min(alone.core_frames, kStandingFrames)};
   core.reset(settings.skeleton, settings.rate, frames.size());
   read_frames(alone, frames, core.poses(frames));
-  const Standing standing = standing_over(core, frames);
+  Standing standing = standing_over(core, frames);
   if (frames.size() > kKeptFrames) core = Motion();
   return standing;
 }

@@ -24,9 +24,10 @@ BorderMotion quadratic(std::span<const Eigen::Vector3f> path, double step) noexc
   for (std::size_t i = 0; i <= last; ++i) {
     const auto t = static_cast<double>(i);
     double power = 1;
-    for (int k = 0; k < 5; ++k, power *= t) {
+    for (int k = 0; k < 5; ++k) {
       powers[k] += power;
       if (k < 3) moments[k] += power * (path[i] - path[0]).cast<double>();
+      power *= t;
     }
   }
   Eigen::Matrix3d normal;
@@ -154,7 +155,7 @@ std::int64_t context_frames(const PosesView& side, FrameRate rate) noexcept {
 Eigen::Quaternionf see_joint(const Gap& gap, std::size_t joint, GapScratch& scratch) {
   const Eigen::Quaternionf left = gap.left().rotations[joint];
   const Eigen::Quaternionf right = gap.right().rotations[joint];
-  const Eigen::Quaternionf middle = middle_of(left, right);
+  Eigen::Quaternionf middle = middle_of(left, right);
   const Eigen::Quaternionf back = middle.conjugate();
   // Neighbours keep one hemisphere, so one sign a side lets a way go on beyond half a turn from the middle.
   const auto see = [&](const PosesView& side, std::int64_t border, int step, std::vector<Eigen::Vector3f>& way) {
@@ -175,7 +176,7 @@ Eigen::Quaternionf see_joint(const Gap& gap, std::size_t joint, GapScratch& scra
 }
 
 Eigen::Vector3f see_translation(const Gap& gap, std::size_t translation, GapScratch& scratch) {
-  const Eigen::Vector3f middle = 0.5f * (gap.left().translations[translation] + gap.right().translations[translation]);
+  Eigen::Vector3f middle = 0.5f * (gap.left().translations[translation] + gap.right().translations[translation]);
   const auto see = [&](const PosesView& side, std::int64_t border, int step, std::vector<Eigen::Vector3f>& way) {
     const std::int64_t count = context_frames(side, gap.rate);
     const std::size_t moved = side.moved();

@@ -44,7 +44,7 @@ JointGroups arm_groups() {
 }
 
 /// The frames of `a`, a gap that is made, the frames of `b`. Where groups are given one by one they are filled so.
-Motion with_gap(const Motion& a, const Motion& b, std::int64_t count, std::vector<GroupSet> parts) {
+Motion with_gap(const Motion& a, const Motion& b, std::int64_t count, const std::vector<GroupSet>& parts) {
   Motion all(a.shared_skeleton(), a.rate(), a.frame_count() + count + b.frame_count());
   const auto copy = [&](const Motion& from, std::int64_t at) {
     for (std::int64_t i = 0; i < from.frame_count(); ++i) {

@@ -24,7 +24,7 @@ struct Token {
 };
 
 /// Cuts an expression into its tokens. Throws QueryError for a quote without its end, and a letter that begins none.
-std::vector<Token> tokens_of(std::string_view expression);
+std::vector<Token> tokens_of(std::string_view text);
 
 /// Throws QueryError, with a caret under the place.
 [[noreturn]] void fail(std::string_view expression, std::size_t offset, const std::string& what);

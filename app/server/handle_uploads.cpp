@@ -43,7 +43,8 @@ struct ResolveFiles {
 json without_folder(json value, const std::string& folder) {
   if (value.is_string()) {
     auto text = value.get<std::string>();
-    for (std::size_t at = text.find(folder); at != text.npos; at = text.find(folder, at)) text.erase(at, folder.size());
+    // From the start each time: what is left on both sides may make the folder anew.
+    for (std::size_t at = text.find(folder); at != text.npos; at = text.find(folder)) text.erase(at, folder.size());
     return text;
   }
   if (value.is_structured()) {

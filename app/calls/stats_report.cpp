@@ -189,21 +189,25 @@ Rows ngram_csv(const std::vector<NgramStats>& ngrams) {
   return rows;
 }
 
-json json_of(const Distribution& of) {
-  if (of.count == 0) return {{"count", 0}};
+json json_of(const Distribution& distribution) {
+  if (distribution.count == 0) return {{"count", 0}};
   json quantiles = json::object();
-  for (std::size_t i = 0; i < of.quantiles.size(); ++i) {
-    quantiles[fmt::format("{:g}", Distribution::kQuantiles[i])] = of.quantiles[i];
+  for (std::size_t i = 0; i < distribution.quantiles.size(); ++i) {
+    quantiles[fmt::format("{:g}", Distribution::kQuantiles[i])] = distribution.quantiles[i];
   }
-  return {
-      {"count", of.count},
-      {"mean", of.mean},
-      {"sd", of.deviation},
-      {"mean_95", of.count < 2 ? json() : json{of.mean_low, of.mean_high}},  // one value tells nothing of it
-      {"least", of.least},
-      {"most", of.most},
-      {"quantiles", std::move(quantiles)},
-      {"histogram", {{"begin", of.histogram.begin}, {"width", of.histogram.width}, {"counts", of.histogram.counts}}}};
+  return {{"count", distribution.count},
+          {"mean", distribution.mean},
+          {"sd", distribution.deviation},
+          {"mean_95", distribution.count < 2
+                          ? json()
+                          : json{distribution.mean_low, distribution.mean_high}},  // one value has no interval
+          {"least", distribution.least},
+          {"most", distribution.most},
+          {"quantiles", std::move(quantiles)},
+          {"histogram",
+           {{"begin", distribution.histogram.begin},
+            {"width", distribution.histogram.width},
+            {"counts", distribution.histogram.counts}}}};
 }
 
 json json_of(const TransitionSummary& summary) {

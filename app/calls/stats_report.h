@@ -33,7 +33,7 @@ Rows pair_csv(const std::vector<PairStats>& pairs);
 Rows gloss_csv(const std::vector<GlossStats>& glosses);
 Rows ngram_csv(const std::vector<NgramStats>& ngrams);
 
-nlohmann::json json_of(const Distribution& of);
+nlohmann::json json_of(const Distribution& distribution);
 nlohmann::json json_of(const TransitionSummary& summary);
 nlohmann::json json_of(const RecordedTransition& transition);
 nlohmann::json json_of(const PairStats& pair);

@@ -12,11 +12,11 @@ constexpr std::chrono::milliseconds kLookWhileStopping{20};
 
 }  // namespace
 
-Context::Context(ServedDatabases& served, Api& called, ServerOptions wanted)
-    : options(std::move(wanted)),
+Context::Context(ServedDatabases& served, Api& http_api, ServerOptions server_options)
+    : options(std::move(server_options)),
       access(options),
       databases(served),
-      api(called),
+      api(http_api),
       addresses({.connections = options.limits.connections_per_address,
                  .rate = options.limits.requests_per_second,
                  .burst = options.limits.request_burst}),
@@ -47,7 +47,7 @@ Connection::~Connection() {
   --thread_.context.connections;
 }
 
-IoThread::IoThread(Context& shared) : context(shared), pacer(io), look_timer_(io) {}
+IoThread::IoThread(Context& server) : context(server), pacer(io), look_timer_(io) {}
 
 void IoThread::run() {
   look();

@@ -22,7 +22,7 @@ class IoThread;
 
 /// What all connections of a server share.
 struct Context {
-  Context(ServedDatabases& served, Api& called, ServerOptions wanted);
+  Context(ServedDatabases& served, Api& http_api, ServerOptions server_options);
   ~Context();
 
   ServerOptions options;
@@ -70,7 +70,7 @@ class Connection {
 /// locks.
 class IoThread {
  public:
-  explicit IoThread(Context& shared);
+  explicit IoThread(Context& server);
 
   Context& context;
   Metrics metrics;

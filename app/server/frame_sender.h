@@ -23,7 +23,7 @@ namespace signweave::server {
 class FrameSender final : public Paced {
  public:
   FrameSender(IoThread& thread, ServedDatabase& database, StreamSocket& out, const StreamOptions& options);
-  ~FrameSender();
+  ~FrameSender() override;
 
   /// Does what a message asks, but for "open" and "ping". Throws what the player throws, and then nothing has changed.
   void control(const ControlMessage& message);

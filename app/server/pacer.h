@@ -17,6 +17,7 @@ class Paced : public boost::intrusive::list_base_hook<boost::intrusive::link_mod
   static constexpr Clock::time_point kNever = Clock::time_point::max();
 
   Paced(const Paced&) = delete;
+  virtual ~Paced() = default;
 
   /// Sends what is due at `now`; tells when to be woken next. The frame path: allocates nothing, locks nothing.
   virtual Clock::time_point tick(Clock::time_point now) noexcept = 0;
@@ -25,7 +26,6 @@ class Paced : public boost::intrusive::list_base_hook<boost::intrusive::link_mod
 
  protected:
   Paced() = default;
-  ~Paced() = default;
 
  private:
   friend class Pacer;

@@ -50,7 +50,7 @@ File read(const std::filesystem::path& path) {
 
 File read_text(std::string name, std::string_view text, std::string_view specification) {
   if (format_of(text) == SourceFormat::eaf) return eaf::read_text(std::move(name), text);
-  return anvil::read_text(std::move(name), text, specification);
+  return anvil::read_text(name, text, specification);
 }
 
 std::uint64_t fingerprint(const std::filesystem::path& path) {

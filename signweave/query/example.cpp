@@ -55,7 +55,8 @@ float warped(const Shape& a, const Shape& b, float limit, const std::array<float
       // One moment of a earlier, the same moment of b is one place on.
       const float straight = before[k];
       const float down = before[k + 1];
-      const float across = k > 0 ? row[k - 1] : kInfinity;
+      float across = kInfinity;
+      if (k > 0) across = row[k - 1];
       const float from = i == 0 && k == kR ? 0.0f : std::min({straight, down, across});
       row[k] = from + cost[k];
       least = std::min(least, row[k]);

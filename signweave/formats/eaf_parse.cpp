@@ -106,7 +106,7 @@ class Parser {
     const std::size_t most = xml_.text().size() / 32;  // elements of either kind are longer
     slots_.reserve(most);
     annotations_.reserve(most);
-    for (const pugi::xml_node child : order.children("TIME_SLOT")) {
+    for (pugi::xml_node child = order.child("TIME_SLOT"); child; child = child.next_sibling("TIME_SLOT")) {
       Slot slot;
       slot.element = child;
       slot.id = xml_.required(child, "TIME_SLOT_ID");
@@ -230,11 +230,13 @@ class Parser {
   }
 
   void read_annotations(FileTier& tier) {
-    const pugi::xml_object_range<pugi::xml_node_iterator> children = tier.element.children();
-    tier.annotations.reserve(static_cast<std::size_t>(std::distance(children.begin(), children.end())));
-    for (const pugi::xml_node holder : tier.element.children("ANNOTATION")) {
+    // pugixml's iterators cost several calls into the library at each step, and these loops go over the whole file.
+    std::size_t most = 0;
+    for (pugi::xml_node child = tier.element.first_child(); child; child = child.next_sibling()) ++most;
+    tier.annotations.reserve(most);
+    for (pugi::xml_node holder = tier.element.child("ANNOTATION"); holder; holder = holder.next_sibling("ANNOTATION")) {
       pugi::xml_node element;
-      for (const pugi::xml_node child : holder.children()) {
+      for (pugi::xml_node child = holder.first_child(); child; child = child.next_sibling()) {
         const std::string_view name = child.name();
         if (name != "ALIGNABLE_ANNOTATION" && name != "REF_ANNOTATION") continue;
         if (element) xml_.fail(child, "a second annotation in one <ANNOTATION>; give it an <ANNOTATION> of its own");

@@ -12,15 +12,14 @@
 // program starts. Both give the same bits: no operation is joined with another (-ffp-contract=off). Sanitizers cannot
 // instrument that choice. (Loops over quaternions as they are stored gain nothing: shuffling eats what the wider
 // vectors give.)
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(SIGNWEAVE_SANITIZED)
 #define SIGNWEAVE_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define SIGNWEAVE_VECTOR_CLONES
 #endif
 // What is written may lie over what is read, but no iteration reads what another writes.
 #if defined(__clang__)
-#define SIGNWEAVE_INDEPENDENT
+#define SIGNWEAVE_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
 #else
 #define SIGNWEAVE_INDEPENDENT _Pragma("GCC ivdep")
 #endif

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kHands = JoinPoint::kVelocity;  // values before it are places: left hand's three, right hand's
 
-/// What block_costs() is told besides the values.
+/// What the costs of a block need besides the values.
 struct Weights {
   const float* before;  ///< [lane]
   float to;
@@ -59,23 +59,31 @@ template <typename Lanes>
   }
 }
 
-// Compiled for each width of vectors; the machine's own is taken when the program starts. All give the same bits, since
-// each lane's sum has its own order and no operation is joined with another (-ffp-contract=off). Sanitizers cannot
-// instrument that choice.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-__attribute__((target("avx512f"))) void block_costs(const float* ends, const float* begin, const Weights& weights,
-                                                    float* out) noexcept {
+// Compiled for each width of vectors. All give the same bits, since each lane's sum has its own order and no operation
+// is joined with another (-ffp-contract=off).
+using BlockCosts = void (*)(const float* ends, const float* begin, const Weights& weights, float* out) noexcept;
+
+#if defined(__x86_64__)
+__attribute__((target("avx512f"))) void costs_by_sixteens(const float* ends, const float* begin, const Weights& weights,
+                                                          float* out) noexcept {
   costs_by<Lanes16>(ends, begin, weights, out);
 }
-__attribute__((target("avx2"))) void block_costs(const float* ends, const float* begin, const Weights& weights,
-                                                 float* out) noexcept {
+__attribute__((target("avx2"))) void costs_by_eights(const float* ends, const float* begin, const Weights& weights,
+                                                     float* out) noexcept {
   costs_by<Lanes8>(ends, begin, weights, out);
 }
-__attribute__((target("default")))
 #endif
-void block_costs(const float* ends, const float* begin, const Weights& weights, float* out) noexcept {
+void costs_by_fours(const float* ends, const float* begin, const Weights& weights, float* out) noexcept {
   costs_by<Lanes4>(ends, begin, weights, out);
+}
+
+/// The one for the widest vectors that this machine has.
+BlockCosts widest() noexcept {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f")) return costs_by_sixteens;
+  if (__builtin_cpu_supports("avx2")) return costs_by_eights;
+#endif
+  return costs_by_fours;
 }
 
 }  // namespace
@@ -122,6 +130,7 @@ void JoinLanes::compare_with(const JoinPoint& begin) noexcept {
 
 float JoinLanes::costs(std::size_t block, std::span<const float, JoinEnds::kLanes> before, float to,
                        std::span<float, JoinEnds::kLanes> out) const noexcept {
+  static const BlockCosts block_costs = widest();
   block_costs(values_.data() + block * JoinEnds::kLanes * JoinPoint::kSize, begin_.data(),
               {.before = before.data(), .to = to, .place = place_, .speed = speed_, .per_way = per_way_}, out.data());
   std::array<float, JoinEnds::kLanes / 2> least{};

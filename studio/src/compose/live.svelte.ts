@@ -4,11 +4,11 @@ import type { AnnotationDocument } from '../annotation/document'
 import type { Declarations } from '../motion/declarations'
 import { StreamSource } from '../motion/stream_source'
 import { Opening } from '../player/opening'
+import { SignedPlaces } from '../player/signed_places.svelte'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport } from '../viewer/transport'
 
 const kTellMs = 200
-const kMostPlaces = 2000
 const kNothing: AnnotationDocument = { tiers: [] }
 
 /** A signer who rests, and signs at once what is appended. */
@@ -29,8 +29,7 @@ export class Live implements Showing {
   private current?: Opening
   private next?: Opening
   private source?: StreamSource
-  /** From which frame on which gloss is signed; none at rest. */
-  private readonly places: { frame: number; gloss?: string }[] = []
+  readonly signed = new SignedPlaces()
   /** Those who wait until it is known whether there is a stream. */
   private readonly waiting: (() => void)[] = []
   private closed = false
@@ -68,10 +67,7 @@ export class Live implements Showing {
     this.busy = true
     const source = new StreamSource(this.api, this.database, '', character, this.resting, this.how)
     source.onNotice = (fault) => this.note(fault)
-    source.onPlace = (frame, gloss) => {
-      this.places.push({ frame, gloss })
-      if (this.places.length > kMostPlaces) this.places.splice(0, kMostPlaces / 2)
-    }
+    source.onPlace = (frame, gloss) => this.signed.push(frame, gloss)
     next
       .strand('made', source)
       .then((strand) => {
@@ -81,7 +77,7 @@ export class Live implements Showing {
         this.next = undefined
         this.source = source
         this.trouble = undefined
-        this.places.length = 0
+        this.signed.clear()
         this.transport.time = 0
         this.transport.rate = strand.motion.store.rate
         this.main = strand
@@ -115,9 +111,7 @@ export class Live implements Showing {
   }
 
   glossAt(seconds: number): string | undefined {
-    const frame = seconds * (this.main?.motion.store.rate ?? 1)
-    for (let i = this.places.length - 1; i >= 0; --i) if (this.places[i].frame <= frame) return this.places[i].gloss
-    return undefined
+    return this.signed.glossAt(seconds * (this.main?.motion.store.rate ?? 1))
   }
 
   close(): void {

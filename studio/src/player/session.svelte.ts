@@ -13,6 +13,7 @@ import type { Route } from '../ui/route'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport } from '../viewer/transport'
 import { Worn, type Opening } from './opening'
+import { SignedPlaces } from './signed_places.svelte'
 
 /** What the player can show. */
 export type Shown = Extract<Route, { page: 'recording' | 'sign' | 'edit' }>
@@ -50,8 +51,8 @@ export class Session implements Showing {
   /** Of an edit, the annotation of the recording that was edited. */
   original = $state.raw<AnnotationDocument>(kEmpty)
   private originalRead?: Promise<void>
-  /** Of a live stream: from which frame on which gloss is signed; none at rest. */
-  private readonly places: { frame: number; gloss?: string }[] = []
+  /** Of a live stream. */
+  readonly signed = new SignedPlaces()
   private told = 0
 
   /** `character` names whose joints the poses are for; none for the recordings' own. */
@@ -86,9 +87,7 @@ export class Session implements Showing {
 
   /** The gloss that a live stream signs at a time. */
   liveGloss(seconds: number): string | undefined {
-    const frame = seconds * (this.main?.motion.store.rate ?? 1)
-    for (let i = this.places.length - 1; i >= 0; --i) if (this.places[i].frame <= frame) return this.places[i].gloss
-    return undefined
+    return this.signed.glossAt(seconds * (this.main?.motion.store.rate ?? 1))
   }
 
   /** Signs this next, where a stream is live. */
@@ -141,11 +140,8 @@ export class Session implements Showing {
   private stream(database: string, utterance: string, character?: string): StreamSource {
     const source = new StreamSource(this.api, database, utterance, character)
     source.onNotice = (fault) => this.note(fault)
-    source.onPlace = (frame, gloss) => {
-      this.places.push({ frame, gloss })
-      if (this.places.length > 2000) this.places.splice(0, 1000)
-    }
-    this.places.length = 0
+    source.onPlace = (frame, gloss) => this.signed.push(frame, gloss)
+    this.signed.clear()
     this.transport.time = 0
     return source
   }

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict'
 import { button, cards, compose, field, pick, shown } from './compose_tools.mjs'
 import { page, test, visit } from './suite.mjs'
-import { until } from './waits.mjs'
+import { signedLive, until } from './waits.mjs'
 
 test('loses no text that has a fault: not by moving signs, not by undo, not of a link', async () => {
   await compose('VANNES MATIN')
@@ -102,8 +102,8 @@ test('signs live: each word at once, and tells what cannot be', async () => {
   await page.getByRole('combobox', { name: 'Type and it signs' }).waitFor()
   await page.keyboard.type('NOBODY MATIN MATIN ') // while the stream is opened
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.store.arrived > 0)
-  await page.keyboard.type('NOBODY2 MATIN ') // long enough to be seen where pictures are slow
-  await page.waitForFunction(() => document.querySelector('.viewer .gloss')?.textContent === 'MATIN')
+  await page.keyboard.type('NOBODY2 MATIN ')
+  await signedLive(page, 'MATIN')
   await page.waitForFunction(() => document.querySelectorAll('.card').length === 4)
   await until(async () => assert.match(await page.getByRole('alert').textContent(), /no sign 'NOBODY'[^]*no sign 'NOBODY2'/))
   await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'MATIN', 'MATIN']))

@@ -4,7 +4,7 @@ import { writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { axeFaults, azimuth, colorAtJoint, isSkin, smallVideo, transport } from './page_tools.mjs'
 import { address, folder, kDeclared, mainTest, page, test, visit } from './suite.mjs'
-import { drawn, frames, opened, until } from './waits.mjs'
+import { drawn, frames, opened, signedLive, until } from './waits.mjs'
 
 const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not ${wanted}`)
 const button = (name) => page.getByRole('button', { name, exact: true })
@@ -298,11 +298,11 @@ test('signs live, and stays close to what has come', async () => {
 
 test('signs something else live when asked to, and tells what cannot be signed', async () => {
   await visit('#/demo/sign/VANNES?pace=live')
-  await page.waitForFunction(() => document.querySelector('.gloss')?.textContent === 'VANNES')
+  await signedLive(page, 'VANNES')
   const next = page.getByPlaceholder('Glosses in order')
   await next.fill('MATIN')
   await next.press('Enter')
-  await page.waitForFunction(() => document.querySelector('.gloss')?.textContent === 'MATIN')
+  await signedLive(page, 'MATIN')
   await next.fill('NOBODY')
   await next.press('Enter')
   await page.waitForFunction(() => /no sign 'NOBODY'/.test(document.querySelector('[role=alert]')?.textContent))

@@ -19,6 +19,30 @@ export async function opened(page, hash, whole = false) {
 }
 
 /**
+ * Until a live stream has signed a gloss, and the player names it where it was signed. A slow page may have drawn no picture of it
+ * meanwhile, so this goes back to its first frame, and on again.
+ */
+export async function signedLive(page, gloss) {
+  await page.waitForFunction((wanted) => {
+    const signed = document.querySelector('.player')?.dataset.signed ?? ''
+    const frame = Number(
+      signed
+        .split(' ')
+        .findLast((one) => one.startsWith(`${wanted}@`))
+        ?.split('@')[1],
+    )
+    const stage = window.signweaveStage
+    if (!(stage?.transport.duration * stage?.transport.rate > frame + 1)) return false
+    stage.transport.pause()
+    stage.transport.seek((frame + 0.5) / stage.transport.rate)
+    stage.touch()
+    return true
+  }, gloss)
+  await page.waitForFunction((wanted) => document.querySelector('.labels .gloss')?.textContent === wanted, gloss)
+  await page.evaluate(() => window.signweaveStage.transport.play())
+}
+
+/**
  * Until what was asked for is on the screen: the frames have come, the camera rests, and what does not play is drawn no more. However long one picture
  * takes.
  */

@@ -37,7 +37,7 @@ class Segments {
 
   Segments() = default;
   /// One table of all recordings.
-  Segments(SegmentTable table);  // NOLINT: a table is the segments of its recordings
+  Segments(SegmentTable table);  // not explicit: a table is the segments of its recordings
   explicit Segments(std::vector<Aged> tables, std::span<const Tombstone> tombstones = {});
 
   static constexpr std::uint32_t kNone = SegmentTable::kNone;

@@ -36,7 +36,7 @@ export function watchLog(path) {
   }
 }
 
-const folderOf = (name) => join(kFailures, name.replace(/[^\p{L}\p{N}]+/gu, '-').slice(0, 100))
+export const folderOf = (name) => join(kFailures, name.replace(/[^\p{L}\p{N}]+/gu, '-').slice(0, 100))
 
 /** Begins a test: what earlier ones left under its name goes. */
 export function beginEvidence(name) {

@@ -10,5 +10,6 @@ for (const name of process.argv.slice(2)) {
   begin(name)
   await import(`./${name}.test.mjs`)
 }
+// The other process has a test of its own of this kind.
 begin('pages')
-plainTest('no view threw anything', () => assert.deepEqual(faults, []))
+plainTest(`no view threw anything in ${process.argv.slice(2).join(', ')}`, () => assert.deepEqual(faults, []))

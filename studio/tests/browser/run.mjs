@@ -1,7 +1,8 @@
 // Runs the browser suites in two processes side by side: run.mjs SITE [--main | NAME…]. --main: of every suite the tests of main paths only.
 import { fork } from 'node:child_process'
+import { existsSync } from 'node:fs'
 import { join } from 'node:path'
-import { kFailures } from './evidence.mjs'
+import { folderOf, kFailures } from './evidence.mjs'
 import { kHalves } from './suites.mjs'
 
 const [site, ...words] = process.argv.slice(2)
@@ -56,7 +57,7 @@ results.forEach((half, i) => {
 const count = results.flat().length
 console.log(`browser: ${count} tests, ${count - failed.length} passed, ${failed.length} failed, in ${((performance.now() - start) / 1000).toFixed(0)} s`)
 if (failed.length > 0 || count === 0) {
-  for (const { name } of failed) console.log(`failed: ${name}`)
-  console.log(`screenshots, consoles and the server's log of what failed: ${kFailures}`)
+  for (const { name } of failed) console.log(`failed: ${name}${existsSync(folderOf(name)) ? `, see ${folderOf(name)}` : ''}`)
+  console.log(`left of failed tests: pictures, console output and server logs in ${kFailures}`)
   process.exitCode = 1
 }

@@ -10,4 +10,4 @@ const { graph, faults } = importGraph(files)
 faults.push(...importCircles(graph), ...longLines(files), ...strayTests(files))
 for (const fault of faults) console.error(fault)
 if (faults.length > 0) process.exitCode = 1
-else console.log(`${files.length} files: no circle of imports, no long line, no test that belongs to no run`)
+else console.log(`${files.length} files: no import cycles, no overlong lines, no orphaned tests`)

@@ -23,6 +23,10 @@ using testing::TestServer;
 using testing::upload_line;
 using namespace std::chrono_literals;
 
+bool has_stream(std::uint16_t port) {
+  return get(port, "/metrics").body.find("\nsignweave_streams 1\n") != std::string::npos;
+}
+
 TEST(ServerThreads, StreamsAndRequestsAtOnce) {
   const TestServer server;
   std::atomic<int> good = 0;
@@ -78,7 +82,8 @@ TEST(ServerThreads, EndsAlsoWhereClientsDoNotAnswer) {
   stalled.say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
   Client half(server.port());
   half.send("POST /api/x HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\nabc");
-  std::this_thread::sleep_for(100ms);
+  for (int i = 0; i < 1'000 && !has_stream(server.port()); ++i) std::this_thread::sleep_for(10ms);
+  ASSERT_TRUE(has_stream(server.port()));
   const auto begin = std::chrono::steady_clock::now();
   server.server->stop();
   server.server->wait();
@@ -102,7 +107,8 @@ TEST(ServerThreads, EndsWhileFilesAreSent) {
         }
       });
     }
-    std::this_thread::sleep_for(200ms);
+    for (int i = 0; i < 1'000 && server.bodies() == 0; ++i) std::this_thread::sleep_for(10ms);
+    EXPECT_GT(server.bodies(), 0u);
     server.server->stop();
     server.server->wait();
     for (std::thread& sender : senders) sender.join();

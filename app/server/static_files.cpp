@@ -64,21 +64,24 @@ class Descriptor {
 
 constexpr int kOpenFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
 
-/// As open_beneath where the kernel is older than 5.6: folder by folder, and no links at all.
+/// As open_beneath, for a kernel older than 5.6: folder by folder, and no links at all. A path that ends with a slash
+/// names a folder.
 int open_without_links(int folder, std::string_view path) {
   Descriptor at(::dup(folder));
   while (!path.empty()) {
     const std::size_t slash = path.find('/');
     const std::string name(path.substr(0, slash));
-    path.remove_prefix(slash == std::string_view::npos ? path.size() : slash + 1);
-    at = Descriptor(::openat(at.get(), name.c_str(), kOpenFlags | O_NOFOLLOW | (path.empty() ? 0 : O_DIRECTORY)));
+    const bool is_folder = slash != std::string_view::npos;
+    path.remove_prefix(is_folder ? slash + 1 : path.size());
+    at = Descriptor(::openat(at.get(), name.c_str(), kOpenFlags | O_NOFOLLOW | (is_folder ? O_DIRECTORY : 0)));
     if (at.get() < 0) return -1;
   }
   return at.release();
 }
 
 /// Opens `path` beneath the folder: no "..", no link that leads out.
-int open_beneath(int folder, const std::string& path) {
+int open_beneath(int folder, const std::string& path, FollowedLinks links) {
+  if (links == FollowedLinks::none) return open_without_links(folder, path);
   open_how how{};
   how.flags = kOpenFlags;
   how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
@@ -154,7 +157,8 @@ std::string http_date(std::int64_t seconds_since_1970) {
                      parts.tm_hour, parts.tm_min, parts.tm_sec);
 }
 
-std::optional<StaticFile> open_static(const std::filesystem::path& folder, const std::vector<std::string>& segments) {
+std::optional<StaticFile> open_static(const std::filesystem::path& folder, const std::vector<std::string>& segments,
+                                      FollowedLinks links) {
   std::string path;
   for (const std::string& segment : segments) {
     if (segment.starts_with('.') || segment.find_first_of(std::string_view("\\/\0", 3)) != std::string::npos) {
@@ -166,7 +170,7 @@ std::optional<StaticFile> open_static(const std::filesystem::path& folder, const
   const Descriptor root(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
   if (root.get() < 0) return std::nullopt;
   for (int step = 0; step < 2; ++step) {
-    Descriptor file(open_beneath(root.get(), path));
+    Descriptor file(open_beneath(root.get(), path, links));
     struct stat status {};
     if (file.get() < 0 || ::fstat(file.get(), &status) != 0) return std::nullopt;
     if (S_ISDIR(status.st_mode)) {

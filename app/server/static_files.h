@@ -18,10 +18,16 @@ struct StaticFile {
   std::string last_modified;  ///< as HTTP writes dates
 };
 
+/// Which symbolic links below a folder are followed: those that lead to a file of the folder, where the kernel can
+/// prove that (Linux 5.6), or none.
+enum class FollowedLinks { inside, none };
+
 /// Opens the file of these decoded segments below `folder`; of a folder its index.html. None where there is no such
 /// plain file. No path leads outside, and none to hidden files: segments that are "..", that begin with a dot or hold
 /// a backslash or NUL are no names here, and the kernel resolves the rest beneath the folder, whatever links lie there.
-std::optional<StaticFile> open_static(const std::filesystem::path& folder, const std::vector<std::string>& segments);
+/// On an older kernel no links are followed.
+std::optional<StaticFile> open_static(const std::filesystem::path& folder, const std::vector<std::string>& segments,
+                                      FollowedLinks links = FollowedLinks::inside);
 
 /// The same of one plain file, whatever folder it is in.
 std::optional<StaticFile> open_plain(const std::filesystem::path& path);

@@ -1,8 +1,10 @@
 #include "app/server/static_files.h"
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 
 #include "app/server/http_target.h"
@@ -36,10 +38,11 @@ struct Tree {
   std::filesystem::path root = folder / "served";
 };
 
-std::string read(const std::filesystem::path& root, std::string_view target) {
+std::string read(const std::filesystem::path& root, std::string_view target,
+                 FollowedLinks links = FollowedLinks::inside) {
   const auto parsed = parse_target(target);
   if (!parsed) return "(no target)";
-  const auto file = open_static(root, parsed->path);
+  const auto file = open_static(root, parsed->path, links);
   if (!file) return "(none)";
   std::string text(file->size, '\0');
   EXPECT_EQ(::read(file->descriptor, text.data(), text.size()), static_cast<ssize_t>(file->size));
@@ -49,12 +52,20 @@ std::string read(const std::filesystem::path& root, std::string_view target) {
 
 TEST(StaticFiles, AreThoseOfTheFolder) {
   const Tree tree;
-  EXPECT_EQ(read(tree.root, "/"), "<p>hello");
-  EXPECT_EQ(read(tree.root, "/index.html"), "<p>hello");
-  EXPECT_EQ(read(tree.root, "/sub/"), "<p>sub");
-  EXPECT_EQ(read(tree.root, "/sub"), "<p>sub");
-  EXPECT_EQ(read(tree.root, "/a%20b.js"), "1");
-  EXPECT_EQ(read(tree.root, "/inside.html"), "<p>hello");
+  for (const FollowedLinks links : {FollowedLinks::inside, FollowedLinks::none}) {
+    EXPECT_EQ(read(tree.root, "/", links), "<p>hello");
+    EXPECT_EQ(read(tree.root, "/index.html", links), "<p>hello");
+    EXPECT_EQ(read(tree.root, "/sub/", links), "<p>sub");
+    EXPECT_EQ(read(tree.root, "/sub", links), "<p>sub");
+    EXPECT_EQ(read(tree.root, "/a%20b.js", links), "1");
+  }
+}
+
+TEST(StaticFiles, ALinkInsideIsFollowedWhereTheKernelCanProveThatItIs) {
+  const Tree tree;
+  const bool can = ::syscall(SYS_openat2, -1, "", nullptr, 0) == 0 || errno != ENOSYS;
+  EXPECT_EQ(read(tree.root, "/inside.html"), can ? "<p>hello" : "(none)");
+  EXPECT_EQ(read(tree.root, "/inside.html", FollowedLinks::none), "(none)");
 }
 
 TEST(StaticFiles, NoPathLeadsOutside) {
@@ -81,8 +92,10 @@ TEST(StaticFiles, NoPathLeadsOutside) {
                            "/no such file",
                            "/sub/no",
                            "/%c0%ae%c0%ae/secret.txt"}) {
-    const std::string text = read(tree.root, path);
-    EXPECT_TRUE(text == "(none)" || text == "(no target)") << path << ": " << text;
+    for (const FollowedLinks links : {FollowedLinks::inside, FollowedLinks::none}) {
+      const std::string text = read(tree.root, path, links);
+      EXPECT_TRUE(text == "(none)" || text == "(no target)") << path << ": " << text;
+    }
   }
 }
 

@@ -121,9 +121,10 @@ TEST(ServerThreads, EndsWithoutAnsweringAllThatWait) {
   ServerOptions options{.workers = 1};
   options.limits.drain = 50ms;
   TestServer server(options);
+  // An answer takes as long as the server has for all that wait, and longer than it takes to ask for them all.
   std::string utterance = "DEMAIN";
-  for (int i = 0; i < 4; ++i) utterance += " MATIN DEMAIN";
-  const std::string body = R"({"format":"csv","rate":200,"utterance":")" + utterance + "\"}";
+  for (int i = 0; i < 8; ++i) utterance += " MATIN DEMAIN";
+  const std::string body = R"({"format":"csv","rate":1000,"utterance":")" + utterance + "\"}";
   const std::string request =
       "POST /api/databases/demo/sign HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
       "application/json\r\nContent-Length: " +

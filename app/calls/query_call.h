@@ -7,6 +7,7 @@
 #include "app/calls/field.h"
 #include "app/calls/json.h"
 #include "signweave/database/database.h"
+#include "signweave/query/bare_words.h"
 
 namespace signweave::calls {
 
@@ -20,7 +21,7 @@ struct QueryCall {
 
 template <class Visit>
 void fields(Visit& visit, QueryCall& call) {
-  visit(Field{.name = "text", .help = "the query; docs/query.md tells the language", .words = "TEXT", .required = true},
+  visit(Field{.name = "text", .help = "words to find, or a query (docs/query.md)", .words = "TEXT", .required = true},
         call.text);
   visit(Field{.name = "limit",
               .help = "at most so many answers",
@@ -37,10 +38,12 @@ void fields(Visit& visit, QueryCall& call) {
 
 struct QueryReport {
   std::vector<Segment> answers;
+  std::vector<WordMatch> matches;  ///< [answer], where the text was words only
   std::vector<Notice> hints;        ///< of an empty answer: what the database does not know
   std::optional<std::string> plan;  ///< where it was asked for: it is shown instead of the answers
 };
 
+/// A text that no query is made of is taken for words to find, where it has no operators or is a gloss itself.
 /// Throws QueryError, Error{cancelled} when the time is over.
 QueryReport run(const Database& database, const QueryCall& call);
 

@@ -10,7 +10,6 @@
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "signweave/formats/eaf.h"
-#include "signweave/query/parse.h"
 
 namespace signweave::cli {
 namespace {
@@ -39,7 +38,6 @@ void run_query(const QueryArguments& options, Io& io) {
   if ((options.format == "eaf") != !options.folder_of_files.empty()) {
     throw CLI::ValidationError("--format", "eaf writes one file a recording: name their folder with -o, and give both");
   }
-  parse(options.call.text);  // what is wrong with the query is told before anything is opened
   const Database database(options.folder, kv::Access::read_only);
   report_damage(database, io);
   const calls::QueryReport report = calls::run(database, options.call);

@@ -106,6 +106,8 @@ constexpr const char* kSearchAnswers = R"json({
     {"type": "array", "items": {"type": "object", "required": ["recording", "tier", "name", "begin_ms", "end_ms", "parts"],
       "properties": {"recording": {"type": "string"}, "tier": {"type": "string"}, "name": {"type": "string"}, "begin_ms": {"type": "integer"},
         "end_ms": {"type": "integer"}, "distance": {"type": "number", "minimum": 0},
+        "match": {"enum": ["exact", "folded", "sequence", "part", "label", "some"],
+          "description": "how it fits, where the text was words only; the better first"},
         "bindings": {"type": "object", "additionalProperties": {"type": "string"}}, "parts": {"type": "array", "items": {"type": "object",
           "required": ["name", "begin_ms", "end_ms"], "properties": {"name": {"type": "string"},
             "begin_ms": {"type": "integer"}, "end_ms": {"type": "integer"}}}}}}},

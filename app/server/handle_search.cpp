@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <mutex>
+#include <set>
 
 #include "app/calls/evaluate_call.h"
 #include "app/calls/query_call.h"
@@ -60,11 +61,10 @@ ApiResponse find_segments(Call& call) {
     call.notices.push_back({"", "there may be more answers than the server gives: these are the first"});
   }
   const std::shared_ptr<const Contents> contents = database.contents();
-  std::string last;
-  for (const Segment& segment : report.answers) {  // ordered by recording
-    if (segment.recording == last) continue;
-    last = segment.recording;
-    if (const RecordingInfo* info = contents->find(last)) call.declare(info->declarations);
+  std::set<std::string_view> recordings;
+  for (const Segment& segment : report.answers) {
+    if (!recordings.insert(segment.recording).second) continue;
+    if (const RecordingInfo* info = contents->find(segment.recording)) call.declare(info->declarations);
   }
   if (format == "csv" && !report.plan)
     return file_answer(answer_format("csv"), "answers", calls::format_csv(rows_of(report)));

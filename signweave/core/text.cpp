@@ -106,6 +106,36 @@ std::string fold_case(std::string_view text) {
   return mapped(text, UTF8PROC_COMPOSE | UTF8PROC_CASEFOLD);
 }
 
+std::string loose_form(std::string_view label) {
+  const bool ascii = std::ranges::all_of(label, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  const std::string folded =
+      ascii ? fold_case(label) : mapped(label, UTF8PROC_COMPAT | UTF8PROC_DECOMPOSE | UTF8PROC_CASEFOLD);
+  std::string result;
+  result.reserve(folded.size());
+  for (std::size_t at = 0; at < folded.size();) {
+    const std::string_view rest = std::string_view(folded).substr(at);
+    utf8proc_int32_t letter = -1;
+    utf8proc_ssize_t used = utf8proc_iterate(reinterpret_cast<const utf8proc_uint8_t*>(rest.data()),
+                                             static_cast<utf8proc_ssize_t>(rest.size()), &letter);
+    if (used < 1) used = 1, letter = 0xFFFD;  // not UTF-8: as it is
+    at += static_cast<std::size_t>(used);
+    if (letter >= 0x300 && letter <= 0x36F) continue;
+    if (letter == ' ' || (letter >= '\t' && letter <= '\r')) {
+      if (!result.empty() && result.back() != ' ') result += ' ';
+    } else if (letter == 0x153) {
+      result += "oe";
+    } else if (letter == 0xE6) {
+      result += "ae";
+    } else if (letter == 0x2019 || letter == 0x2018 || letter == 0x2BC || letter == 0x60 || letter == 0xB4) {
+      result += '\'';
+    } else {
+      result += rest.substr(0, static_cast<std::size_t>(used));
+    }
+  }
+  if (!result.empty() && result.back() == ' ') result.pop_back();
+  return result;
+}
+
 std::vector<std::string> near_matches(std::string_view wanted, std::span<const std::string> known, std::size_t most) {
   const std::vector<utf8proc_int32_t> target = letters(fold_case(match_form(wanted)));
   const std::size_t farthest = (target.size() + 1) / 3;  // one letter is near no other

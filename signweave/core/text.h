@@ -17,6 +17,11 @@ bool is_utf8(std::string_view text) noexcept;
 /// Lower case of every letter of any script, in NFC: for finding, never for storing.
 std::string fold_case(std::string_view text);
 
+/// What a label is where its spelling does not matter: without case, accents (U+0300 to U+036F), width and other
+/// variants of compatibility (Unicode NFKD), ligatures (œ, æ) and kinds of apostrophe; one blank for white space.
+/// For finding, never for storing.
+std::string loose_form(std::string_view label);
+
 /// At most `most` of `known` that are nearest to `wanted` by edit distance over letters (case folded), nearest first;
 /// those farther than about a third of the length are left out.
 std::vector<std::string> near_matches(std::string_view wanted, std::span<const std::string> known,

@@ -41,6 +41,19 @@ TEST(FoldCase, EveryScriptIsFolded) {
   EXPECT_EQ(fold_case("MixamoRig:Head"), "mixamorig:head");
 }
 
+TEST(LooseForm, SpellingDoesNotMatter) {
+  EXPECT_EQ(loose_form("  ÉTÉ\t chaud\n"), "ete chaud");
+  EXPECT_EQ(loose_form("e\xCC\x81te\xCC\x81"), "ete");
+  EXPECT_EQ(loose_form("Œuvre, cœur, Æon"), "oeuvre, coeur, aeon");
+  EXPECT_EQ(loose_form("AUJOURD’HUI"), loose_form("aujourd'hui"));
+  EXPECT_EQ(loose_form("ＶＡＮＮＥＳ　２"), "vannes 2");
+  EXPECT_EQ(loose_form("Straße"), "strasse");
+  EXPECT_EQ(loose_form("手話"), "手話");
+  EXPECT_NE(loose_form("が"), loose_form("た"));
+  EXPECT_EQ(loose_form("\xE9t\xE9 A"), "\xE9t\xE9 A") << "not UTF-8: as it is";
+  EXPECT_EQ(loose_form(" \t"), "");
+}
+
 TEST(NearMatches, TheNearestComesFirstAndTheFarIsLeftOut) {
   const std::vector<std::string> known = {"VANNES", "VENISE", "PLUIE", "VANNE"};
   EXPECT_THAT(near_matches("VANES", known), ElementsAre("VANNES", "VANNE"));

@@ -431,8 +431,9 @@ class Parser {
     for (std::string& word : movement_words()) {
       if (std::find(known.begin(), known.end(), word) == known.end()) known.push_back(std::move(word));
     }
-    in_.fail(name.begin, fmt::format("no condition is called '{}'{}; use one of {}", printable(name.text),
-                                     did_you_mean(name.text, known), fmt::join(known, ", ")));
+    std::string mend = did_you_mean(name.text, known);
+    if (mend.empty()) mend = fmt::format("; for a sign write gloss = \"{}\"", printable(name.text));
+    in_.fail(name.begin, fmt::format("no condition is called '{}'{}", printable(name.text), mend));
   }
 
   [[noreturn]] void refuse_variable(const QueryToken& token) {

@@ -10,6 +10,16 @@ it('reads answers with a distance and with variables', () => {
   expect(reader.variables).toEqual(['$X', '$Y'])
 })
 
+it('reads how answers fit words', () => {
+  const reader = new AnswerReader()
+  const [, first] = [
+    reader.take([['recording', 'tier', 'name', 'begin ms', 'end ms', 'match']]),
+    reader.take([['meteo', 'Gloss', 'MATIN', '1200', '1300', 'folded']]),
+  ]
+  expect(first).toEqual([{ at: 0, recording: 'meteo', tier: 'Gloss', name: 'MATIN', begin: 1200, end: 1300, match: 'folded' }])
+  expect(reader.variables).toEqual([])
+})
+
 it('reads plain answers, and counts on over several pieces', () => {
   const reader = new AnswerReader()
   reader.take([

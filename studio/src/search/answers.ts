@@ -9,9 +9,13 @@ export interface Answer {
   readonly end: number
   /** Of an answer to `like(…)`: 0 is the same movement. */
   readonly distance?: number
+  /** How it fits words that were searched (docs/query.md). */
+  readonly match?: Match
   /** What the variables of the query were, in the order of `AnswerReader.variables`. */
   readonly bindings?: readonly string[]
 }
+
+export type Match = 'exact' | 'folded' | 'sequence' | 'part' | 'label' | 'some'
 
 const kPlain = 5
 
@@ -21,6 +25,8 @@ export class AnswerReader {
   variables: readonly string[] = []
   ranked = false
   private head?: readonly string[]
+  private matched = false
+  private first = kPlain
   private count = 0
   /** One text for all rows that have the same. */
   private readonly texts = new Map<string, string>()
@@ -31,7 +37,9 @@ export class AnswerReader {
       if (!this.head) {
         this.head = record
         this.ranked = record[kPlain] === 'distance'
-        this.variables = record.slice(this.ranked ? kPlain + 1 : kPlain)
+        this.matched = record[kPlain] === 'match'
+        this.first = this.ranked || this.matched ? kPlain + 1 : kPlain
+        this.variables = record.slice(this.first)
         continue
       }
       const answer: Answer = {
@@ -42,7 +50,8 @@ export class AnswerReader {
         begin: Number(record[3]),
         end: Number(record[4]),
         distance: this.ranked ? Number(record[kPlain]) : undefined,
-        bindings: this.variables.length > 0 ? record.slice(this.ranked ? kPlain + 1 : kPlain) : undefined,
+        ...(this.matched ? { match: record[kPlain] as Match } : {}),
+        bindings: this.variables.length > 0 ? record.slice(this.first) : undefined,
       }
       answers.push(answer)
     }

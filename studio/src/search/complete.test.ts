@@ -56,6 +56,16 @@ it('offers glosses in quotes with their tokens, whether the quote is there or no
   expect(at('gloss =~ |').labels).toEqual(['/…/'])
 })
 
+it('offers glosses where words alone are typed', () => {
+  expect(at('vann|').chosen).toBe('VANNES')
+  expect(at('vannes "le m|').chosen).toBe('vannes "LE MANS"')
+  expect(at('"le m|').chosen).toBe('"LE MANS"')
+  expect(at('vannes nan|').chosen).toBe('vannes NANTES')
+  expect(at('gloss vann|').labels).not.toContain('VANNES')
+  expect(at('phase = stroke & vann|').labels).not.toContain('VANNES')
+  expect(at('vannes |').labels).toEqual([])
+})
+
 it('overwrites what was typed, and nothing that was written behind it', () => {
   expect(at('gloss = "VA|LENCE" & phase = stroke').chosen).toBe('gloss = "VANNES" & phase = stroke')
   expect(at('gloss = "VA| & phase = stroke').chosen).toBe('gloss = "VANNES" & phase = stroke')

@@ -41,7 +41,8 @@ export function complete(text: string, caret: number, words: Words): Completion 
   const from = typing?.begin ?? caret
   const to = typing ? endOf(typing, text, caret) : caret
   const rest = text.slice(to)
-  const options = matching(offered(context, words, rest, before), typed).map((option) => spaced(option, text, from, context))
+  const all = [...offered(context, words, rest, before), ...(typing && isWords(before, words) ? bareGlosses(words, typing) : [])]
+  const options = matching(all, typed).map((option) => spaced(option, text, from, context))
   const done = text.slice(from, to)
   const only = typed !== '' && options.length === 1 && options[0].insert.trim() === done
   const wants =
@@ -53,6 +54,16 @@ export function complete(text: string, caret: number, words: Words): Completion 
     ...(wants ? { wants: context.tier } : {}),
     eager: typed !== '' || (typing !== undefined && typing.kind === 'text') || context.at === 'value' || context.at === 'argument',
   }
+}
+
+/** Whether nothing but words stands there, none of them of the language: the query is words to find (docs/query.md). */
+function isWords(before: readonly Token[], { language }: Words): boolean {
+  const ofLanguage = (text: string) => [language.fields, language.functions, language.links].some((list) => list.includes(text))
+  return before.every(({ kind, text }) => kind === 'text' || (kind === 'word' && !ofLanguage(text)))
+}
+function bareGlosses({ glosses }: Words, { kind }: Token): Option[] {
+  const plain = (gloss: string) => kind === 'word' && /^[\p{L}\p{N}][\p{L}\p{N}'’-]*$/u.test(gloss)
+  return glosses.map(({ gloss, tokens }): Option => ({ label: gloss, insert: plain(gloss) ? gloss : quoted(gloss), kind: 'gloss', tokens }))
 }
 
 /** Whether the caret is in a token that is being typed; behind a sign or a closed text it is not. */

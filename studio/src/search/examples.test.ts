@@ -1,25 +1,37 @@
 import { expect, it } from 'vitest'
-import { examplesFor, kExamples } from './examples'
+import { examplesFor } from './examples'
 
-it('has them all where the database has what they name', () => {
-  const glosses = ['VANNES', 'MATIN', 'BROUILLARD'].map((gloss) => ({ gloss, tokens: 1 }))
-  expect(examplesFor({ glosses, recordings: ['villes'] })).toEqual(kExamples)
-  expect(examplesFor(undefined)).toEqual(kExamples)
+const texts = (...from: Parameters<typeof examplesFor>) => examplesFor(...from).map(({ text }) => text)
+
+it('is made of what the database has', () => {
+  const found = texts({
+    glosses: [
+      { gloss: 'NUAGES', tokens: 2 },
+      { gloss: 'VANNES', tokens: 3 },
+      { gloss: 'NUAGEUX', tokens: 1 },
+    ],
+    recordings: ['meteo', 'villes'],
+    tracks: ['browUp', 'jawOpen'],
+  })
+  expect(found.slice(0, 4)).toEqual(['vannes', 'gloss = "VANNES" & phase = stroke', 'gloss =~ /NUA.*/', 'recording = "meteo" & phase = stroke'])
+  expect(found).toContain('phase = stroke & track(jawOpen) > 0.4')
 })
 
-it('asks for the most frequent gloss of another database, and for nothing that it does not have', () => {
-  const texts = examplesFor({
-    glosses: [
-      { gloss: 'A', tokens: 2 },
-      { gloss: 'B "C"', tokens: 7 },
-    ],
-    recordings: ['x'],
-  }).map(({ text }) => text)
-  expect(texts[0]).toBe('gloss = "B \\"C\\""')
-  expect(texts).toContain('gloss = $X ->[..20s] gloss = $X')
-  expect(texts.join()).not.toMatch(/VANNES|MATIN|villes/)
+it('writes a gloss of several words as words', () => {
+  expect(texts({ glosses: [{ gloss: 'LE MANS', tokens: 7 }], recordings: [], tracks: [] })[0]).toBe('le mans')
+})
+
+it('quotes a gloss that does not read as a word, and asks for nothing that there is not', () => {
+  const found = texts({ glosses: [{ gloss: 'B "C"', tokens: 7 }], recordings: ['x'], tracks: [] })
+  expect(found[0]).toBe('"B \\"C\\""')
+  expect(found.join()).not.toMatch(/track|=~/)
+})
+
+it('names nothing where nothing is known', () => {
+  expect(texts(undefined).join()).not.toMatch(/"/)
+  expect(texts(undefined).length).toBeGreaterThan(3)
 })
 
 it('says each in both languages', () => {
-  for (const { en, fr } of kExamples) expect(en && fr && en !== fr).toBeTruthy()
+  for (const { en, fr } of examplesFor(undefined)) expect(en && fr && en !== fr).toBeTruthy()
 })

@@ -2,15 +2,17 @@ import type { Answer } from './answers'
 
 /** Answers as the server's CSV has them. */
 export function csvOf(answers: readonly Answer[], ranked: boolean, variables: readonly string[]): string {
+  const matched = answers[0]?.match !== undefined
   const rows = [
-    ['recording', 'tier', 'name', 'begin ms', 'end ms', ...(ranked ? ['distance'] : []), ...variables],
-    ...answers.map(({ recording, tier, name, begin, end, distance, bindings }) => [
+    ['recording', 'tier', 'name', 'begin ms', 'end ms', ...(ranked ? ['distance'] : []), ...(matched ? ['match'] : []), ...variables],
+    ...answers.map(({ recording, tier, name, begin, end, distance, match, bindings }) => [
       recording,
       tier,
       name,
       String(begin),
       String(end),
       ...(ranked ? [(distance ?? 0).toFixed(3)] : []),
+      ...(match ? [match] : []),
       ...(bindings ?? []),
     ]),
   ]

@@ -26,6 +26,13 @@ it('replaces the name that a hint without a place is about, in quotes', () => {
   )
 })
 
+it('replaces one of several words, or all of them where a query is meant', () => {
+  expect(replacements('matin vanes', 'nothing is called "vanes"; did you mean VANNES?').map(({ text }) => text)).toEqual(['matin "VANNES"'])
+  expect(replacements('Meteo', 'nothing is called "Meteo"; a recording is: did you mean recording = "meteo"?')).toEqual([
+    { label: 'recording = "meteo"', text: 'recording = "meteo"' },
+  ])
+})
+
 it('suggests nothing where it is not plain what to replace', () => {
   expect(replacements('gloss = "A"', 'no sign has the gloss "B"; did you mean C?')).toEqual([])
   expect(replacements('gloss = "A"', 'the query is empty')).toEqual([])

@@ -22,6 +22,8 @@ export function replacements(text: string, message: string, place?: FaultPlace):
     const { begin, end } = markAt(text, offsetOf(text, place))
     return names.map((name) => ({ label: name, text: text.slice(0, begin) + (text[begin] === '"' ? quoted(name) : name) + text.slice(end) }))
   }
+  // Words alone: what is suggested for them may be a query.
+  if (names.length === 1 && / = /.test(names[0])) return [{ label: names[0], text: names[0] }]
   const wrong = wrongIn(message)
   const token = wrong === undefined ? undefined : scan(text).find(({ kind, text: value }) => (kind === 'text' || kind === 'word') && value.trim() === wrong)
   if (!token) return []

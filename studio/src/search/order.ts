@@ -1,7 +1,7 @@
-import type { Answer } from './answers'
+import type { Answer, Match } from './answers'
 
 /** What answers can be ordered by; `found` is the server's own order. */
-export type SortKey = 'found' | 'recording' | 'tier' | 'name' | 'begin' | 'end' | 'duration' | 'distance' | `$${number}`
+export type SortKey = 'found' | 'recording' | 'tier' | 'name' | 'begin' | 'end' | 'duration' | 'distance' | 'match' | `$${number}`
 export interface Order {
   readonly by: SortKey
   readonly down: boolean
@@ -19,7 +19,7 @@ export function orderText({ by, down }: Order): string {
   return down ? `-${by}` : by
 }
 export function orderOf(text: string | undefined): Order {
-  const [, minus, by] = /^(-?)(recording|tier|name|begin|end|duration|distance|\$\d+)$/.exec(text ?? '') ?? []
+  const [, minus, by] = /^(-?)(recording|tier|name|begin|end|duration|distance|match|\$\d+)$/.exec(text ?? '') ?? []
   return by ? { by: by as SortKey, down: minus === '-' } : kFound
 }
 
@@ -43,10 +43,13 @@ export function ordered(answers: readonly Answer[], { by, down }: Order, languag
   return Array.from(places, (i) => answers[i])
 }
 
+const kMatches: readonly (Match | undefined)[] = ['exact', 'folded', 'sequence', 'part', 'label', 'some']
+
 function numberOf(by: SortKey): (answer: Answer) => number {
   if (by === 'begin') return ({ begin }) => begin
   if (by === 'end') return ({ end }) => end
   if (by === 'duration') return ({ begin, end }) => end - begin
+  if (by === 'match') return ({ match }) => kMatches.indexOf(match)
   return ({ distance }) => distance ?? Infinity
 }
 

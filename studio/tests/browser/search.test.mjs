@@ -113,6 +113,26 @@ test('marks what is at fault where it stands, and offers what was meant', async 
   await until(async () => assert.equal(await field().inputValue(), 'gloss = "VANNES"'))
 })
 
+test('finds words, and says how they fit', async () => {
+  await asked('vannes')
+  await answered(3)
+  await until(async () => assert.equal(await page.getByRole('gridcell', { name: 'spelt differently' }).count(), 3))
+  await asked('matin nuages')
+  await answered(1)
+  await page.getByRole('gridcell', { name: 'one after another' }).waitFor()
+  await asked('vanes')
+  await until(async () => assert.match(await told().textContent(), /^No answers/))
+  await button('VANNES').click()
+  await answered(3)
+  await page.getByRole('gridcell', { name: 'this gloss' }).first().waitFor()
+  await until(async () => assert.equal(await field().inputValue(), '"VANNES"'))
+  // Completion offers glosses before any operator is typed.
+  await field().fill('')
+  await page.keyboard.type('nua')
+  await until(async () => assert.match(await page.locator('#query-options').textContent(), /NUAGES/))
+  await page.keyboard.press('Escape')
+})
+
 test('hints at what the database has where nothing was found', async () => {
   await asked('gloss = VANES & phase = stroke')
   await until(async () => assert.match(await told().textContent(), /^No answers/))
@@ -144,8 +164,9 @@ test('has examples that all find something, and tells what the language can do',
   await button('The language').click()
   await until(async () => assert.ok((await page.locator('section:has(#language-title) dt').count()) > 25))
   await button('What to ask for').click()
-  await button('All tokens of a gloss', {}).click()
+  await button('A word: signs of that gloss', {}).click()
   await answered(3)
+  await page.getByRole('gridcell', { name: 'spelt differently' }).first().waitFor()
 })
 
 mainTest('plays a row as a loop, goes from row to row, and opens the recording there', async () => {

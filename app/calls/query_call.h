@@ -38,7 +38,7 @@ void fields(Visit& visit, QueryCall& call) {
 
 struct QueryReport {
   std::vector<Segment> answers;
-  std::vector<WordMatch> matches;  ///< [answer], where the text was words only
+  std::vector<WordMatch> matches;   ///< [answer], where the text was words only
   std::vector<Notice> hints;        ///< of an empty answer: what the database does not know
   std::optional<std::string> plan;  ///< where it was asked for: it is shown instead of the answers
 };

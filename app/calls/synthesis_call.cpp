@@ -7,6 +7,7 @@
 #include "app/calls/selection_report.h"
 #include "app/calls/synthesis_report.h"
 #include "signweave/core/text.h"
+#include "signweave/synthesis/missing_glosses.h"
 
 namespace signweave::calls {
 
@@ -78,7 +79,12 @@ SynthesisOptions options_of(const SynthesisChoices& choices) {
 Synthesized run(const Database& database, const SignCall& call, std::int64_t most_frames) {
   SynthesisOptions options = options_of(call.how);
   options.most_frames = most_frames;
-  return synthesize(database, parse_utterance(call.utterance), options);
+  Utterance utterance = parse_utterance(call.utterance);
+  std::vector<Notice> folded;
+  if (call.missing == "fold") utterance = with_folded_glosses(utterance, *database.segments(), folded);
+  Synthesized made = synthesize(database, utterance, options);
+  made.result.notices.insert(made.result.notices.begin(), folded.begin(), folded.end());
+  return made;
 }
 
 Synthesized run(const Database& database, const EditCall& call, std::int64_t most_frames) {

@@ -81,6 +81,7 @@ void fields(Visit& visit, SynthesisChoices& choices) {
 /// Makes new signing from glosses.
 struct SignCall {
   std::string utterance;
+  std::string missing = "explain";
   SynthesisChoices how;
 };
 
@@ -92,6 +93,13 @@ void fields(Visit& visit, SignCall& call) {
               .words = "UTTERANCE",
               .required = true},
         call.utterance);
+  visit(
+      Field{.name = "missing",
+            .help = "of glosses that are not there: explain and sign nothing, or fold (take the one gloss that differs "
+                    "in case, accents or width only, and say so)",
+            .shows_default = true,
+            .one_of = {"explain", "fold"}},
+      call.missing);
   fields(visit, call.how);
 }
 

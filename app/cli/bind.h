@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/calls/field.h"
+#include "app/cli/validators.h"
 
 namespace signweave::cli {
 
@@ -33,8 +34,8 @@ class Binder {
       if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
         if (words.starts_with('-') && !field.several_words) option->allow_extra_args(false);
       }
-      if (field.range) add_range(*option, *field.range);
-      if (!field.one_of.empty()) option->check(CLI::IsMember(field.one_of));
+      if (field.range) option->check(within(*field.range));
+      if (!field.one_of.empty()) option->check(one_of(field.one_of));
       if (field.check != nullptr) {
         option->check([check = field.check](const std::string& text) { return check(text); });
       }
@@ -52,11 +53,6 @@ class Binder {
   }
 
  private:
-  static void add_range(CLI::Option& option, const calls::Range& range) {
-    std::visit([&](auto least) { option.check(CLI::Range(least, std::get<decltype(least)>(range.most))); },
-               range.least);
-  }
-
   CLI::App& verb_;
   std::function<void(std::string_view)> before_;
 };

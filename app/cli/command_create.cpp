@@ -5,6 +5,7 @@
 #include "app/calls/change_calls.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
+#include "app/cli/validators.h"
 #include "signweave/database/database.h"
 
 namespace signweave::cli {
@@ -19,9 +20,7 @@ Run create(CLI::App& verb) {
   };
   auto options = std::make_shared<CreateArguments>();
   verb.add_option("DB", options->folder, "folder to make; must not exist or be empty")->required();
-  verb.add_option("--engine", options->engine, "key-value engine")
-      ->check(CLI::IsMember(kv::engines()))
-      ->capture_default_str();
+  verb.add_option("--engine", options->engine, "key-value engine")->check(one_of(kv::engines()))->capture_default_str();
   Binder binder(verb, {});
   calls::Field access_mode = calls::access_mode_field();
   access_mode.shows_default = true;

@@ -51,7 +51,11 @@ void run_import(const ImportArguments& options, Io& io) {
   const std::vector<std::filesystem::path> inputs(options.inputs.begin(), options.inputs.end());
   const Pairing pairing = pairing_of(options.call, inputs);
   print_notices(io, pairing.notices);
-  if (pairing.jobs.empty()) io.err << "signweave: no motion or annotation file there\n";
+  if (pairing.jobs.empty()) {
+    throw Error(ErrorCode::not_found,
+                fmt::format("no motion or annotation file in {}; signweave formats lists their endings",
+                            fmt::join(options.inputs, ", ")));
+  }
 
   nlohmann::json recordings = nlohmann::json::array();
   {

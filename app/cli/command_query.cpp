@@ -9,6 +9,7 @@
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
+#include "app/cli/validators.h"
 #include "signweave/formats/eaf.h"
 
 namespace signweave::cli {
@@ -63,7 +64,7 @@ Run query(CLI::App& verb) {
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next != "limit") return;
     verb.add_option("--format", options->format, "of the answer")
-        ->check(CLI::IsMember({"table", "json", "csv", "eaf"}))
+        ->check(one_of({"table", "json", "csv", "eaf"}))
         ->capture_default_str();
     verb.add_option("-o,--output", options->folder_of_files, "the folder for --format eaf");
   });

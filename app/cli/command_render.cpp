@@ -19,6 +19,7 @@
 #include "app/cli/browser.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "app/cli/validators.h"
 #include "app/server/api.h"
 #include "app/server/server.h"
 #include "signweave/core/atomic_file.h"
@@ -337,9 +338,9 @@ Run render(CLI::App& verb) {
         return parse_size(text) ? std::string() : fmt::format("'{}' is no size such as 1280x720", printable(text));
       })
       ->capture_default_str();
-  verb.add_option("--rate", options->rate, "pictures a second")->check(CLI::Range(1.0, 240.0))->capture_default_str();
+  verb.add_option("--rate", options->rate, "pictures a second")->check(within(1.0, 240.0))->capture_default_str();
   verb.add_option("--view", options->view, "front, side, hands")
-      ->check(CLI::IsMember({"front", "side", "hands"}))
+      ->check(one_of({"front", "side", "hands"}))
       ->capture_default_str();
   verb.add_option("--studio", options->studio, "the folder that studio/build made")
       ->envname("SIGNWEAVE_STUDIO")

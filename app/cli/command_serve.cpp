@@ -12,6 +12,7 @@
 #include <ostream>
 
 #include "app/cli/command.h"
+#include "app/cli/validators.h"
 #include "app/server/access.h"
 #include "app/server/api.h"
 #include "app/server/server.h"
@@ -164,20 +165,22 @@ Run serve(CLI::App& verb) {
                   "let pages of this origin, such as https://signs.example.org, ask; may be given several times")
       ->allow_extra_args(false);
   verb.add_option("--threads", server.threads, "that serve connections and streams")
-      ->check(CLI::Range(1, 64))
+      ->check(within(std::int64_t{1}, std::int64_t{64}))
       ->capture_default_str();
-  verb.add_option("--workers", server.workers, "that answer calls")->check(CLI::Range(1, 64))->capture_default_str();
+  verb.add_option("--workers", server.workers, "that answer calls")
+      ->check(within(std::int64_t{1}, std::int64_t{64}))
+      ->capture_default_str();
   verb.add_option("--max-connections", server.limits.connections, "open at once")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(within(std::int64_t{1}, std::int64_t{1'000'000}))
       ->capture_default_str();
   verb.add_option("--max-streams", server.limits.streams, "open at once")
-      ->check(CLI::Range(0, 1'000'000))
+      ->check(within(std::int64_t{0}, std::int64_t{1'000'000}))
       ->capture_default_str();
   verb.add_option("--max-per-address", server.limits.connections_per_address,
                   "connections of one address (0: no limit on loopback, 256 elsewhere)");
   verb.add_option("--requests-per-second", server.limits.requests_per_second,
                   "of one address, in the mean (0: no limit on loopback, 100 elsewhere)")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(within(0.0, 1e6));
   return [options](Io& io) { run_serve(*options, io); };
 }
 

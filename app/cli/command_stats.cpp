@@ -9,6 +9,7 @@
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
+#include "app/cli/validators.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/database/database.h"
 
@@ -89,7 +90,7 @@ Run stats(CLI::App& verb) {
   verb.add_option("--plot", options->plot, "draw the transitions, split into retraction and preparation (.svg)")
       ->check([](const std::string& path) { return calls::check_ending(path, {".svg"}); });
   verb.add_option("--format", options->format, "of the answer")
-      ->check(CLI::IsMember({"table", "json", "csv"}))
+      ->check(one_of({"table", "json", "csv"}))
       ->capture_default_str();
   return [options](Io& io) { run_stats(*options, io); };
 }

@@ -1,13 +1,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <ostream>
 #include <sstream>
 
+#include "app/calls/fault_json.h"
+#include "app/calls/json.h"
 #include "app/calls/listener.h"
 #include "app/cli/command.h"
+#include "app/cli/help_format.h"
 #include "signweave/core/text.h"
 #include "signweave/core/version.h"
 #include "signweave/database/database.h"
@@ -47,6 +51,31 @@ constexpr Command kCommands[] = {
     {"formats", "the file formats, and what each can hold", "signweave formats", formats},
 };
 
+/// An utterance or a query in words of its own is what is meant most often.
+std::string one_word_too_many(const CLI::App& verb) {
+  const std::string extra = verb.remaining().at(0);
+  for (const CLI::Option* option : verb.get_options()) {
+    if (option->get_positional() && !option->results().empty() &&
+        (option->get_name() == "UTTERANCE" || option->get_name() == "TEXT")) {
+      const std::string all = fmt::format("{} {}", option->results().front(), fmt::join(verb.remaining(), " "));
+      return fmt::format("'{}' is one word too many; put quotation marks around all of them: '{}'", printable(extra),
+                         printable(all));
+    }
+  }
+  return fmt::format("'{}' is one word too many", printable(extra));
+}
+
+/// Of "Could not convert: --rate = abc".
+std::string not_a_number(const CLI::App& verb, const std::string& text) {
+  const std::size_t begin = text.find(": ");
+  const std::size_t equal = text.find(" = ");
+  if (begin == text.npos || equal == text.npos || equal < begin) return text;
+  const std::string name = text.substr(begin + 2, equal - begin - 2);
+  const CLI::Option* option = verb.get_option_no_throw(name);
+  const bool whole = option != nullptr && option->get_type_name().starts_with("FLOAT") == false;
+  return fmt::format("{}: '{}' is no {}", name, printable(text.substr(equal + 3)), whole ? "whole number" : "number");
+}
+
 /// One line for a wrong usage, with near matches for a verb or option that does not exist.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
   const CLI::App* verb = &app;
@@ -78,10 +107,23 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& error, const
       return fmt::format("'{}' stands before the verb; options come after it; see signweave --help",
                          printable(words.at(0)));
     }
-    text = unknown.empty() ? fmt::format("'{}' is one word too many", printable(verb->remaining().at(0)))
+    text = unknown.empty() ? one_word_too_many(*verb)
                            : fmt::format("no option '{}'{}", printable(unknown), did_you_mean(unknown, known));
+  } else if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
+    text = not_a_number(*verb, text);
   }
   return fmt::format("{}: {}; see signweave {} --help", verb->get_name(), text, verb->get_name());
+}
+
+/// With --json what went wrong is the answer: {"error": {"code", "message", …}}.
+void print_fault(const nlohmann::json& fault, Io& io) {
+  if (io.json) io.out << calls::text_of(nlohmann::json{{"error", fault}});
+}
+
+int refuse_usage(const std::string& text, Io& io) {
+  io.err << "signweave: " << text << '\n';
+  print_fault({{"code", "usage"}, {"message", text}}, io);
+  return 2;
 }
 
 }  // namespace
@@ -127,6 +169,7 @@ void report_damage(const Database& database, Io& io) {
 int dispatch(const std::vector<std::string>& words, Io& io) {
   CLI::App app("signweave: a database of captured signing, found by meaning and movement, signed anew", "signweave");
   app.set_version_flag("--version", std::string(version()));
+  app.formatter(std::make_shared<HelpFormat>());  // before the verbs, which take it over
   app.require_subcommand(1);
   Run chosen;
   for (const Command& command : kCommands) {
@@ -144,23 +187,26 @@ int dispatch(const std::vector<std::string>& words, Io& io) {
     io.out << text.str();
     return 0;
   } catch (const CLI::ParseError& error) {
-    io.err << "signweave: " << usage_fault(app, error, words) << '\n';
-    return 2;
+    io.json = std::ranges::find(words, "--json") != words.end();
+    return refuse_usage(usage_fault(app, error, words), io);
   }
   try {
     chosen(io);
     return io.status;
   } catch (const CLI::ParseError& error) {  // what only the command itself can tell of its words
-    io.err << "signweave: " << usage_fault(app, error, words) << '\n';
-    return 2;
+    return refuse_usage(usage_fault(app, error, words), io);
   } catch (const QueryError& error) {
     io.err << "signweave: " << error.what() << '\n' << error.caret << '\n';
+    print_fault(calls::fault_json(error, calls::name_of(error.code()), error.what()), io);
   } catch (const Error& error) {
     io.err << "signweave: " << one_line(error.what()) << '\n';
+    print_fault(calls::fault_json(error, calls::name_of(error.code()), one_line(error.what())), io);
   } catch (const std::bad_alloc&) {
     io.err << "signweave: not enough memory\n";
+    print_fault({{"code", "io"}, {"message", "not enough memory"}}, io);
   } catch (const std::exception& error) {
     io.err << "signweave: " << error.what() << '\n';
+    print_fault({{"code", "io"}, {"message", one_line(error.what())}}, io);
   }
   return 1;
 }

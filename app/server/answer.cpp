@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "app/server/error_name.h"
+#include "app/calls/fault_json.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/file_format.h"
-#include "signweave/query/parse.h"
 
 namespace signweave::server {
 namespace {
@@ -77,14 +76,8 @@ int status_of(const Error& error) {
 
 json error_json(const Error& error, const std::function<std::string(std::string)>& redact) {
   const auto* own = dynamic_cast<const StatusError*>(&error);
-  json one = {{"code", own != nullptr ? std::string_view(own->name()) : name_of(error.code())},
-              {"message", message_of(redact(error.what()))}};
-  if (const auto* query = dynamic_cast<const QueryError*>(&error)) {
-    one["line"] = query->line;
-    one["column"] = query->column;
-    one["caret"] = query->caret;
-  }
-  return one;
+  const std::string_view code = own != nullptr ? std::string_view(own->name()) : calls::name_of(error.code());
+  return calls::fault_json(error, code, message_of(redact(error.what())));
 }
 
 ApiResponse error_answer(const Error& error, const std::function<std::string(std::string)>& redact) {

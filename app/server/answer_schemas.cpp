@@ -98,7 +98,12 @@ constexpr const char* kDatabaseAnswers = R"json({
     "required": ["code", "message"], "properties": {"code": {"type": "string"},
       "message": {"type": "string", "description": "one line: what is wrong, and what would mend it"},
       "line": {"type": "integer"}, "column": {"type": "integer"},
-      "caret": {"type": "string", "description": "of a query: its line, and a caret under the place"}}}}}
+      "caret": {"type": "string", "description": "of a query: its line, and a caret under the place"},
+      "missing": {"type": "array", "description": "glosses of an utterance that no sign has", "items": {"type": "object",
+        "required": ["gloss", "matches", "folds"], "properties": {"gloss": {"type": "string"},
+          "matches": {"type": "array", "items": {"type": "string"}}, "folds": {"type": "boolean",
+            "description": "whether the matches differ in case, accents or width only"}}}},
+      "suggestion": {"type": "string", "description": "the utterance with the first match of each"}}}}}
 })json";
 
 constexpr const char* kSearchAnswers = R"json({

@@ -52,7 +52,7 @@ std::string said(const Json& example) {
   if (type == "ok") return ok_text(id, example["frame"]);
   if (type == "error") {
     for (int code = 0; code <= static_cast<int>(ErrorCode::cancelled); ++code) {
-      if (name_of(static_cast<ErrorCode>(code)) == example["code"]) {
+      if (calls::name_of(static_cast<ErrorCode>(code)) == example["code"]) {
         return error_text(static_cast<ErrorCode>(code), example["message"].get<std::string>(), id);
       }
     }

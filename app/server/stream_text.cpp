@@ -81,7 +81,7 @@ std::string ok_text(std::string_view id, std::uint64_t frame) {
 }
 
 std::string error_text(ErrorCode code, std::string_view message, std::string_view id) {
-  OrderedJson object = {{"type", "error"}, {"code", name_of(code)}, {"message", message}};
+  OrderedJson object = {{"type", "error"}, {"code", calls::name_of(code)}, {"message", message}};
   add_id(object, id);
   return line_of(object);
 }

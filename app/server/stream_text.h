@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "app/calls/fault_json.h"
 #include "app/server/control_message.h"
-#include "app/server/error_name.h"
 #include "signweave/stream/player.h"
 
 namespace signweave::server {

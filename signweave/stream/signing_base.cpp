@@ -7,6 +7,7 @@
 
 #include "signweave/core/error.h"
 #include "signweave/stream/open_recordings.h"
+#include "signweave/synthesis/missing_glosses.h"
 #include "signweave/synthesis/on_skeleton.h"
 
 namespace signweave {
@@ -104,6 +105,7 @@ void SigningBase::check(const std::shared_ptr<const Contents>& contents, const s
       if (!plain || !known.candidates.contains(place.gloss.gloss)) unknown.push_back(&place);
     }
   }
+  if (!unknown.empty()) require_glosses({places}, contents->segments);
   std::size_t looked_at = 0;
   for (const Place* place : unknown) {
     const bool plain = place->kind == Place::Kind::gloss && place->gloss.token == 0;

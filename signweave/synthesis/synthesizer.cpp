@@ -10,6 +10,7 @@
 
 #include "signweave/core/error.h"
 #include "signweave/synthesis/captured_spans.h"
+#include "signweave/synthesis/missing_glosses.h"
 #include "signweave/synthesis/on_skeleton.h"
 
 namespace signweave {
@@ -216,6 +217,7 @@ Synthesized synthesize(const Database& database, const Utterance& utterance, con
                        Synthesis used) {
   const auto start = Clock::now();
   const Snapshot snapshot = database.snapshot();
+  require_glosses(utterance, snapshot.contents().segments);
   std::vector<Choice> choices;
   for (const Place& place : utterance.places) {
     choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});

@@ -54,10 +54,9 @@ struct Synthesized {
   std::string layout_from;
 };
 
-/// Signs an utterance: the few lines that call the rest. Throws Error{not_found} for a gloss that the database lacks
-/// (with near matches), Error{bad_input} for skeletons that cannot be joined, options out of range, a junction that
-/// there is not.
-/// `used` is an older result whose memory may be used again.
+/// Signs an utterance: the few lines that call the rest. Throws MissingGlosses for glosses that the database lacks,
+/// Error{bad_input} for skeletons that cannot be joined, options out of range, a junction that there is not. `used` is
+/// an older result whose memory may be used again.
 Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options = {},
                        Synthesis used = {});
 

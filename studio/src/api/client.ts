@@ -290,8 +290,10 @@ function databaseOf(where: string): string | undefined {
 /** What an answer that is no success says: the server's own line, or that there was none. */
 export function faultOf(body: string, status: number): ApiError | StudioFault {
   try {
-    const { message, code, line, column } = (JSON.parse(body) as { error: { message: string; code: string; line?: number; column?: number } }).error
-    return new ApiError(message, status, code, line && column ? { line, column } : undefined)
+    const { message, code, line, column, suggestion } = (
+      JSON.parse(body) as { error: { message: string; code: string; line?: number; column?: number; suggestion?: string } }
+    ).error
+    return new ApiError(message, status, code, line && column ? { line, column } : undefined, suggestion)
   } catch {
     return new StudioFault('badAnswer', String(status))
   }

@@ -26,6 +26,8 @@ export class ApiError extends Error {
     readonly status: number,
     readonly code: string,
     readonly place?: FaultPlace,
+    /** Of an utterance: what was meant, as the server thinks. */
+    readonly suggestion?: string,
   ) {
     super(message)
   }

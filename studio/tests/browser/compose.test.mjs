@@ -52,6 +52,15 @@ test('tells what cannot be signed, and keeps what is shown', async () => {
   await until(async () => assert.deepEqual(await cards(), ['VANNES']))
 })
 
+test('offers what was meant, and takes it', async () => {
+  await compose('VANNES')
+  await field().fill('vannes le mans ')
+  await page.getByRole('alert').filter({ hasText: "no signs 'vannes' and 'le mans'" }).waitFor()
+  await button('VANNES "LE MANS"').click()
+  await shown('VANNES "LE MANS"')
+  await page.waitForFunction(() => !document.querySelector('[role=alert]'))
+})
+
 test('moves signs by mouse and by keyboard, takes them out, and takes every step back', async () => {
   await compose('BONJOUR MATIN PLUIE')
   const [first, last] = [await page.locator('.card').first().boundingBox(), await page.locator('.card').last().boundingBox()]

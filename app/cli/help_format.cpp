@@ -1,0 +1,44 @@
+#include "app/cli/help_format.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace signweave::cli {
+namespace {
+
+/// Letters, not bytes.
+std::size_t length_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));
+}
+
+}  // namespace
+
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    if (!result.empty()) result += '\n';
+    const std::string indent(std::min(line.find_first_not_of(' '), line.size()), ' ');
+    std::istringstream words(line);
+    std::size_t filled = 0;
+    bool first = true;
+    for (std::string word; words >> word;) {
+      if (filled > 0 && filled + 1 + length_of(word) > width) {
+        result += '\n';
+        filled = 0;
+        first = false;
+      }
+      const std::string before = filled > 0 ? " " : first ? indent : indent + (indent.empty() ? "" : "  ");
+      result += before + word;
+      filled += before.size() + length_of(word);
+    }
+  }
+  return result;
+}
+
+std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
+  return wrapped(Formatter::make_option_desc(option), kWidth - get_column_width());
+}
+
+}  // namespace signweave::cli

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <string>
+
+namespace signweave::cli {
+
+/// Help of lines that a narrow terminal and a document hold.
+class HelpFormat : public CLI::Formatter {
+ public:
+  static constexpr std::size_t kWidth = 100;
+  std::string make_option_desc(const CLI::Option* option) const override;
+};
+
+/// The text in lines of at most so many letters, broken at blanks. What an indented line goes on
+/// with is indented by two more.
+std::string wrapped(const std::string& text, std::size_t width);
+
+}  // namespace signweave::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "app/calls/field.h"
+
+namespace signweave::cli {
+
+/// Refuses a text that is none of these, with the near ones. `--help` lists them.
+CLI::Validator one_of(const std::vector<std::string>& names);
+
+/// Refuses a number outside. `--help` shows the bounds.
+CLI::Validator within(const calls::Range& range);
+template <typename Number>
+CLI::Validator within(Number least, Number most) {
+  return within(calls::Range{least, most});
+}
+
+}  // namespace signweave::cli

@@ -68,10 +68,13 @@ export class Api {
   /** Told of every call that was answered: for who follows what somebody does. */
   onAnswered?: (call: Answered) => void
 
+  /** Told where a call was refused for want of the right token. */
+  onUnauthorized?: () => void
+
   /** `base` is the address of `/api`, relative to the page; `token` goes with every call where the server asks for one. */
   constructor(
     private readonly base = 'api',
-    private readonly token = '',
+    public token = '',
   ) {}
 
   async databases(): Promise<readonly DatabaseRow[]> {
@@ -263,6 +266,7 @@ export class Api {
       if (init.signal?.aborted) throw fault
       throw new StudioFault('unreachable')
     }
+    if (response.status === 401) this.onUnauthorized?.()
     if (!response.ok) throw faultOf(await response.text().catch(() => ''), response.status)
     const declared = response.headers.get('Signweave-Declarations')
     // The list of databases says in each row what is of that one.

@@ -14,9 +14,9 @@ const kCharacters = process.env.SIGNWEAVE_CHARACTERS ?? resolve(kStudio, '../bui
 /**
  * Runs `work(address, folder)` with a server of its own, which serves the built studio, the characters and a demo corpus of two
  * minutes (or `minutes`), and leaves nothing of it behind. With `mine` an empty database `mine` is served beside it, and both may be changed. Films
- * that the annotation links are looked for in `folder`/films. `prepare(corpus)` may change the corpus before it is imported.
+ * that the annotation links are looked for in `folder`/films. With a `token` the server asks for it. `prepare(corpus)` may change the corpus before it is imported.
  */
-export async function withServer(site, work, prepare = () => {}, { minutes = 2, mine = false } = {}) {
+export async function withServer(site, work, prepare = () => {}, { minutes = 2, mine = false, token = '' } = {}) {
   for (const program of ['signweave', 'synthetic_signer']) {
     if (!existsSync(join(kBin, program))) throw new Error(`${join(kBin, program)} is not there; scripts/build makes it, SIGNWEAVE_BIN names another folder`)
   }
@@ -36,6 +36,10 @@ export async function withServer(site, work, prepare = () => {}, { minutes = 2, 
     if (mine) execFileSync(join(kBin, 'signweave'), ['create', join(folder, 'mine.db')], { stdio: 'ignore' })
     const words = ['serve', database, '--listen', '127.0.0.1:0', '--files', site, '--characters', kCharacters, '--media', films]
     if (mine) words.splice(2, 0, join(folder, 'mine.db'), '--writable')
+    if (token) {
+      writeFileSync(join(folder, 'token'), token)
+      words.push('--token-file', join(folder, 'token'))
+    }
     server = spawn(join(kBin, 'signweave'), words, { stdio: ['ignore', 'pipe', 'pipe'] })
     const end = () => server.kill('SIGKILL')
     process.once('exit', end) // also where the tests are interrupted

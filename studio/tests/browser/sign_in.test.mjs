@@ -1,0 +1,55 @@
+// A server that asks for a token: a page signs in with it, and keeps it to itself.
+import assert from 'node:assert/strict'
+import { axeFaults } from './page_tools.mjs'
+import { withBrowser } from './chromium.mjs'
+import { withServer } from './server.mjs'
+import { faults, plainTest, site } from './suite.mjs'
+import { opened, until } from './waits.mjs'
+
+const kToken = 'a+token/of:this&test=1'
+
+plainTest('signs in with the token of the server, keeps it over a reload, and shows it nowhere', () =>
+  withServer(
+    site,
+    (address) =>
+      withBrowser(
+        async (context) => {
+          const page = await context.newPage()
+          page.on('pageerror', (error) => faults.push(error.message))
+          await page.goto(`${address}/#/demo/search`)
+          const field = page.getByLabel('Token')
+          await field.waitFor()
+          assert.deepEqual(await axeFaults(page), [])
+          await field.fill('a token that is wrong')
+          await page.keyboard.press('Enter')
+          await page.getByRole('alert').filter({ hasText: 'not the server’s token' }).waitFor()
+          await field.fill(kToken)
+          await page.keyboard.press('Enter')
+          // What the address asks for is there, and knows the database.
+          await page.locator('#examples-title').waitFor()
+          await until(async () => assert.match(await page.locator('section:has(#examples-title)').textContent(), /gloss = "/))
+          await page.evaluate(() => (location.hash = '#/demo/compose?utterance=VANNES'))
+          await page.waitForFunction(() => document.querySelector('.compose')?.dataset.made === 'VANNES')
+          await page.reload()
+          await page.waitForFunction(() => document.querySelector('.compose')?.dataset.made === 'VANNES')
+          // A live stream carries it, too.
+          await page.getByRole('button', { name: 'Live', exact: true }).click()
+          await page.getByRole('combobox', { name: 'Type and it signs' }).waitFor()
+          await page.keyboard.type('MATIN ')
+          await page.waitForFunction(() => document.querySelectorAll('.card').length === 2)
+          assert.doesNotMatch(page.url(), /token/)
+          // Another tab is asked again; a link that carries the token loses it.
+          const other = await context.newPage()
+          await other.goto(`${address}/#/demo`)
+          await other.getByLabel('Token').waitFor()
+          await other.goto(`${address}/?token=${encodeURIComponent(kToken)}#/demo`)
+          await opened(other, '#/demo')
+          await other.getByRole('link', { name: 'meteo' }).waitFor()
+          assert.equal(other.url(), `${address}/#/demo`)
+        },
+        { locale: 'en-GB', colorScheme: 'dark' },
+      ),
+    undefined,
+    { token: kToken },
+  ),
+)

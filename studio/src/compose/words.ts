@@ -3,6 +3,7 @@ import type { Text } from '../text/en'
 import { filled } from '../ui/preferences.svelte'
 import { FileFault } from './file'
 import { UtteranceFault } from './utterance'
+import { typeset } from '../text/typeset'
 
 const en = {
   utterance: 'Glosses in order',
@@ -334,7 +335,7 @@ const fr: Words = {
 }
 
 /** Every word of the page. */
-export const words = { en, fr }
+export const words = { en, fr: typeset(fr) }
 export type ComposeText = Words
 export type Term = Extract<keyof Words, `term_${string}`>
 

@@ -1,4 +1,5 @@
 import type { Measure } from './measures'
+import { typeset } from '../text/typeset'
 
 interface Words {
   readonly title: string
@@ -121,7 +122,7 @@ const fr: Table = {
   duration_error: { title: 'Durée, ajustée', line: 'Écart entre la durée ajustée et la durée captée.' },
   duration_error_of_mean: { title: 'Durée, par la moyenne', line: 'Écart entre la moyenne des autres enregistrements et la durée captée.' },
 }
-export const measureWords = { en, fr }
+export const measureWords = { en, fr: typeset(fr) }
 
 /** Its name with its unit; the server's own name where the studio knows none. */
 export function titleOf({ measure, unit }: Pick<Measure, 'measure' | 'unit'>, language: 'en' | 'fr'): string {

@@ -1,3 +1,5 @@
+import { typeset } from '../text/typeset'
+
 const en = {
   intro: 'Captured movements are cut out, made again by each method from what is left on both sides, and compared with what was there.',
   toCompare: 'A blind study with viewers',
@@ -168,7 +170,7 @@ const fr: Words = {
   otherStudy: 'Un autre onglet a mis une autre étude ici entre-temps : c’est celle-là.',
   noStorage: 'Ce navigateur ne garde rien pour cette page : enregistrez les votes avant de la quitter.',
 }
-export const words = { en, fr }
+export const words = { en, fr: typeset(fr) }
 export type EvaluateWords = Words
 
 /** The name of a group of gaps, in the user's language where the studio knows it. */

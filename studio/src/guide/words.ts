@@ -1,3 +1,5 @@
+import { typeset } from '../text/typeset'
+
 /** `title` is what a step is called, `now` what to do. `{…}` is filled in with what the path is about. */
 interface StepWords {
   readonly title: string
@@ -126,6 +128,6 @@ const fr: Words = {
     export: { title: 'Exporter', now: 'Téléchargez ce que vous avez composé en BVH, GLB ou EAF.' },
   },
 }
-export const words = { en, fr }
+export const words = { en, fr: typeset(fr) }
 export type GuideWords = Words
 export const stepWords = (text: Words, id: string): StepWords => (text.steps as Readonly<Record<string, StepWords>>)[id]

@@ -6,7 +6,7 @@ it('a caption has each thing once, and says where the face is neutral', () => {
   expect(captionOf({ a: 'shapes', b: 'shapes' }, true)).toEqual(['shapes'])
   expect(captionOf({ a: 'shapes' }, false, ['a drawn body'])).toEqual(['shapes', 'No face captured: the face is neutral', 'a drawn body'])
   expect(captionOf({}, true)).toEqual([])
-  expect(captionOf({}, false, [], fr)).toEqual(['Visage non capté : il reste neutre'])
+  expect(captionOf({}, false, [], fr)).toEqual(['Visage non capté\u202f: il reste neutre'])
 })
 
 it('a caption that is too wide goes on in further lines, and loses no word', () => {

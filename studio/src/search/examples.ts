@@ -22,7 +22,7 @@ export function examplesFor(words: Pick<Words, 'glosses' | 'recordings' | 'track
           {
             text: asWords(frequent),
             en: 'A word: signs of that gloss, however it is spelt',
-            fr: 'Un mot : les signes de cette glose, quelle que soit l’orthographe',
+            fr: 'Un mot\u202f: les signes de cette glose, quelle que soit l’orthographe',
           },
           { text: `gloss = ${quoted(frequent)} & phase = stroke`, en: 'Only the strokes of a gloss', fr: 'Seulement les strokes d’une glose' },
         ]),
@@ -36,7 +36,7 @@ export function examplesFor(words: Pick<Words, 'glosses' | 'recordings' | 'track
     { text: 'phase = stroke & end(hand).height > shoulder', en: 'The hand ends above the shoulders', fr: 'La main finit au-dessus des épaules' },
     ...(track === undefined
       ? []
-      : [{ text: `phase = stroke & track(${track}) > 0.4`, en: 'The face: a track of it is high', fr: 'Le visage : une de ses pistes est haute' }]),
+      : [{ text: `phase = stroke & track(${track}) > 0.4`, en: 'The face: a track of it is high', fr: 'Le visage\u202f: une de ses pistes est haute' }]),
     { text: 'unit & duration > 8s', en: 'Long stretches between two rests', fr: 'Longues suites entre deux repos' },
   ]
 }

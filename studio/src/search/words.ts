@@ -1,3 +1,5 @@
+import { typeset } from '../text/typeset'
+
 /** Every word of the search, in English. `{…}` is filled in. */
 const en = {
   query: 'Query',
@@ -337,5 +339,5 @@ const frAbout: Readonly<Record<string, string>> = {
   '.end': 'à la dernière image',
 }
 
-export const words = { en, fr }
-export const about = { en: enAbout, fr: frAbout }
+export const words = { en, fr: typeset(fr) }
+export const about = { en: enAbout, fr: typeset(frAbout) }

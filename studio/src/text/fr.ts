@@ -1,7 +1,8 @@
 import type { Text } from './en'
+import { typeset } from './typeset'
 
 /** Every word on the screen, in French. */
-export const fr: Text = {
+export const fr: Text = typeset({
   title: 'studio signweave',
   recordings: 'Enregistrements',
   page_compose: 'Composer',
@@ -152,4 +153,4 @@ export const fr: Text = {
   key_fit: 'Chronologie : tout',
   key_full: 'Plein écran',
   key_help: 'Cette aide',
-}
+})

@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { annotation, asBefore, button, empty, faultsOf, kSignweave, kWays, store } from './corpus_tools.mjs'
 import { transport } from './page_tools.mjs'
-import { address, context, folder, page, test, visit } from './suite.mjs'
+import { address, context, faults, folder, page, test, visit } from './suite.mjs'
 import { until } from './waits.mjs'
 
 /** Few pixels are drawn quickly. */
@@ -83,6 +83,30 @@ test('reviews proposed phases by keyboard', async () => {
   await until(async () => assert.match(await page.locator('main').textContent(), /Taken up where you left it/))
   await press('ArrowDown', 'x', 'v')
   await until(async () => assert.deepEqual(await draft(), now))
+})
+
+test('goes to a phase that ends after the last frame', async () => {
+  await store('plain')
+  await visit('')
+  await page.route('**/segment', async (route) => {
+    const answer = await (await route.fetch()).json()
+    for (const phases of Object.values(answer.hands)) {
+      while (phases.at(-1)?.phase === 'rest') phases.pop()
+      if (phases.length > 0) phases.at(-1).end_ms += 60_000
+    }
+    await route.fulfill({ json: answer })
+  })
+  await page.evaluate(() => (location.hash = '#/mine/phases/plain'))
+  await bench()
+  const count = Number(/0 of (\d+) decided/.exec(await progress())[1])
+  let longest = 0
+  for (let i = 0; i < count; ++i) {
+    await press('ArrowDown')
+    longest = Math.max(longest, (await transport(page)).loop?.end ?? 0)
+  }
+  assert.ok(longest > 0)
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))))
+  assert.deepEqual(faults, [])
 })
 
 test('reviews phases by mouse and buttons', async () => {

@@ -1,3 +1,5 @@
+import { typeset } from '../../text/typeset'
+
 const en = {
   title: 'Import into {name}',
   readOnly: '{name} is served for reading only: nothing can be stored in it. Start the server with --writable.',
@@ -369,4 +371,4 @@ const fr: ImportWords = {
   MB: 'Mo',
   GB: 'Go',
 }
-export const words: Readonly<Record<'en' | 'fr', ImportWords>> = { en, fr }
+export const words: Readonly<Record<'en' | 'fr', ImportWords>> = { en, fr: typeset(fr) }

@@ -1,3 +1,5 @@
+import { typeset } from '../../text/typeset'
+
 const en = {
   title: 'Phases of {name}',
   warning: 'Proposed from motion alone: a person must check each.',
@@ -227,4 +229,4 @@ const fr: PhasesWords = {
   close: 'Fermer',
   again: 'Examiner à nouveau',
 }
-export const words: Readonly<Record<'en' | 'fr', PhasesWords>> = { en, fr }
+export const words: Readonly<Record<'en' | 'fr', PhasesWords>> = { en, fr: typeset(fr) }

@@ -1,3 +1,5 @@
+import { typeset } from '../../text/typeset'
+
 const en = {
   import: 'Import',
   storage: 'Stored as',
@@ -125,4 +127,4 @@ const fr: RecordingsWords = {
   wrong: 'Ce n’est pas un nombre utilisable ici',
   sortedBy: 'Trier par {name}',
 }
-export const words: Readonly<Record<'en' | 'fr', RecordingsWords>> = { en, fr }
+export const words: Readonly<Record<'en' | 'fr', RecordingsWords>> = { en, fr: typeset(fr) }

@@ -1,3 +1,5 @@
+import { typeset } from '../../text/typeset'
+
 const en = {
   title: 'Blind study',
   back: 'Evaluation in numbers',
@@ -246,4 +248,4 @@ const fr: StudyWords = {
   otherDatabase: 'Cette étude porte sur la base {name}, qui n’est pas celle-ci.',
   toFinish: 'Terminer',
 }
-export const studyWords = { en, fr }
+export const studyWords = { en, fr: typeset(fr) }

@@ -33,6 +33,12 @@ export class ApiError extends Error {
   }
 }
 
+/** What `did you mean A, B or C?` names. */
+export function suggested(message: string): string[] {
+  const list = /did you mean (.+?)\?/.exec(message)?.[1]
+  return list ? list.split(/, | or /).filter(Boolean) : []
+}
+
 /** A fault in plain words: the studio's own in the user's language, the server's as the server wrote it. */
 export function wordsOf(fault: unknown, text: Text): string {
   if (fault instanceof StudioFault) return fault.detail ? `${text[fault.kind]} (${fault.detail})` : text[fault.kind]

@@ -1,5 +1,6 @@
 import { expect, it } from 'vitest'
-import { replacements, suggested, withoutPlace } from './hints'
+import { suggested } from '../api/fault'
+import { replacements, withoutPlace } from './hints'
 
 it('reads what the server suggests', () => {
   expect(suggested('no sign has the gloss "VANES"; did you mean VANNES or LE MANS?')).toEqual(['VANNES', 'LE MANS'])

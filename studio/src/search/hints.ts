@@ -1,17 +1,11 @@
 import { quoted } from './answers'
 import { markAt, offsetOf, scan } from './scan'
-import type { FaultPlace } from '../api/fault'
+import { suggested, type FaultPlace } from '../api/fault'
 
 /** Another text of the query that the server's words suggest, where it is plain what to replace by what. */
 export interface Replacement {
   readonly label: string
   readonly text: string
-}
-
-/** What `did you mean A, B or C?` names. */
-export function suggested(message: string): string[] {
-  const list = /did you mean (.+?)\?/.exec(message)?.[1]
-  return list ? list.split(/, | or /).filter(Boolean) : []
 }
 
 /** What a fault or hint of the server suggests for a query. `place` is where the server put its caret. */

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest'
-import { addressOf, parseRoute, type Route } from './route'
+import { addressOf, parseRoute, wayBack, withRecording, type Route } from './route'
 
 it('says in the address what is shown, and reads it back', () => {
   const routes: Route[] = [
@@ -21,4 +21,16 @@ it('shows the recordings where the address says nothing that it knows', () => {
 
 it('selects nothing where the span is none', () => {
   for (const span of ['', 'x', '5..5', '9..1', '1..']) expect(parseRoute(`#/demo/recording/meteo?span=${span}`)).toMatchObject({ span: undefined })
+})
+
+it('leads to another recording', () => {
+  expect(withRecording('#/demo/recording/metoe?at=3', 'météo 1')).toBe('#/demo/recording/m%C3%A9t%C3%A9o%201')
+  expect(withRecording('#/demo/search', 'meteo')).toBe(undefined)
+})
+
+it('has a way back from what is not there', () => {
+  expect(wayBack('#/demo/recording/gone?at=3')).toBe('#/demo')
+  expect(wayBack('#/demo/phases/gone')).toBe('#/demo')
+  expect(wayBack('#/no%20such')).toBe('#/')
+  expect(wayBack('#/gone/search')).toBe('#/')
 })

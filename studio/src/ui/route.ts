@@ -24,6 +24,18 @@ export type WorkState = Readonly<Record<string, string>>
 export type WorkPage = (typeof kWorkPages)[number]
 export const kWorkPages = ['compose', 'search', 'import', 'phases', 'evaluate', 'compare', 'guide'] as const
 
+/** From what is not there, a recording or a database, the way back: to the database's recordings, else to the first database's. */
+export function wayBack(hash: string): string {
+  const [, database, , name] = hash.split('?')[0].split('/')
+  return database && name ? `#/${database}` : '#/'
+}
+
+/** The same address of another recording; none where it names no recording. */
+export function withRecording(hash: string, recording: string): string | undefined {
+  const [, database, page, name] = hash.split('?')[0].split('/')
+  return name ? `#/${database}/${page}/${encodeURIComponent(recording)}` : undefined
+}
+
 export function parseRoute(hash: string): Route {
   const [path, query = ''] = hash.replace(/^#\/?/, '').split('?', 2)
   const parameters = new URLSearchParams(query)

@@ -14,7 +14,8 @@ const kCharacters = process.env.SIGNWEAVE_CHARACTERS ?? resolve(kStudio, '../bui
 /**
  * Runs `work(address, folder)` with a server of its own, which serves the built studio, the characters and a demo corpus of two
  * minutes (or `minutes`), and leaves nothing of it behind. With `mine` an empty database `mine` is served beside it, and both may be changed. Films
- * that the annotation links are looked for in `folder`/films. With a `token` the server asks for it. `prepare(corpus)` may change the corpus before it is imported.
+ * that the annotation links are looked for in `folder`/films. With a `token` the server asks for it. `prepare(corpus)` may change the corpus before it is
+ * imported.
  */
 export async function withServer(site, work, prepare = () => {}, { minutes = 2, mine = false, token = '' } = {}) {
   for (const program of ['signweave', 'synthetic_signer']) {

@@ -4,5 +4,5 @@
  */
 export const kHalves = [
   ['studio', 'search', 'search_kept', 'evaluate', 'guide', 'verb', 'import_choices', 'sizes'],
-  ['compose', 'compose_keeps', 'compare', 'corpus', 'phases', 'render', 'sign_in'],
+  ['compose', 'compose_keeps', 'compare', 'corpus', 'phases', 'render', 'doors'],
 ]

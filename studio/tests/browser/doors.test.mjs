@@ -1,10 +1,20 @@
-// A server that asks for a token: a page signs in with it, and keeps it to itself.
+// Ways in and back: a server that asks for a token, and what is not there.
 import assert from 'node:assert/strict'
 import { axeFaults } from './page_tools.mjs'
 import { withBrowser } from './chromium.mjs'
 import { withServer } from './server.mjs'
-import { faults, plainTest, site } from './suite.mjs'
+import { faults, page, plainTest, site, test, visit } from './suite.mjs'
 import { opened, until } from './waits.mjs'
+
+test('leads back from a recording that is not there, and to the one that was meant', async () => {
+  await visit('#/demo/recording/metoe')
+  await page.getByRole('alert').filter({ hasText: 'did you mean meteo?' }).waitFor()
+  await page.getByRole('link', { name: 'meteo', exact: true }).click()
+  await opened(page, '#/demo/recording/meteo')
+  await page.evaluate(() => (location.hash = '#/demo/recording/nowhere'))
+  await page.getByRole('link', { name: 'All recordings' }).click()
+  await page.waitForFunction(() => location.hash === '#/demo' && document.querySelector('tbody'))
+})
 
 const kToken = 'a+token/of:this&test=1'
 

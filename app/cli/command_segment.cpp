@@ -12,6 +12,7 @@
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "signweave/database/database.h"
 #include "signweave/features/phase_proposals.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/formats/file_format.h"
@@ -21,6 +22,7 @@ namespace {
 
 struct SegmentArguments {
   std::string motion;
+  std::string recording;
   std::string output;
   std::string rig;
   bool overwrite = false;
@@ -61,8 +63,23 @@ void require_new(const std::string& path) {
               path + ": is there already, and may hold a person's annotation; give another name, or --overwrite");
 }
 
-void run_segment(const SegmentArguments& options, Io& io) {
-  if (!options.output.empty() && !options.overwrite) require_new(options.output);
+/// What is proposed, and the name of the motion file that it is about.
+struct Proposals {
+  calls::Segmented made;
+  std::string motion;
+};
+
+Proposals of_recording(const SegmentArguments& options, Io& io) {
+  if (!options.rig.empty()) {
+    throw Error(ErrorCode::bad_input, "--rig is for a motion file; a recording has the mapping it was imported with");
+  }
+  const Database database(options.motion, kv::Access::read_only);
+  report_damage(database, io);
+  return {calls::run(database, calls::SegmentCall{options.recording}),
+          database.contents()->at(options.recording).motion_file};
+}
+
+Proposals of_file(const SegmentArguments& options, Io& io) {
   motion_file::ReadOptions reading = read_options(options.reading);
   Progress progress(io, "reading");
   reading.progress = [&](double fraction) { progress.show(fraction); };
@@ -71,14 +88,19 @@ void run_segment(const SegmentArguments& options, Io& io) {
   const RigMap rig = file.motion.frame_count() == 0
                          ? RigMap{}
                          : map_rig(file.motion, options.rig.empty() ? RigNames{} : read_rig_names(options.rig));
-  const calls::Segmented made = calls::propose(file.motion, rig, options.motion);
+  return {calls::propose(file.motion, rig, options.motion), std::filesystem::path(options.motion).filename().string()};
+}
+
+void run_segment(const SegmentArguments& options, Io& io) {
+  if (!options.output.empty() && !options.overwrite) require_new(options.output);
+  const bool stored = !options.recording.empty();
+  const auto [made, motion] = stored ? of_recording(options, io) : of_file(options, io);
   print_notices(io, made.proposed.notices);
   if (!options.output.empty()) {
-    const std::string name = std::filesystem::path(options.motion).filename().string();
-    eaf::write(options.output, proposals_document(made.proposed, made.length, name));
+    eaf::write(options.output, proposals_document(made.proposed, made.length, motion));
   }
   if (io.json) {
-    io.out << text_of(json_of(made, "file", options.motion));
+    io.out << text_of(json_of(made, stored ? "recording" : "file", stored ? options.recording : options.motion));
   } else {
     print_table(made.proposed, io);
   }
@@ -89,7 +111,10 @@ void run_segment(const SegmentArguments& options, Io& io) {
 
 Run segment(CLI::App& verb) {
   auto options = std::make_shared<SegmentArguments>();
-  verb.add_option("MOTION", options->motion, "a motion file " + readable_endings(FileKind::motion))->required();
+  verb.add_option("MOTION", options->motion,
+                  "a motion file " + readable_endings(FileKind::motion) + ", or a database and")
+      ->required();
+  verb.add_option("RECORDING", options->recording, "the name of a recording in it");
   verb.add_option("-o,--output", options->output, "annotation file to write (.eaf); without it phases are only counted")
       ->check([](const std::string& path) { return calls::check_ending(path, {".eaf"}); });
   verb.add_flag("--overwrite", options->overwrite, "take the place of an annotation file that is there already");

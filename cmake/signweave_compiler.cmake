@@ -27,6 +27,8 @@ find_program(ccache_PROGRAM ccache)
 if(ccache_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${ccache_PROGRAM})
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  # Else a precompiled header that was made again, with the same bytes in it, is another to ccache.
+  add_compile_options("$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 endif()
 find_program(fast_linker_PROGRAM NAMES mold ld.lld)
 if(fast_linker_PROGRAM AND NOT CMAKE_CROSSCOMPILING)

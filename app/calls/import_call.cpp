@@ -106,6 +106,7 @@ ImportOptions options_of(const ImportCall& call) {
   if (!call.face.timecode.empty()) options.face_timecode = call.face.timecode;
   for (const std::string& sync : call.syncs) options.sync.push_back(*parse_sync(sync));
   if (!call.rig.empty()) options.rig = read_rig_names(call.rig);
+  options.strict = call.strict;
   options.replace_motion = call.replace_motion;
   if (!call.if_annotation.empty()) options.if_annotation = call.if_annotation;
   return options;

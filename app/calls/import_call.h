@@ -27,6 +27,7 @@ struct ImportCall {
   std::vector<std::string> syncs;
   FacePlacing face;
   std::string rig;
+  bool strict = false;
   bool replace_motion = false;
   std::string if_annotation;            ///< empty: whichever it is
   std::vector<std::string> recordings;  ///< none: all
@@ -62,6 +63,10 @@ void fields(Visit& visit, ImportCall& call) {
               .is_file = true,
               .type_name = "FILE"},
         call.rig);
+  visit(Field{.name = "strict",
+              .help = "refuse an EAF file with annotations that end before they begin or refer to what is not there; "
+                      "else those are left out"},
+        call.strict);
   visit(Field{.name = "replace_motion",
               .help = "take motion and face files again, changed or not: instead of what was imported, or over damage"},
         call.replace_motion);

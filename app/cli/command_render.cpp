@@ -68,6 +68,7 @@ struct RenderArguments {
   std::string size = "1280x720";
   double rate = 30;
   std::string view = "front";
+  std::vector<std::string> moments;  ///< as given; `take_moments` reads them
   std::vector<std::int64_t> at;
   std::string studio;
   std::string browser;
@@ -247,6 +248,23 @@ calls::Characters characters_of(const RenderArguments& given) {
   return fs::is_directory(beside) ? calls::Characters(beside) : calls::Characters();
 }
 
+/// Reads the moments of --at. Of words behind it the parser cannot say which are the utterance: what is no number is.
+void take_moments(RenderArguments& given) {
+  for (const std::string& word : given.moments) {
+    std::int64_t ms = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), ms);
+    if (error == std::errc() && end == word.data() + word.size() && ms >= 0) {
+      given.at.push_back(ms);
+    } else if (given.drawn.utterance.empty() && !word.empty() && word.front() != '-' && !given.at.empty()) {
+      given.drawn.utterance = word;
+    } else {
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("--at: '{}' is no moment; give milliseconds from the first frame, such as --at 100 200",
+                              printable(word)));
+    }
+  }
+}
+
 /// What would have no effect is told, not passed over.
 void check_options(const RenderArguments& given) {
   const Drawn& drawn = given.drawn;
@@ -330,9 +348,8 @@ Run render(CLI::App& verb) {
       ->check([](const std::string& path) {
         return calls::check_ending(path, {".webm", ".png"});
       });
-  verb.add_option("--at", options->at, "moment of a picture, ms from the first frame; may be given several times")
-      ->allow_extra_args(false)
-      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--at", options->moments, "moments of pictures, ms from the first frame: --at 100 200")
+      ->type_name("MS");
   verb.add_option("--size", options->size, "WIDTHxHEIGHT, even numbers up to 4096")
       ->check([](const std::string& text) {
         return parse_size(text) ? std::string() : fmt::format("'{}' is no size such as 1280x720", printable(text));
@@ -346,7 +363,10 @@ Run render(CLI::App& verb) {
       ->envname("SIGNWEAVE_STUDIO")
       ->required();
   verb.add_option("--browser", options->browser, "the Chromium that draws; $CHROMIUM, or the system's");
-  return [options](Io& io) { run_render(*options, io); };
+  return [options](Io& io) {
+    take_moments(*options);
+    run_render(*options, io);
+  };
 }
 
 }  // namespace signweave::cli

@@ -244,7 +244,9 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
                                    !options.phase_labels.empty() || options.no_sign_tier || options.no_phase_tier;
   if (job.annotation && (!same_annotation || options_about_tiers)) {
     const std::string where = job.annotation->string();
-    annotation_file::File file = annotation_file::read(*job.annotation);
+    using annotation_file::Unsound;
+    const Unsound unsound = options.strict ? Unsound::refused : Unsound::left_out;
+    annotation_file::File file = annotation_file::read(*job.annotation, unsound);
     annotation_notices = std::move(file.notices);
     names = tier_names(file.document, options, known ? &*known : nullptr, where, annotation_notices);
     document = std::move(file.document);

@@ -66,6 +66,7 @@ struct ImportOptions {
   std::optional<Seconds> face_offset;        ///< the motion's time of a face's first row; else by the timecode; else 0
   std::optional<std::string> face_timecode;  ///< of the motion's frame 0, on the clock of the face capture
   std::optional<RigNames> rig;  ///< what a mapping file says of the skeletons; none: as they were told before
+  bool strict = false;          ///< refuse an EAF file of which annotations would be left out (eaf::Unsound)
   bool replace_motion = false;  ///< take a motion or face file that changed since it was imported
   /// Which annotation the recording must have, as annotation_fingerprint tells it, for another to be stored.
   std::optional<std::string> if_annotation;

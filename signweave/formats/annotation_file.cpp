@@ -44,8 +44,8 @@ SourceFormat format_of(std::string_view text) {
   return root_name(text) == "annotation" ? SourceFormat::anvil : SourceFormat::eaf;
 }
 
-File read(const std::filesystem::path& path) {
-  return fold_case(path.extension().string()) == ".anvil" ? anvil::read(path) : eaf::read(path);
+File read(const std::filesystem::path& path, Unsound unsound) {
+  return fold_case(path.extension().string()) == ".anvil" ? anvil::read(path) : eaf::read(path, unsound);
 }
 
 File read_text(std::string name, std::string_view text, std::string_view specification) {

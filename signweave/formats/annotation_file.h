@@ -11,6 +11,7 @@
 namespace signweave::annotation_file {
 
 using File = eaf::File;
+using Unsound = eaf::Unsound;
 
 /// True for the names of files that can be annotation: .eaf, .anvil.
 bool is_name(const std::filesystem::path& path);
@@ -19,7 +20,7 @@ bool is_name(const std::filesystem::path& path);
 SourceFormat format_of(std::string_view text);
 
 /// Reads a file, an ANVIL file with the specification beside it. Throws as eaf::read and anvil::read do.
-File read(const std::filesystem::path& path);
+File read(const std::filesystem::path& path, Unsound unsound = Unsound::left_out);
 
 /// The same from text. `specification`: of an ANVIL document, what it was read with (AnnotationDocument).
 File read_text(std::string name, std::string_view text, std::string_view specification = {});

@@ -10,14 +10,14 @@
 
 namespace signweave::eaf {
 
-File read(const std::filesystem::path& path) {
-  return read_text(path.string(), read_file(path));
+File read(const std::filesystem::path& path, Unsound unsound) {
+  return read_text(path.string(), read_file(path), unsound);
 }
 
-File read_text(std::string name, std::string_view text) {
+File read_text(std::string name, std::string_view text, Unsound unsound) {
   const Xml xml(std::move(name), text);
   refuse_control_characters(xml);
-  FileParts parts = parse(xml);
+  FileParts parts = parse(xml, unsound);
   File file{std::move(parts.head), std::move(parts.notices)};
   for (FileTier& from : parts.tiers) {
     Tier& tier = file.document.tiers.emplace_back(std::move(from.tier));
@@ -57,7 +57,7 @@ bool is_unchanged(const FileParts& old, const AnnotationDocument& now) {
 std::string write_text(const AnnotationDocument& document) {
   if (document.source.empty() || document.source_format != SourceFormat::eaf) return generate(check(document));
   const Xml xml("the document's source", document.source);
-  const FileParts old = parse(xml);
+  const FileParts old = parse(xml, Unsound::left_out);
   if (is_unchanged(old, document)) return document.source;
   return edit(xml, old, check(document, &old));
 }

@@ -79,6 +79,19 @@ class SlotEditor {
     }
   }
 
+  /// [old slot] whether an annotation that was left out has it: it stays, with its time.
+  std::vector<bool> held_slots() const {
+    std::vector<bool> held(old_.slots.size(), false);
+    for (const FileTier& tier : old_.tiers) {
+      for (const FileAnnotation& one : tier.left_out) {
+        for (const std::size_t slot : {one.begin, one.end}) {
+          if (slot < held.size()) held[slot] = true;
+        }
+      }
+    }
+    return held;
+  }
+
   /// The time that an annotation wants for one of its slots; none where any will do.
   std::optional<std::int64_t> wanted(const User& user, std::size_t slot) const {
     const Annotation& one = at(user.tier, user.place);
@@ -102,6 +115,7 @@ class SlotEditor {
         users[result_.ends[t][i].end].push_back({t, i, Side::end});
       }
     }
+    const std::vector<bool> held = held_slots();
     for (std::size_t slot = 0; slot < users.size(); ++slot) {
       std::map<std::int64_t, std::vector<User>> by_time;
       for (const User& user : users[slot]) {
@@ -109,7 +123,8 @@ class SlotEditor {
       }
       if (by_time.empty()) continue;
       const std::optional<std::int64_t> now = result_.slots[slot].time;
-      const std::int64_t stays = now && by_time.contains(*now) ? *now : by_time.begin()->first;
+      const bool is_wanted = now && (by_time.contains(*now) || (slot < held.size() && held[slot]));
+      const std::int64_t stays = is_wanted ? *now : by_time.begin()->first;
       result_.slots[slot].time = stays;
       for (const auto& [time, wanting] : by_time) {
         if (time == stays) continue;
@@ -146,6 +161,8 @@ class SlotEditor {
         if (ends.begin != kNone) used[ends.begin] = used[ends.end] = true;
       }
     }
+    const std::vector<bool> held = held_slots();
+    for (std::size_t slot = 0; slot < held.size(); ++slot) used[slot] = used[slot] || held[slot];
     for (std::size_t slot = 0; slot < count; ++slot) {
       const std::size_t was = result_.slots[slot].old;
       if (used[slot] || (was != kNone && !used_before[was])) result_.order.push_back(slot);

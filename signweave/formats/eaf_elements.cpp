@@ -187,6 +187,11 @@ std::string vocabulary_element(std::string_view id) {
 CheckedDocument check(AnnotationDocument document, const FileParts* old) {
   CheckedDocument checked;
   checked.last_id = last_number(document);
+  for (std::size_t t = 0; old != nullptr && t < old->tiers.size(); ++t) {
+    for (const FileAnnotation& one : old->tiers[t].left_out) {
+      checked.last_id = std::max(checked.last_id, number_of(one.annotation.id));
+    }
+  }
   std::unordered_map<std::string_view, std::size_t> tiers;
   std::unordered_map<std::string_view, Stereotype> types;
   for (const TierType& type : document.types) {
@@ -203,12 +208,14 @@ CheckedDocument check(AnnotationDocument document, const FileParts* old) {
   // Tiers without parent or type, and annotations with slots, that the file has already.
   std::unordered_set<std::string_view> odd;
   std::unordered_set<std::string_view> odd_annotations;
+  std::unordered_set<std::string_view> left_out;  // in the file, not in the document
   for (std::size_t t = 0; old != nullptr && t < old->tiers.size(); ++t) {
     const FileTier& tier = old->tiers[t];
     if (tier.parent == kNone || tier.tier.type.empty()) odd.insert(tier.tier.id);
     for (const FileAnnotation& one : tier.annotations) {
       if (one.has_slots()) odd_annotations.insert(one.annotation.id);
     }
+    for (const FileAnnotation& one : tier.left_out) left_out.insert(one.annotation.id);
   }
   std::unordered_set<std::string_view> undeclared;
   for (const Tier& tier : document.tiers) {
@@ -243,6 +250,10 @@ CheckedDocument check(AnnotationDocument document, const FileParts* old) {
       if (one.id.empty()) one.id = fmt::format("a{}", ++checked.last_id);
       const bool had_slots = odd_annotations.contains(one.id);
       check_annotation(tier, one, had_slots ? Stereotype::none : checked.stereotypes[t]);
+      if (left_out.contains(one.id)) {
+        refuse(tier, fmt::format("the file has an annotation '{}' that was left out; give this one another id",
+                                 printable(one.id)));
+      }
       if (!places.emplace(one.id, i).second) {
         refuse(tier, fmt::format("annotation '{}' is there twice; give one of them another id", printable(one.id)));
       }

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "signweave/core/text.h"
 #include "signweave/formats/eaf_ids.h"
@@ -27,7 +28,7 @@ std::optional<std::int64_t> whole_number(std::string_view text) {
 
 class Parser {
  public:
-  explicit Parser(const Xml& xml) : xml_(xml) {}
+  Parser(const Xml& xml, Unsound unsound) : xml_(xml), unsound_(unsound) {}
 
   FileParts run() {
     const pugi::xml_node root = xml_.root();
@@ -47,7 +48,7 @@ class Parser {
     const std::vector<std::size_t> order = tiers_parents_first();
     for (FileTier& tier : parts_.tiers) read_annotations(tier);
     for (FileTier& tier : parts_.tiers) check_references(tier);
-    settle_times(xml_, parts_, order);
+    settle_times(xml_, unsound_, parts_, order);
     return std::move(parts_);
   }
 
@@ -219,16 +220,6 @@ class Parser {
     return order;
   }
 
-  std::size_t slot_of(pugi::xml_node element, const char* attribute) {
-    const std::string_view id = xml_.required(element, attribute);
-    const std::size_t slot = slots_.find(id);
-    if (slot == Ids::kMissing) {
-      xml_.fail(element, fmt::format("annotation '{}' uses the time slot '{}', which TIME_ORDER does not have; add it",
-                                     printable(element.attribute("ANNOTATION_ID").value()), printable(id)));
-    }
-    return slot;
-  }
-
   void read_annotations(FileTier& tier) {
     // pugixml's iterators cost several calls into the library at each step, and these loops go over the whole file.
     std::size_t most = 0;
@@ -263,43 +254,74 @@ class Parser {
       xml_.fail(element, fmt::format("a second annotation '{}'; give it an id of its own", printable(id)));
     }
     if (has_slots) {
-      one.begin = slot_of(element, "TIME_SLOT_REF1");
-      one.end = slot_of(element, "TIME_SLOT_REF2");
+      for (const auto& [attribute, slot] :
+           {std::pair("TIME_SLOT_REF1", &one.begin), std::pair("TIME_SLOT_REF2", &one.end)}) {
+        const std::string_view name = xml_.attribute(element, attribute);
+        *slot = name.empty() ? Ids::kMissing : slots_.find(name);
+        if (*slot != Ids::kMissing) continue;
+        const std::string what =
+            name.empty() ? fmt::format("annotation '{}' has no {}", printable(id), attribute)
+                         : fmt::format("annotation '{}' uses the time slot '{}', which TIME_ORDER does not have",
+                                       printable(id), printable(name));
+        return leave_out(tier, std::move(one), what, "add it");
+      }
       one.annotation.aligned = parts_.slots[one.begin].time && parts_.slots[one.end].time;
     } else {
-      one.annotation.parent = xml_.required(element, "ANNOTATION_REF");
+      one.annotation.parent = xml_.attribute(element, "ANNOTATION_REF");
+      if (one.annotation.parent.empty()) {
+        const std::string what = fmt::format("annotation '{}' has no ANNOTATION_REF", printable(id));
+        return leave_out(tier, std::move(one), what, "add it");
+      }
       one.previous = xml_.attribute(element, "PREVIOUS_ANNOTATION");
       one.annotation.aligned = false;
     }
     tier.annotations.push_back(std::move(one));
   }
 
-  void check_references(const FileTier& tier) {
-    for (const FileAnnotation& one : tier.annotations) {
-      if (one.has_slots()) continue;
-      const auto refuse = [&](std::string_view id, std::string_view fault) {
-        xml_.fail(one.element, fmt::format("annotation '{}' refers to annotation '{}', {}",
-                                           printable(one.annotation.id), printable(id), fault));
-      };
-      const std::size_t parent_tier = annotations_.find(one.annotation.parent);
-      if (parent_tier == Ids::kMissing) {
-        refuse(one.annotation.parent, "which is not in the file; add it or remove this one");
-      }
-      if (tier.parent == kNone) {
-        refuse(one.annotation.parent, "though its tier has no parent; give the tier a PARENT_REF");
-      }
-      if (parent_tier != tier.parent) {
-        refuse(one.annotation.parent,
-               fmt::format("which is on tier '{}' and not on the parent tier '{}'; refer to one that is",
-                           printable(parts_.tiers[parent_tier].tier.id), printable(tier.tier.parent)));
-      }
-      if (!one.previous.empty() && annotations_.find(one.previous) == Ids::kMissing) {
-        refuse(one.previous, "which is not in the file; correct its PREVIOUS_ANNOTATION");
-      }
+  void check_references(FileTier& tier) {
+    if (std::ranges::all_of(tier.annotations, &FileAnnotation::has_slots)) return;
+    std::vector<FileAnnotation> sound;
+    sound.reserve(tier.annotations.size());
+    for (FileAnnotation& one : tier.annotations) {
+      if (one.has_slots() || refers_soundly(tier, one)) sound.push_back(std::move(one));
     }
+    tier.annotations = std::move(sound);
+  }
+
+  /// False where the annotation was left out.
+  bool refers_soundly(FileTier& tier, FileAnnotation& one) {
+    const auto refuse = [&](std::string_view id, std::string_view fault, std::string_view mend) {
+      const std::string what = fmt::format("annotation '{}' refers to annotation '{}', {}",
+                                           printable(one.annotation.id), printable(id), fault);
+      leave_out(tier, std::move(one), what, mend);
+      return false;
+    };
+    const std::string parent = one.annotation.parent;
+    const std::size_t parent_tier = annotations_.find(parent);
+    if (parent_tier == Ids::kMissing) {
+      return refuse(parent, "which is not in the file", "add it or remove this one");
+    }
+    if (tier.parent == kNone) {
+      return refuse(parent, "though its tier has no parent", "give the tier a PARENT_REF");
+    }
+    if (parent_tier != tier.parent) {
+      return refuse(parent,
+                    fmt::format("which is on tier '{}' and not on the parent tier '{}'",
+                                printable(parts_.tiers[parent_tier].tier.id), printable(tier.tier.parent)),
+                    "refer to one that is");
+    }
+    if (unsound_ == Unsound::refused && !one.previous.empty() && annotations_.find(one.previous) == Ids::kMissing) {
+      return refuse(one.previous, "which is not in the file", "correct its PREVIOUS_ANNOTATION");
+    }
+    return true;
+  }
+
+  void leave_out(FileTier& tier, FileAnnotation one, std::string_view what, std::string_view mend) {
+    eaf::leave_out(xml_, unsound_, parts_, tier, std::move(one), what, mend);
   }
 
   const Xml& xml_;
+  Unsound unsound_;
   FileParts parts_;
   Ids slots_;
   Index types_;
@@ -309,8 +331,15 @@ class Parser {
 
 }  // namespace
 
-FileParts parse(const Xml& xml) {
-  return Parser(xml).run();
+FileParts parse(const Xml& xml, Unsound unsound) {
+  return Parser(xml, unsound).run();
+}
+
+void leave_out(const Xml& xml, Unsound unsound, FileParts& parts, FileTier& tier, FileAnnotation annotation,
+               std::string_view what, std::string_view mend) {
+  if (unsound == Unsound::refused) xml.fail(annotation.element, fmt::format("{}; {}", what, mend));
+  parts.notices.push_back(xml.notice(annotation.element, fmt::format("{}: left out; {}", what, mend)));
+  tier.left_out.push_back(std::move(annotation));
 }
 
 std::string_view name_of(Stereotype stereotype) noexcept {

@@ -10,6 +10,7 @@
 
 #include "signweave/annotation/document.h"
 #include "signweave/core/error.h"
+#include "signweave/formats/eaf.h"
 #include "signweave/formats/eaf_xml.h"
 
 namespace signweave::eaf {
@@ -44,6 +45,7 @@ struct FileTier {
   std::size_t parent = kNone;  ///< index of the parent tier
   Stereotype stereotype = Stereotype::none;
   std::vector<FileAnnotation> annotations;  ///< in time order
+  std::vector<FileAnnotation> left_out;     ///< unsound ones, of which nothing but id and element counts
 };
 
 /// An EAF file taken apart. Borrows from its Xml, which must outlive it.
@@ -55,7 +57,11 @@ struct FileParts {
 };
 
 /// Takes a file apart and gives every annotation its span and parent. Throws Error{bad_input, "FILE:LINE: …"}.
-FileParts parse(const Xml& xml);
+FileParts parse(const Xml& xml, Unsound unsound);
+
+/// Leaves an annotation of a tier out with a notice, or refuses the file: "WHAT; MEND".
+void leave_out(const Xml& xml, Unsound unsound, FileParts& parts, FileTier& tier, FileAnnotation annotation,
+               std::string_view what, std::string_view mend);
 
 /// EAF's names of the stereotypes: "Time_Subdivision", …; empty for none.
 std::string_view name_of(Stereotype stereotype) noexcept;

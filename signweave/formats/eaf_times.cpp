@@ -20,8 +20,9 @@ void sort_unless_sorted(Iterator begin, Iterator end, const Before& before) {
 
 class Settler {
  public:
-  Settler(const Xml& xml, FileParts& parts)
+  Settler(const Xml& xml, Unsound unsound, FileParts& parts)
       : xml_(xml),
+        unsound_(unsound),
         parts_(parts),
         times_(parts.slots.size()),
         begins_(parts.slots.size(), kNone),
@@ -32,6 +33,7 @@ class Settler {
     for (std::size_t i = 0; i < times_.size(); ++i) times_[i] = parts_.slots[i].time;
     for (const std::size_t index : tier_order) {
       FileTier& tier = parts_.tiers[index];
+      if (tier.parent != kNone && !parts_.tiers[tier.parent].left_out.empty()) leave_out_orphans(tier);
       sort_by_slots(tier);
       if (tier.parent != kNone) {
         find_parents_by_slots(tier);
@@ -63,6 +65,23 @@ class Settler {
     sort_unless_sorted(order_.begin(), order_.end(),
                        [&](std::size_t a, std::size_t b) { return reached[a] < reached[b]; });
     for (std::size_t i = 0; i < count; ++i) parts_.slots[order_[i]].rank = i;
+  }
+
+  /// Those that refer to an annotation that was left out.
+  void leave_out_orphans(FileTier& tier) {
+    Ids missing;
+    for (const FileAnnotation& one : parts_.tiers[tier.parent].left_out) missing.add(one.annotation.id, 0);
+    std::vector<FileAnnotation> sound;
+    for (FileAnnotation& one : tier.annotations) {
+      if (one.has_slots() || missing.find(one.annotation.parent) == Ids::kMissing) {
+        sound.push_back(std::move(one));
+        continue;
+      }
+      const std::string what = fmt::format("annotation '{}' refers to annotation '{}', which is left out",
+                                           printable(one.annotation.id), printable(one.annotation.parent));
+      leave_out(xml_, unsound_, parts_, tier, std::move(one), what, "correct that one");
+    }
+    tier.annotations = std::move(sound);
   }
 
   std::size_t rank(std::size_t slot) const { return parts_.slots[slot].rank; }
@@ -183,8 +202,20 @@ class Settler {
   void set_spans(FileTier& tier) {
     std::size_t loose = 0;
     std::size_t clamped = 0;
-    for (FileAnnotation& one : tier.annotations) {
-      if (!one.has_slots()) break;
+    std::size_t sound = 0;  // those before are kept
+    for (std::size_t i = 0; i < tier.annotations.size(); ++i) {
+      FileAnnotation& one = tier.annotations[i];
+      const auto keep = [&] {
+        if (sound != i) {
+          parents_[sound] = parents_[i];
+          tier.annotations[sound] = std::move(one);
+        }
+        ++sound;
+      };
+      if (!one.has_slots()) {
+        keep();
+        continue;
+      }
       for (const std::size_t slot : {one.begin, one.end}) {
         if (times_[slot]) continue;
         spread_the_rest();
@@ -194,14 +225,17 @@ class Settler {
       const std::int64_t begin = *times_[one.begin];
       const std::int64_t end = *times_[one.end];
       if (begin > end && (one.annotation.aligned || rank(one.begin) > rank(one.end))) {
-        xml_.fail(one.element,
-                  fmt::format("annotation '{}' begins at {} ms, after its end at {} ms; exchange its slots "
-                              "or correct a TIME_VALUE",
-                              printable(one.annotation.id), begin, end));
+        const std::string what = fmt::format("annotation '{}' begins at {} ms, after its end at {} ms",
+                                             printable(one.annotation.id), begin, end);
+        leave_out(xml_, unsound_, parts_, tier, std::move(one), what, "exchange its slots or correct a TIME_VALUE");
+        continue;
       }
       if (begin > end) ++clamped;
       one.annotation.span = {Milliseconds(begin), Milliseconds(std::max(begin, end))};
+      keep();
     }
+    tier.annotations.resize(sound);
+    parents_.resize(sound);
     if (loose > 0) {
       note(tier.element, fmt::format("tier '{}' has {} unaligned slots outside any parent: spread between their "
                                      "neighbours in TIME_ORDER",
@@ -354,6 +388,7 @@ class Settler {
   void note(pugi::xml_node node, std::string_view what) { parts_.notices.push_back(xml_.notice(node, what)); }
 
   const Xml& xml_;
+  Unsound unsound_;
   FileParts& parts_;
   std::vector<std::optional<std::int64_t>> times_;  ///< [slot]
   std::vector<std::optional<std::int64_t>> rest_;   ///< [slot], see spread_the_rest
@@ -366,8 +401,8 @@ class Settler {
 
 }  // namespace
 
-void settle_times(const Xml& xml, FileParts& parts, const std::vector<std::size_t>& tier_order) {
-  Settler(xml, parts).run(tier_order);
+void settle_times(const Xml& xml, Unsound unsound, FileParts& parts, const std::vector<std::size_t>& tier_order) {
+  Settler(xml, unsound, parts).run(tier_order);
 }
 
 }  // namespace signweave::eaf

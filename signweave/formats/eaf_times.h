@@ -21,6 +21,7 @@ namespace signweave::eaf {
 /// - Unaligned slots without any parent lie evenly between their neighbours in TIME_ORDER.
 /// - Symbolic subdivision: the n children of a parent, in the order of their PREVIOUS_ANNOTATION chain, take the n-ths
 ///   of its span, bounds rounded down. Symbolic association: the parent's span.
-void settle_times(const Xml& xml, FileParts& parts, const std::vector<std::size_t>& tier_order);
+/// An annotation that ends before it begins is unsound; one left out takes along what refers to it.
+void settle_times(const Xml& xml, Unsound unsound, FileParts& parts, const std::vector<std::size_t>& tier_order);
 
 }  // namespace signweave::eaf

@@ -41,7 +41,7 @@ std::vector<Tip> take_tips(const Content& content, std::vector<JointPlace>& plac
   for (std::size_t i = 0; i < places.size(); ++i) {
     JointPlace& place = places[i];
     if (place.parent != kNoJoint) place.parent = number[static_cast<std::size_t>(place.parent)];
-    const bool still = !place.translation_curve && !place.rotation_curve && place.rotation.vec().isZero(1e-7);
+    const bool still = !place.translated() && !place.rotation_curve && place.rotation.vec().isZero(1e-7);
     if (i > 0 && !carries[i] && still && is_tip_name(content.model.nodes[place.node].name)) {
       tips.push_back({place.parent, place.placed(place.translation).cast<float>()});
       continue;
@@ -99,12 +99,31 @@ class RotationFiller {
   bool as_keys_;
 };
 
-void fill_translations(const JointPlace& place, CurveReader& reader, std::int64_t begin, std::int64_t end,
-                       Vector3f* out, std::size_t stride) {
-  for (std::int64_t frame = begin; frame < end; ++frame, out += stride) {
-    *out = place.placed(reader.vector_at(static_cast<double>(frame))).cast<float>();
+/// Writes the translations of one joint.
+class TranslationFiller {
+ public:
+  TranslationFiller(const JointPlace& place, const Timing& timing) : place_(&place) {
+    const double frame_seconds = timing.rate.frame_time().count();
+    if (place.translation_curve) own_.emplace(*place.translation_curve, frame_seconds);
+    for (const Curve* growth : place.growth) growth_.emplace_back(*growth, frame_seconds);
   }
-}
+
+  Vector3f at(double frame) {
+    Eigen::Vector3d result = place_->placed(own_ ? own_->vector_at(frame) : place_->translation);
+    for (CurveReader& growth : growth_) result *= growth.vector_at(frame).mean();
+    return result.cast<float>();
+  }
+
+  /// `out` is the translation in frame `begin`; that of the next frame lies `stride` farther.
+  void fill(std::int64_t begin, std::int64_t end, Vector3f* out, std::size_t stride) {
+    for (std::int64_t frame = begin; frame < end; ++frame, out += stride) *out = at(static_cast<double>(frame));
+  }
+
+ private:
+  const JointPlace* place_;
+  std::optional<CurveReader> own_;
+  std::vector<CurveReader> growth_;
+};
 
 }  // namespace
 
@@ -113,7 +132,8 @@ Motion motion_of(const Content& content, std::vector<JointPlace>& places, const 
   std::vector<Tip> tips = take_tips(content, places);
   std::vector<Joint> joints;
   for (const JointPlace& place : places) {
-    const Vector3f offset = place.placed(place.translation).cast<float>();
+    const Vector3f offset = place.growth.empty() ? Vector3f(place.placed(place.translation).cast<float>())
+                                                 : TranslationFiller(place, timing).at(0);
     if (!offset.allFinite()) {
       throw Error(ErrorCode::bad_input,
                   fmt::format("{}: {}: it is too far away", content.name, node_text(content, place.node)));
@@ -121,7 +141,7 @@ Motion motion_of(const Content& content, std::vector<JointPlace>& places, const 
     joints.push_back({.name = joint_name(content, place.node),
                       .parent = place.parent,
                       .offset = offset,
-                      .translated = place.translation_curve != nullptr});
+                      .translated = place.translated()});
   }
   const auto skeleton = std::make_shared<const Skeleton>(std::move(joints), std::move(tips));
   const std::size_t joint_count = places.size();
@@ -131,10 +151,10 @@ Motion motion_of(const Content& content, std::vector<JointPlace>& places, const 
                fmt::format("{} frames of {} joints", timing.frames, joint_count));
 
   std::vector<RotationFiller> turns;
-  std::vector<CurveReader> moves;
+  std::vector<TranslationFiller> moves;
   for (const JointPlace& place : places) {
     turns.emplace_back(place, timing);
-    if (place.translation_curve) moves.emplace_back(*place.translation_curve, timing.rate.frame_time().count());
+    if (place.translated()) moves.emplace_back(place, timing);
   }
   Motion motion;
   motion.reset(skeleton, timing.rate, timing.frames);
@@ -145,8 +165,7 @@ Motion motion_of(const Content& content, std::vector<JointPlace>& places, const 
       turns[joint].fill(begin, end, poses.rotations.data() + joint, joint_count);
     }
     for (std::size_t i = 0; i < translated; ++i) {
-      const auto joint = static_cast<std::size_t>(skeleton->translated_joints()[i]);
-      fill_translations(places[joint], moves[i], begin, end, poses.translations.data() + i, translated);
+      moves[i].fill(begin, end, poses.translations.data() + i, translated);
     }
     if (progress && begin / kBlockFrames % 64 == 0) {
       progress(static_cast<double>(begin) / static_cast<double>(timing.frames));

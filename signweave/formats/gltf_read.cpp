@@ -46,6 +46,7 @@ std::vector<std::shared_ptr<KeyTimes>> times_of_used(const Take& take, const std
   for (const JointPlace& place : places) {
     add(take.nodes[place.node].translation);
     add(take.nodes[place.node].rotation);
+    for (const Curve* growth : place.growth) add(growth);
   }
   for (const NodeCurves& curves : take.nodes) add(curves.weights);
   return all;

@@ -46,6 +46,7 @@ class RandomFile {
       if (fixed) continue;
       if (node == helpers_ || *rc::gen::inRange(0, 4) > 0) add_channel(node, "rotation");
       if (*rc::gen::inRange(0, 3) == 0) add_channel(node, "translation");
+      if (node == helpers_ && *rc::gen::inRange(0, 3) == 0) add_channel(node, "scale");
     }
     json_["buffers"] = {{{"byteLength", bytes_.size()}}};
     return glb();
@@ -107,6 +108,7 @@ class RandomFile {
     std::vector<float> values;
     for (std::size_t key = 0; key < key_counts_[list] * (cubic ? 3 : 1); ++key) {
       std::vector<float> value = {number(), number(), number()};
+      if (path[0] == 's') value.assign(3, cubic && key % 3 != 1 ? number(0.2f) : 1 + number(0.5f));
       if (turns) value = random_turn();
       // Tangents that do not throw a quaternion through zero.
       if (cubic && key % 3 != 1) {

@@ -220,6 +220,18 @@ TEST(GltfRead, ScalesByAxisAreFoldedWhereNothingShears) {
   expect_near(place_of(file.motion, "Someone:LeftHand", 1), {1, 2.5f, 0});
 }
 
+TEST(GltfRead, AScaleOfTheRootThatChangesIsBakedIntoWhereTheJointsAre) {
+  const ReadFile file = read(kGltfFolder / "growing.glb");
+  EXPECT_THAT(texts_of(file), ElementsAre("node 0 'Root': its scale changes (animation 0, channel 1); that was baked "
+                                          "into where the joints below it are"));
+  EXPECT_THAT(file.motion.skeleton().translated_joints(), ElementsAre(1, 2));
+  const std::int64_t last = file.motion.frame_count() - 1;
+  expect_near(place_of(file.motion, "Hand", 0), {0, 1, 0});
+  expect_near(place_of(file.motion, "Finger", 0), {0.5f, 1, 0});
+  expect_near(place_of(file.motion, "Hand", last), {-2, 0, 0});
+  expect_near(place_of(file.motion, "Finger", last), {-2, 2, 0});
+}
+
 TEST(GltfRead, TracksInTheExtrasComeBack) {
   const ReadFile file = read(kGltfFolder / "tracks.glb");
   EXPECT_THAT(file.motion.tracks(),

@@ -73,11 +73,27 @@ class SpaceWalk {
     return still;
   }
 
-  /// What stands above the children of a node that has any.
-  Above below(std::size_t node, const NodeStill& still, const Above& above) {
+  /// What stands above the children of a node that has any. `shared`: all joints hang on it.
+  Above below(std::size_t node, NodeStill still, const Above& above, bool shared) {
     if (still.scale_curve) {
-      refuse(node, fmt::format("its scale changes ({}), which no joint below it can follow; bake it before export",
-                               still.scale_curve->place));
+      const Curve& curve = *still.scale_curve;
+      if (!shared) {
+        refuse(node, fmt::format("its scale changes ({}), and not every joint is below it; bake it before export",
+                                 curve.place));
+      }
+      for (std::size_t key = 0; key < curve.key_count(); ++key) {
+        const std::span<const float> value = curve.key(key);
+        const Vector3d scale(value[0], value[1], value[2]);
+        if (is_uniform(scale) && scale.minCoeff() > 1e-9) continue;
+        refuse(node,
+               fmt::format("its scale changes to {} ({}), and no joint below can follow what is not the same along "
+                           "all axes and above 0; bake it before export",
+                           scale_text(scale), curve.place));
+      }
+      notices_.push_back({content_.name, fmt::format("{}: its scale changes ({}); that was baked into where the joints "
+                                                     "below it are",
+                                                     node_text(content_, node), curve.place)});
+      still.scale = Vector3d::Ones();
     }
     const Vector3d turned = turned_scale(node, still, above);
     const Vector3d scale = turned.cwiseProduct(still.scale);
@@ -177,7 +193,7 @@ std::vector<JointPlace> joint_places(const Content& content, const NodeForest& f
     const NodeStill still = walk.still(*at, above.scale);
     moved += turned * above.scale.cwiseProduct(still.translation);
     turned = (turned * still.rotation).normalized();
-    above = walk.below(*at, still, above);
+    above = walk.below(*at, still, above, true);
   }
 
   std::vector<JointIndex> joint_of(content.model.nodes.size(), kNoJoint);
@@ -185,6 +201,13 @@ std::vector<JointPlace> joint_places(const Content& content, const NodeForest& f
   std::vector<bool> has_children(joints.size(), false);
   for (std::size_t i = 1; i < joints.size(); ++i) {
     has_children[static_cast<std::size_t>(joint_of[forest.parent[joints[i]]])] = true;
+  }
+  // Joint i and all before it are one chain, on which all others hang.
+  std::vector<bool> shared(joints.size(), false);
+  JointIndex highest = static_cast<JointIndex>(joints.size());  // of the parents of the joints after i
+  for (std::size_t i = joints.size(); i-- > 0;) {
+    shared[i] = highest >= static_cast<JointIndex>(i);
+    if (i > 0) highest = std::min(highest, joint_of[forest.parent[joints[i]]]);
   }
   std::vector<SpaceWalk::Above> above_of(joints.size());
   std::vector<JointPlace> places;
@@ -202,8 +225,13 @@ std::vector<JointPlace> joint_places(const Content& content, const NodeForest& f
     place.rotation = still.rotation;
     place.translation_curve = still.translation_curve;
     place.rotation_curve = still.rotation_curve;
+    if (i > 0) {
+      const std::size_t parent = joints[static_cast<std::size_t>(place.parent)];
+      place.growth = places[static_cast<std::size_t>(place.parent)].growth;
+      if (const Curve* const scale = walk.still(parent, mine.scale).scale_curve) place.growth.push_back(scale);
+    }
     if (has_children[i]) {
-      above_of[i] = walk.below(joints[i], still, mine);
+      above_of[i] = walk.below(joints[i], still, mine, shared[i]);
     } else {
       (void)walk.turned_scale(joints[i], still, mine);
     }

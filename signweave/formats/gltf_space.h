@@ -11,7 +11,7 @@
 namespace signweave::gltf {
 
 /// How one node becomes a joint, all scales taken out:
-/// translation = moved + turned * (scaled ∘ its own), rotation = turned * its own. Metres.
+/// translation = (moved + turned * (scaled ∘ its own)) * growth, rotation = turned * its own. Metres.
 struct JointPlace {
   std::size_t node = 0;
   JointIndex parent = kNoJoint;
@@ -22,13 +22,18 @@ struct JointPlace {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< its own, where no curve changes it
   const Curve* translation_curve = nullptr;                      ///< none where it does not change
   const Curve* rotation_curve = nullptr;
+  std::vector<const Curve*> growth;  ///< scales above it that change, the same along all axes: their product
 
+  /// Whether its translation changes over time.
+  bool translated() const noexcept { return translation_curve != nullptr || !growth.empty(); }
   Eigen::Vector3d placed(const Eigen::Vector3d& own) const { return moved + turned * scaled.cwiseProduct(own); }
 };
 
 /// [joint] of the nodes that become joints. Nodes above the first are applied to it. Constant scales go into what is
-/// below; those that differ by axis only where no shear comes of it, and then with a notice. Throws
-/// Error{unsupported}, naming the node, for scales that change, for shear, and for such scales above what turns.
+/// below; those that differ by axis only where no shear comes of it, and then with a notice. A scale that changes goes
+/// into the translations of what is below, with a notice, where it does so along all axes alike and every joint is
+/// below it, is it, or is above it. Throws Error{unsupported}, naming the node, for other scales that change, for
+/// shear, and for scales that differ by axis above what turns.
 std::vector<JointPlace> joint_places(const Content& content, const NodeForest& forest, const Take& take,
                                      const std::vector<std::size_t>& joints, double unit, std::vector<Notice>& notices);
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-
-#include "signweave/features/point_sum.h"
+#include <utility>
 
 namespace signweave {
 namespace {
@@ -13,11 +12,9 @@ constexpr float kOpenness = 127;
 
 /// What is measured of one stretch of a row.
 struct Stretch {
-  std::array<std::optional<PointOver>, 2> hands;  ///< [Side]; none: not known
-  double frames = 0;                              ///< its weight in a mean
-  float distance = kNotKnown;                     ///< of the palms, the least, metres
-  float begin_distance = kNotKnown;
-  float end_distance = kNotKnown;
+  std::array<std::optional<Course>, 2> hands;  ///< [Side]; none: not known
+  double frames = 0;                           ///< its weight in a mean
+  Distances apart;                             ///< of the palms
 };
 
 PointFrame point_of(const HandAt& at) noexcept {
@@ -30,11 +27,6 @@ PointFrame point_of(const HandAt& at) noexcept {
                     .fingers = facing_of(at.fingers)}};
 }
 
-/// The least of two, or what is no number.
-float lesser(float a, float b) noexcept {
-  return std::isnan(a) || std::isnan(b) ? kNotKnown : std::min(a, b);
-}
-
 bool is_finite(const PointOver& over) noexcept {
   return std::isfinite(over.path_length) && std::isfinite(over.mean_acceleration) && over.begin.position.allFinite() &&
          over.end.position.allFinite();
@@ -45,43 +37,35 @@ Stretch from_trace(const HandTrace& trace, FrameRange frames, const Pause& pause
   if (frames.empty() || trace.samples() == 0) return result;
   result.frames = static_cast<double>(frames.size());
   std::array<PointTrack, 2> tracks;
-  std::array<PointSum, 2> sums;
-  const auto apart = [&](const PointFrame& a, const PointFrame& b) {
-    return (a.position - b.position).norm() * trace.shoulder_width;
-  };
-  float least = std::numeric_limits<float>::infinity();
+  std::array<CourseSum, 2> sums = {CourseSum(trace.body), CourseSum(trace.body)};
+  bool apart = true;
   for_pieces(frames, pause, [&](FrameRange piece) {
     for (const Side side : kSides) {
       const auto i = static_cast<std::size_t>(side);
       trace.track(palm_on(side), piece, tracks[i]);
       for (const PointFrame& frame : tracks[i]) sums[i].add(frame);
     }
-    if (tracks[0].empty() || tracks[1].empty()) return;
-    least = lesser(least, least_distance(tracks[0], tracks[1], trace.shoulder_width));
-    if (piece.begin == frames.begin) result.begin_distance = apart(tracks[0].front(), tracks[1].front());
-    result.end_distance = apart(tracks[0].back(), tracks[1].back());
+    apart = apart && result.apart.add(tracks[0], tracks[1], trace.shoulder_width);
   });
   for (std::size_t i = 0; i < 2; ++i) {
     if (tracks[i].empty()) continue;
-    const PointOver measured = sums[i].over(trace.rate, trace.shoulder_width);
-    if (is_finite(measured)) result.hands[i] = measured;
+    const Course measured = sums[i].course(trace.rate, trace.shoulder_width);
+    if (is_finite(measured.over)) result.hands[i] = measured;
   }
-  if (result.hands[0] && result.hands[1]) {
-    result.distance = least;
-  } else {
-    result.begin_distance = result.end_distance = kNotKnown;
-  }
+  if (!result.hands[0] || !result.hands[1]) result.apart = {};
   return result;
 }
 
 /// The features, and what they lack from the trace.
-Stretch from_features(const PhaseFeatures& phase, const Stretch& traced) {
+Stretch from_features(const PhaseFeatures& phase, const Stretch& traced, const SignerBody& body) {
   Stretch result;
   result.frames = traced.frames;
   for (std::size_t side = 0; side < 2; ++side) {
     const HandOver& hand = phase.hands[side];
     if (!hand.known) continue;
-    PointOver& over = result.hands[side].emplace();
+    ExtentSum reached(body);
+    if (traced.hands[side]) reached.start_from(traced.hands[side]->extent);
+    PointOver& over = result.hands[side].emplace().over;
     over.peak_speed = hand.peak_speed;
     over.mean_speed = hand.mean_speed;
     over.mean_acceleration = hand.mean_acceleration;
@@ -90,15 +74,20 @@ Stretch from_features(const PhaseFeatures& phase, const Stretch& traced) {
     over.begin = point_of(hand.begin);
     over.end = point_of(hand.end);
     over.contact = hand.begin.contact | hand.end.contact;
-    over.peak_acceleration = std::max(hand.begin.acceleration.norm(), hand.end.acceleration.norm());
+    over.peak_acceleration = std::max(over.begin.acceleration, over.end.acceleration);
+    reached.include(over.begin);
+    reached.include(over.end);
+    result.hands[side]->extent = reached.extent();
     if (!traced.hands[side]) continue;
-    over.contact = over.contact | traced.hands[side]->contact;
-    over.peak_acceleration = std::max(over.peak_acceleration, traced.hands[side]->peak_acceleration);
+    over.contact = over.contact | traced.hands[side]->over.contact;
+    over.peak_acceleration = std::max(over.peak_acceleration, traced.hands[side]->over.peak_acceleration);
   }
   if (!result.hands[0] || !result.hands[1]) return result;
-  result.begin_distance = phase.hands_distance_begin;
-  result.end_distance = phase.hands_distance_end;
-  result.distance = std::min({traced.distance, result.begin_distance, result.end_distance});
+  const auto [begin, end] = std::pair(phase.hands_distance_begin, phase.hands_distance_end);
+  result.apart = {.least = std::min({traced.apart.least, begin, end}),
+                  .most = std::max({traced.apart.most, begin, end}),
+                  .begin = begin,
+                  .end = end};
   return result;
 }
 
@@ -106,25 +95,23 @@ Stretch from_features(const PhaseFeatures& phase, const Stretch& traced) {
 Stretch joined(std::span<const Stretch> stretches, float shoulder_width) {
   if (stretches.empty()) return {};
   Stretch result;
-  result.distance = std::numeric_limits<float>::infinity();
-  result.begin_distance = stretches.front().begin_distance;
-  result.end_distance = stretches.back().end_distance;
+  result.apart = stretches.front().apart;
   for (const Stretch& each : stretches) {
     result.frames += each.frames;
-    result.distance = std::min(result.distance, each.distance);
-    if (!std::isnan(each.distance)) continue;
-    result.distance = result.begin_distance = result.end_distance = kNotKnown;
-    break;
+    result.apart.least = std::min(result.apart.least, each.apart.least);
+    result.apart.most = std::max(result.apart.most, each.apart.most);
   }
+  result.apart.end = stretches.back().apart.end;
+  if (!std::ranges::all_of(stretches, [](const Stretch& each) { return each.apart.known(); })) result.apart = {};
   for (std::size_t side = 0; side < 2; ++side) {
-    std::vector<PointOver> overs;
+    std::vector<Course> courses;
     std::vector<double> weights;
     for (const Stretch& each : stretches) {
       if (!each.hands[side]) break;
-      overs.push_back(*each.hands[side]);
+      courses.push_back(*each.hands[side]);
       weights.push_back(each.frames);
     }
-    if (overs.size() == stretches.size()) result.hands[side] = join(overs, weights, shoulder_width);
+    if (courses.size() == stretches.size()) result.hands[side] = join(courses, weights, shoulder_width);
   }
   return result;
 }
@@ -134,16 +121,17 @@ void write(const Stretch& stretch, const SignerBody& body, std::size_t row, Move
     columns[place_of({measure, side})][row] = value;
   };
   for (const Side side : kSides) {
-    const std::optional<PointOver>& hand = stretch.hands[static_cast<std::size_t>(side)];
+    const std::optional<Course>& hand = stretch.hands[static_cast<std::size_t>(side)];
     if (!hand) continue;
     for (std::size_t i = 0; i < kHandMeasures; ++i) {
       const auto measure = static_cast<HandMeasure>(i);
       put(measure, side, measure_of(*hand, measure, body));
     }
   }
-  put(HandMeasure::distance, Side::left, stretch.distance);
-  put(HandMeasure::begin_distance, Side::left, stretch.begin_distance);
-  put(HandMeasure::end_distance, Side::left, stretch.end_distance);
+  for (const HandMeasure measure :
+       {HandMeasure::distance, HandMeasure::most_distance, HandMeasure::begin_distance, HandMeasure::end_distance}) {
+    put(measure, Side::left, stretch.apart[measure]);
+  }
 }
 
 }  // namespace
@@ -164,7 +152,9 @@ StateAndZone state_of(std::uint32_t number) noexcept {
           .reach = static_cast<Reach>(number >> 19U & 1U)};
 }
 
-float measure_of(const PointOver& over, HandMeasure measure, const SignerBody& body) noexcept {
+float measure_of(const Course& course, HandMeasure measure, const SignerBody& body) noexcept {
+  const PointOver& over = course.over;
+  const Extent& extent = course.extent;
   const auto state = [&](const PointFrame& at) {
     return static_cast<float>(state_number(at.state, zone_of(at.position, body)));
   };
@@ -173,10 +163,14 @@ float measure_of(const PointOver& over, HandMeasure measure, const SignerBody& b
       return over.peak_speed;
     case HandMeasure::mean_speed:
       return over.mean_speed;
+    case HandMeasure::least_speed:
+      return extent.speed.least;
     case HandMeasure::acceleration:
       return over.peak_acceleration;
     case HandMeasure::mean_acceleration:
       return over.mean_acceleration;
+    case HandMeasure::least_acceleration:
+      return extent.acceleration.least;
     case HandMeasure::path:
       return over.path_length;
     case HandMeasure::displacement:
@@ -199,7 +193,30 @@ float measure_of(const PointOver& over, HandMeasure measure, const SignerBody& b
       return over.end.position.z();
     case HandMeasure::end_state:
       return state(over.end);
+    case HandMeasure::least_x:
+      return extent.x.least;
+    case HandMeasure::least_height:
+      return extent.height.least;
+    case HandMeasure::least_forward:
+      return extent.forward.least;
+    case HandMeasure::least_openness:
+      return extent.openness.empty() ? kNotKnown : extent.openness.least;
+    case HandMeasure::most_x:
+      return extent.x.most;
+    case HandMeasure::most_height:
+      return extent.height.most;
+    case HandMeasure::most_forward:
+      return extent.forward.most;
+    case HandMeasure::most_openness:
+      return extent.openness.empty() ? kNotKnown : extent.openness.most;
+    case HandMeasure::zones:
+      return static_cast<float>(extent.in);
+    case HandMeasure::entered:
+      return static_cast<float>(extent.into);
+    case HandMeasure::facings:
+      return static_cast<float>(extent.faces);
     case HandMeasure::distance:
+    case HandMeasure::most_distance:
     case HandMeasure::begin_distance:
     case HandMeasure::end_distance:
       break;
@@ -213,38 +230,61 @@ FrameRange measured_frames(TimeSpan span, const FrameClock& clock, std::int64_t 
   return clamp(asked, frames);
 }
 
-float least_distance(std::span<const PointFrame> a, std::span<const PointFrame> b, float shoulder_width) noexcept {
-  float least = std::numeric_limits<float>::infinity();
+bool Distances::add(std::span<const PointFrame> a, std::span<const PointFrame> b, float shoulder_width) noexcept {
+  const bool first = !known();
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    const float apart = (a[i].position - b[i].position).norm();
-    if (!(apart >= least)) least = apart;  // a number that is none stays
-    if (std::isnan(least)) break;
+    end = (a[i].position - b[i].position).norm() * shoulder_width;
+    if (std::isnan(end)) {
+      *this = {};
+      return false;
+    }
+    if (first && i == 0) least = most = begin = end;
+    least = std::min(least, end);
+    most = std::max(most, end);
   }
-  return least * shoulder_width;
+  return known();
 }
 
-PointOver join(std::span<const PointOver> overs, std::span<const double> frames, float shoulder_width) noexcept {
-  PointOver result = overs.front();
-  result.end = overs.back().end;
+float Distances::operator[](HandMeasure measure) const noexcept {
+  switch (measure) {
+    case HandMeasure::distance:
+      return least;
+    case HandMeasure::most_distance:
+      return most;
+    case HandMeasure::begin_distance:
+      return begin;
+    case HandMeasure::end_distance:
+      return end;
+    default:
+      return kNotKnown;
+  }
+}
+
+Course join(std::span<const Course> courses, std::span<const double> frames, float shoulder_width) noexcept {
+  Course result = courses.front();
+  if (courses.size() == 1) return result;
+  PointOver& all = result.over;
+  all.end = courses.back().over.end;
   double weight = 0;
   double path = 0;
   double speeds = 0;
   double accelerations = 0;
-  for (std::size_t i = 0; i < overs.size(); ++i) {
+  for (std::size_t i = 0; i < courses.size(); ++i) {
+    const PointOver& over = courses[i].over;
     const double share = std::max(frames[i], 1.0);
     weight += share;
-    path += static_cast<double>(overs[i].path_length);
-    speeds += share * static_cast<double>(overs[i].mean_speed);
-    accelerations += share * static_cast<double>(overs[i].mean_acceleration);
-    result.peak_speed = std::max(result.peak_speed, overs[i].peak_speed);
-    result.peak_acceleration = std::max(result.peak_acceleration, overs[i].peak_acceleration);
-    result.contact = result.contact | overs[i].contact;
+    path += static_cast<double>(over.path_length);
+    speeds += share * static_cast<double>(over.mean_speed);
+    accelerations += share * static_cast<double>(over.mean_acceleration);
+    all.peak_speed = std::max(all.peak_speed, over.peak_speed);
+    all.peak_acceleration = std::max(all.peak_acceleration, over.peak_acceleration);
+    all.contact = all.contact | over.contact;
+    result.extent = join(result.extent, courses[i].extent);
   }
-  if (overs.size() == 1) return result;
-  result.path_length = static_cast<float>(path);
-  result.mean_speed = static_cast<float>(speeds / weight);
-  result.mean_acceleration = static_cast<float>(accelerations / weight);
-  result.displacement = (result.end.position - result.begin.position).norm() * shoulder_width;
+  all.path_length = static_cast<float>(path);
+  all.mean_speed = static_cast<float>(speeds / weight);
+  all.mean_acceleration = static_cast<float>(accelerations / weight);
+  all.displacement = (all.end.position - all.begin.position).norm() * shoulder_width;
   return result;
 }
 
@@ -271,7 +311,7 @@ MovementColumns measure_rows(std::span<const MovementRow> rows, const RecordingF
     }
     const std::size_t place = phase++;
     const bool measured = place < features.phases.size() && features.phases[place].known;
-    const Stretch stretch = measured ? from_features(features.phases[place], traced) : traced;
+    const Stretch stretch = measured ? from_features(features.phases[place], traced, trace.body) : traced;
     write(stretch, trace.body, row, columns);
     if (rows[row].phase == PhaseKind::stroke && rows[row].parent < rows.size()) {
       strokes[rows[row].parent].push_back({rows[row].span.begin, stretch});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -13,7 +14,9 @@
 #include "signweave/features/gaze.h"
 #include "signweave/features/hand_trace.h"
 #include "signweave/features/phase_features.h"
+#include "signweave/features/point_sum.h"
 #include "signweave/features/point_track.h"
+#include "signweave/query/extent.h"
 #include "signweave/semantic_db/segment_table.h"
 
 namespace signweave {
@@ -21,36 +24,50 @@ namespace signweave {
 // How a query gets at movement without knowing where it is stored: `Movement`, which `database` implements. What is
 // measured of the hands is a column of floats for each measure, computed by `measure_rows` when a recording is put.
 
-/// What is measured of one hand over one segment. Stored on disk: never renumber.
+/// What is measured of one hand over one segment, or of both.
 enum class HandMeasure : std::uint8_t {
-  speed = 0,              ///< the peak, metres a second
-  mean_speed = 1,         ///< metres a second
-  acceleration = 2,       ///< the peak of its length, metres a second squared
-  mean_acceleration = 3,  ///< of its length, metres a second squared
-  path = 4,               ///< its length, metres
-  displacement = 5,       ///< straight from begin to end, metres
-  contact = 6,            ///< a set of Contact as a number: all that is touched at some moment
-  begin_x = 7,            ///< at the first frame: to the signer's left, shoulder widths
-  begin_height = 8,       ///< up
-  begin_forward = 9,
-  begin_state = 10,  ///< see `state_number`
-  end_x = 11,        ///< at the last frame
-  end_height = 12,
-  end_forward = 13,
-  end_state = 14,
-  distance = 15,        ///< of the palms from each other, the least, metres; one column for both hands, as are these:
-  begin_distance = 16,  ///< at the first frame
-  end_distance = 17,    ///< at the last
+  speed,              ///< the peak, metres a second
+  mean_speed,         ///< metres a second
+  least_speed,        ///< metres a second
+  acceleration,       ///< the peak of its length, metres a second squared
+  mean_acceleration,  ///< of its length, metres a second squared
+  least_acceleration,
+  path,          ///< its length, metres
+  displacement,  ///< straight from begin to end, metres
+  contact,       ///< a set of Contact as a number: all that is touched at some moment
+  begin_x,       ///< at the first frame: to the signer's left, shoulder widths
+  begin_height,  ///< up
+  begin_forward,
+  begin_state,  ///< see `state_number`
+  end_x,        ///< at the last frame
+  end_height,
+  end_forward,
+  end_state,
+  least_x,  ///< the farthest to the signer's right, shoulder widths
+  least_height,
+  least_forward,
+  least_openness,
+  most_x,
+  most_height,
+  most_forward,
+  most_openness,
+  zones,     ///< a set: where it is at some moment (query/extent.h)
+  entered,   ///< a set: the zones that it enters
+  facings,   ///< a set: where palm and fingers point to at some moment
+  distance,  ///< of the palms from each other, the least, metres; one column for both hands, as are these:
+  most_distance,
+  begin_distance,  ///< at the first frame
+  end_distance,    ///< at the last
 };
-inline constexpr std::size_t kHandMeasures = 15;
+inline constexpr std::size_t kHandMeasures = static_cast<std::size_t>(HandMeasure::distance);
 
 /// One column: a measure of a hand, or one of both (then `side` does not matter).
 struct Column {
   HandMeasure measure = HandMeasure::speed;
   Side side = Side::right;
 };
-inline constexpr std::size_t kMovementColumns = 2 * kHandMeasures + 3;
-/// Its place among all columns, below kMovementColumns: left hand's, right hand's, both hands'. Stored on disk.
+inline constexpr std::size_t kMovementColumns = 2 * kHandMeasures + 4;
+/// Its place among all columns, below kMovementColumns: left hand's, right hand's, both hands'.
 constexpr std::size_t place_of(Column column) noexcept {
   const auto measure = static_cast<std::size_t>(column.measure);
   if (measure >= kHandMeasures) return kHandMeasures + measure;
@@ -125,15 +142,50 @@ class Movement {
   virtual void pause() const {}
 };
 
-/// One of the measures of a hand, or of a point in its place; `body` tells the zones.
-float measure_of(const PointOver& over, HandMeasure measure, const SignerBody& body) noexcept;
+/// How a point moves over one stretch, or over several of them one after the other.
+struct Course {
+  PointOver over;
+  Extent extent;
+};
 
-/// Metres between two points, the least of the frames that both have; a number that is none where one of them is.
-float least_distance(std::span<const PointFrame> a, std::span<const PointFrame> b, float shoulder_width) noexcept;
+/// `Course` of frames that are added one after the other. Borrows the body, which tells the zones.
+class CourseSum {
+ public:
+  explicit CourseSum(const SignerBody& body) noexcept : reached_(body) {}
+  void add(const PointFrame& frame) noexcept {
+    moved_.add(frame);
+    reached_.add(frame);
+  }
+  /// Of what was added, at least one frame.
+  Course course(FrameRate rate, float shoulder_width) const noexcept {
+    return {moved_.over(rate, shoulder_width), reached_.extent()};
+  }
+
+ private:
+  PointSum moved_;
+  ExtentSum reached_;
+};
+
+/// One of the measures of a hand, or of a point in its place, `kNotKnown` where it is none of a hand's; `body` tells
+/// the zones.
+float measure_of(const Course& course, HandMeasure measure, const SignerBody& body) noexcept;
 
 /// Of several stretches (at least one) as of one: peaks, sums, and means by `frames`. Displacement is from the begin of
 /// the first to the end of the last.
-PointOver join(std::span<const PointOver> overs, std::span<const double> frames, float shoulder_width) noexcept;
+Course join(std::span<const Course> courses, std::span<const double> frames, float shoulder_width) noexcept;
+
+/// How far two points are from each other over some frames, metres; kNotKnown before a frame was added, and for good
+/// once one of them is not known.
+struct Distances {
+  float least = kNotKnown;
+  float most = kNotKnown;
+  float begin = kNotKnown;
+  float end = kNotKnown;
+  bool known() const noexcept { return !std::isnan(least); }
+  /// Frames that come next, which both have; false where it is not known: then nothing more may be added.
+  bool add(std::span<const PointFrame> a, std::span<const PointFrame> b, float shoulder_width) noexcept;
+  float operator[](HandMeasure measure) const noexcept;
+};
 
 /// Where rows of one table get their movement.
 struct MovingTable {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "signweave/features/point_sum.h"
 #include "signweave/query/series_over.h"
 
 #if defined(__SSE2__)
@@ -27,16 +26,46 @@ float not_below(double value) noexcept {
   return static_cast<double>(near) < value ? std::nextafter(near, kUnbounded) : near;
 }
 
+/// The measure of a component at the first or the last moment.
+HandMeasure measure_at(bool begin, Component component, bool named) noexcept {
+  if (component == Component::x) return begin ? HandMeasure::begin_x : HandMeasure::end_x;
+  if (!named && component == Component::height) return begin ? HandMeasure::begin_height : HandMeasure::end_height;
+  if (!named && component == Component::forward) return begin ? HandMeasure::begin_forward : HandMeasure::end_forward;
+  return begin ? HandMeasure::begin_state : HandMeasure::end_state;
+}
+
+/// The measure of the most or the least that a component is.
+HandMeasure measure_of_extent(bool most, Component component) noexcept {
+  if (component == Component::x) return most ? HandMeasure::most_x : HandMeasure::least_x;
+  if (component == Component::height) return most ? HandMeasure::most_height : HandMeasure::least_height;
+  if (component == Component::forward) return most ? HandMeasure::most_forward : HandMeasure::least_forward;
+  return most ? HandMeasure::most_openness : HandMeasure::least_openness;
+}
+
+bool is_equality(Compare compare) noexcept {
+  return compare == Compare::equal || compare == Compare::not_equal;
+}
+
+/// What `any` is told from: at some moment more than a number is where the most is, less where the least is.
+HandMeasure measure_at_any(const Condition& condition) noexcept {
+  const Component component = condition.movement.component;
+  if (component == Component::contact) return HandMeasure::contact;
+  if (component == Component::palm || component == Component::fingers) return HandMeasure::facings;
+  if (is_equality(condition.compare)) return HandMeasure::zones;
+  const bool most = condition.compare == Compare::greater || condition.compare == Compare::greater_equal;
+  return measure_of_extent(most, component);
+}
+
 HandMeasure measure_for(const Condition& condition) noexcept {
   const MovementTerm& term = condition.movement;
-  const bool named = !std::holds_alternative<Amount>(condition.value);
+  const bool least = term.component == Component::least;
   switch (term.quantity) {
     case Quantity::speed:
-      return HandMeasure::speed;
+      return least ? HandMeasure::least_speed : HandMeasure::speed;
     case Quantity::mean_speed:
       return HandMeasure::mean_speed;
     case Quantity::acceleration:
-      return HandMeasure::acceleration;
+      return least ? HandMeasure::least_acceleration : HandMeasure::acceleration;
     case Quantity::mean_acceleration:
       return HandMeasure::mean_acceleration;
     case Quantity::path:
@@ -46,30 +75,64 @@ HandMeasure measure_for(const Condition& condition) noexcept {
     case Quantity::contact:
       return HandMeasure::contact;
     case Quantity::distance:
-      return term.component == Component::begin ? HandMeasure::begin_distance
-             : term.component == Component::end ? HandMeasure::end_distance
-                                                : HandMeasure::distance;
+      return term.component == Component::begin  ? HandMeasure::begin_distance
+             : term.component == Component::end  ? HandMeasure::end_distance
+             : term.component == Component::most ? HandMeasure::most_distance
+                                                 : HandMeasure::distance;
     case Quantity::begin:
     case Quantity::end:
+      return measure_at(term.quantity == Quantity::begin, term.component,
+                        !std::holds_alternative<Amount>(condition.value));
+    case Quantity::max:
+    case Quantity::min:
+      return measure_of_extent(term.quantity == Quantity::max, term.component);
+    case Quantity::any:
+      return measure_at_any(condition);
+    case Quantity::enters:
+      return HandMeasure::entered;
     case Quantity::track:
     case Quantity::mean_track:
     case Quantity::gaze:
     case Quantity::mean_gaze:
       break;
   }
-  const bool begin = term.quantity == Quantity::begin;
-  if (term.component == Component::x) return begin ? HandMeasure::begin_x : HandMeasure::end_x;
-  if (!named && term.component == Component::height) return begin ? HandMeasure::begin_height : HandMeasure::end_height;
-  if (!named && term.component == Component::forward)
-    return begin ? HandMeasure::begin_forward : HandMeasure::end_forward;
-  return begin ? HandMeasure::begin_state : HandMeasure::end_state;
+  return HandMeasure::speed;
+}
+
+/// The bits of a set that fulfil a condition.
+std::uint32_t mask_for(const Condition& condition) noexcept {
+  const auto of = [&](std::uint32_t bit, std::uint32_t all) {
+    return condition.compare == Compare::not_equal ? all & ~bit : bit;
+  };
+  if (const Height* height = std::get_if<Height>(&condition.value)) return of(bit_of(*height), kHeightBits);
+  if (const Across* across = std::get_if<Across>(&condition.value)) return of(bit_of(*across), kAcrossBits);
+  if (const Reach* reach = std::get_if<Reach>(&condition.value)) return of(bit_of(*reach), kReachBits);
+  if (const Contact* contact = std::get_if<Contact>(&condition.value)) return static_cast<std::uint32_t>(*contact);
+  const Facing* facing = std::get_if<Facing>(&condition.value);
+  if (facing == nullptr) return 0;
+  return condition.movement.component == Component::palm ? of(palm_bit(*facing), kPalmBits)
+                                                         : of(fingers_bit(*facing), kFingersBits);
 }
 
 /// Whether a column counts shoulder widths; else metres or something else.
 bool in_shoulder_widths(HandMeasure measure) noexcept {
-  return measure == HandMeasure::begin_x || measure == HandMeasure::begin_height ||
-         measure == HandMeasure::begin_forward || measure == HandMeasure::end_x || measure == HandMeasure::end_height ||
-         measure == HandMeasure::end_forward;
+  switch (measure) {
+    case HandMeasure::begin_x:
+    case HandMeasure::begin_height:
+    case HandMeasure::begin_forward:
+    case HandMeasure::end_x:
+    case HandMeasure::end_height:
+    case HandMeasure::end_forward:
+    case HandMeasure::least_x:
+    case HandMeasure::least_height:
+    case HandMeasure::least_forward:
+    case HandMeasure::most_x:
+    case HandMeasure::most_height:
+    case HandMeasure::most_forward:
+      return true;
+    default:
+      return false;
+  }
 }
 
 bool compares(auto a, Compare compare, auto b) noexcept {
@@ -92,20 +155,32 @@ bool compares(auto a, Compare compare, auto b) noexcept {
   return false;
 }
 
-Across across_of(float x) noexcept {
-  return x > kCentre ? Across::left : x < -kCentre ? Across::right : Across::centre;
-}
-
 }  // namespace
+
+MovementCheck::Reading MovementCheck::reading_of(const Condition& condition, HandMeasure measure) noexcept {
+  switch (measure) {
+    case HandMeasure::begin_state:
+    case HandMeasure::end_state:
+      return Reading::state;
+    case HandMeasure::contact:
+    case HandMeasure::zones:
+    case HandMeasure::entered:
+    case HandMeasure::facings:
+      return Reading::set;
+    default:
+      return condition.compare == Compare::not_equal ? Reading::outside : Reading::within;
+  }
+}
 
 MovementCheck::MovementCheck(const Condition& condition, const Movement* movement)
     : movement_(movement), condition_(&condition) {
   if (is_series(condition.movement.quantity)) return;
-  const HandMeasure measure = measure_for(condition);
-  by_state_ = measure == HandMeasure::begin_state || measure == HandMeasure::end_state;
+  measure_ = measure_for(condition);
+  reading_ = reading_of(condition, measure_);
+  mask_ = mask_for(condition);
   if (const Amount* amount = std::get_if<Amount>(&condition.value)) {
-    scaled_ = (amount->unit == Unit::metres && in_shoulder_widths(measure)) ||
-              (amount->unit == Unit::shoulder_widths && !in_shoulder_widths(measure));
+    scaled_ = (amount->unit == Unit::metres && in_shoulder_widths(measure_)) ||
+              (amount->unit == Unit::shoulder_widths && !in_shoulder_widths(measure_));
   }
   if (movement_ == nullptr) return;
   const MovementTerm& term = condition.movement;
@@ -114,9 +189,9 @@ MovementCheck::MovementCheck(const Condition& condition, const Movement* movemen
     for (const Side side : kSides) use(Point::palm(side), true);
   };
   each_point(term.point, [&](const Point& point, bool own) {
-    if (!term.other) return ways_.push_back({point, std::nullopt, own, false, measure});
+    if (!term.other) return ways_.push_back({point, std::nullopt, own, false});
     each_point(*term.other, [&](const Point& other, bool other_own) {
-      if (other != point) ways_.push_back({point, other, own, other_own, measure});
+      if (other != point) ways_.push_back({point, other, own, other_own});
     });
   });
 }
@@ -127,13 +202,15 @@ void MovementCheck::load(std::uint32_t recording) {
   told_.clear();
   for (Way& way : ways_) {
     const bool palms = way.point.kind == Point::Kind::palm && (!way.other || way.other->kind == Point::Kind::palm);
-    if (palms) way.column = movement_->column({way.measure, way.point.side}, recording);
+    if (palms) way.column = movement_->column({measure_, way.point.side}, recording);
   }
-  if (std::holds_alternative<Amount>(condition_->value)) bounds_ = bounds(recording);
+  const bool number = std::holds_alternative<Amount>(condition_->value);
+  if (number) bounds_ = bounds_of_amount(recording);
+  if (!number && (reading_ == Reading::within || reading_ == Reading::outside)) bounds_ = bounds_of_zone(recording);
   recording_ = recording;
 }
 
-MovementCheck::Bounds MovementCheck::bounds(std::uint32_t recording) const {
+MovementCheck::Bounds MovementCheck::bounds_of_amount(std::uint32_t recording) const {
   const Amount& amount = std::get<Amount>(condition_->value);
   double value = amount.value;
   if (scaled_) {
@@ -159,16 +236,55 @@ MovementCheck::Bounds MovementCheck::bounds(std::uint32_t recording) const {
   return {kUnbounded, -kUnbounded};
 }
 
+/// Of a named zone, by the borders that `zone_of` looks at.
+MovementCheck::Bounds MovementCheck::bounds_of_zone(std::uint32_t recording) const {
+  const auto below = [](float value) { return std::nextafter(value, -kUnbounded); };
+  const auto above = [](float value) { return std::nextafter(value, kUnbounded); };
+  const auto body = [&] { return movement_->hands(recording)->body; };
+  Bounds zone{-kUnbounded, kUnbounded};
+  if (const Height* height = std::get_if<Height>(&condition_->value)) {
+    const auto i = static_cast<std::size_t>(*height);
+    const std::array<float, 8> borders = body().heights;
+    if (i > 0) zone.low = borders[i];
+    if (i + 1 < borders.size()) zone.high = below(borders[i + 1]);
+  } else if (const Across* across = std::get_if<Across>(&condition_->value)) {
+    if (*across != Across::right) zone.low = *across == Across::left ? above(kCentre) : -kCentre;
+    if (*across != Across::left) zone.high = *across == Across::right ? below(-kCentre) : kCentre;
+  } else if (const Reach* reach = std::get_if<Reach>(&condition_->value)) {
+    const float border = body().near_reach;
+    if (*reach == Reach::far) zone.low = above(border);
+    if (*reach == Reach::near) zone.high = border;
+  }
+  switch (condition_->compare) {
+    case Compare::less:
+      return {-kUnbounded, below(zone.low)};
+    case Compare::less_equal:
+      return {-kUnbounded, zone.high};
+    case Compare::greater:
+      return {above(zone.high), kUnbounded};
+    case Compare::greater_equal:
+      return {zone.low, kUnbounded};
+    case Compare::equal:
+    case Compare::not_equal:
+    case Compare::matches:
+      break;
+  }
+  return zone;
+}
+
 bool MovementCheck::fits(float value) const {
   if (std::isnan(value)) return false;
+  switch (reading_) {
+    case Reading::within:
+      return bounds_.hold(value);
+    case Reading::outside:
+      return !bounds_.hold(value);
+    case Reading::set:
+      return (static_cast<std::uint32_t>(value) & mask_) != 0;
+    case Reading::state:
+      break;
+  }
   const Compare compare = condition_->compare;
-  if (const Across* across = std::get_if<Across>(&condition_->value)) {
-    return compares(across_of(value), compare, *across);
-  }
-  if (const Contact* contact = std::get_if<Contact>(&condition_->value); contact != nullptr && !by_state_) {
-    return has(static_cast<Contact>(static_cast<unsigned>(value)), *contact);
-  }
-  if (!by_state_) return bounds_.hold(value);
   const StateAndZone at = state_of(static_cast<std::uint32_t>(value));
   if (const Height* height = std::get_if<Height>(&condition_->value)) return compares(at.height, compare, *height);
   if (const Reach* reach = std::get_if<Reach>(&condition_->value)) return compares(at.reach, compare, *reach);
@@ -228,21 +344,16 @@ float MovementCheck::from_frames(const Way& way, std::uint32_t recording, std::s
   const std::shared_ptr<const HandTrace> trace = movement_->hands(recording);
   if (trace->samples() == 0 || stretches.empty()) return kNotKnown;
   const FrameClock clock = movement_->clock(recording);
-  const auto apart = [&](const PointFrame& a, const PointFrame& b) {
-    return (a.position - b.position).norm() * trace->shoulder_width;
-  };
-  std::vector<PointOver> overs;
+  std::vector<Course> courses;
   std::vector<double> weights;
   PointTrack points;
   PointTrack others;
-  float least = kUnbounded;
-  float first = kNotKnown;
-  float last = kNotKnown;
+  Distances apart;
   bool known = true;
   for (const TimeSpan span : stretches) {
     const FrameRange frames = measured_frames(span, clock, trace->frames);
     if (frames.empty()) return kNotKnown;
-    PointSum sum;
+    CourseSum sum(trace->body);
     for_pieces(
         frames, [this] { movement_->pause(); },
         [&](FrameRange piece) {
@@ -255,24 +366,16 @@ float MovementCheck::from_frames(const Way& way, std::uint32_t recording, std::s
             return;
           }
           track(*way.other, recording, *trace, piece, others);
-          const float near =
-              others.size() == points.size() ? least_distance(points, others, trace->shoulder_width) : kNotKnown;
-          known = !std::isnan(near);
-          if (!known) return;
-          if (least == kUnbounded) first = apart(points.front(), others.front());
-          last = apart(points.back(), others.back());
-          least = std::min(least, near);
+          known = others.size() == points.size() && apart.add(points, others, trace->shoulder_width);
         });
     if (!known) return kNotKnown;
     if (way.other) continue;
-    overs.push_back(sum.over(trace->rate, trace->shoulder_width));
+    courses.push_back(sum.course(trace->rate, trace->shoulder_width));
     weights.push_back(static_cast<double>(frames.size()));
   }
-  if (way.measure == HandMeasure::begin_distance) return first;
-  if (way.measure == HandMeasure::end_distance) return last;
-  if (way.measure == HandMeasure::distance) return least;
-  const PointOver all = join(overs, weights, trace->shoulder_width);
-  return std::isfinite(all.path_length) ? measure_of(all, way.measure, trace->body) : kNotKnown;
+  if (way.other) return apart[measure_];
+  const Course all = join(courses, weights, trace->shoulder_width);
+  return std::isfinite(all.over.path_length) ? measure_of(all, measure_, trace->body) : kNotKnown;
 }
 
 #if defined(__SSE2__)
@@ -280,33 +383,49 @@ namespace {
 
 /// Which of four numbers are no less than `low` and no more than `high`; a bound that is infinite is not looked at.
 template <bool kLow, bool kHigh>
-__m128 within(const float* values, __m128 low, __m128 high) noexcept {
-  const __m128 four = _mm_loadu_ps(values);
-  if constexpr (!kLow) return _mm_cmple_ps(four, high);
-  if constexpr (!kHigh) return _mm_cmple_ps(low, four);
-  return _mm_and_ps(_mm_cmple_ps(low, four), _mm_cmple_ps(four, high));
-}
+struct Within {
+  __m128 low, high;
+  Within(float low_bound, float high_bound) noexcept : low(_mm_set1_ps(low_bound)), high(_mm_set1_ps(high_bound)) {}
+  __m128 operator()(__m128 four) const noexcept {
+    if constexpr (!kLow) return _mm_cmple_ps(four, high);
+    if constexpr (!kHigh) return _mm_cmple_ps(low, four);
+    return _mm_and_ps(_mm_cmple_ps(low, four), _mm_cmple_ps(four, high));
+  }
+};
 
-/// Appends `first` + the places of what lies within, of the first multiple of 64 numbers; gives how many those are.
-template <bool kLow, bool kHigh>
-std::size_t append_blocks(std::span<const float> column, float low_bound, float high_bound, RowId first,
-                          std::vector<RowId>& rows) {
+/// Which of four numbers lie without; what is no number does not.
+struct Outside {
+  __m128 low, high;
+  Outside(float low_bound, float high_bound) noexcept : low(_mm_set1_ps(low_bound)), high(_mm_set1_ps(high_bound)) {}
+  __m128 operator()(__m128 four) const noexcept { return _mm_or_ps(_mm_cmplt_ps(four, low), _mm_cmpgt_ps(four, high)); }
+};
+
+/// Which of four sets have a bit of the mask; what is no number is no set, though it has every bit as an integer.
+struct HasBit {
+  __m128i mask;
+  explicit HasBit(std::uint32_t bits) noexcept : mask(_mm_set1_epi32(static_cast<int>(bits & 0x7FFFFFFFU))) {}
+  __m128 operator()(__m128 four) const noexcept {
+    const __m128i sets = _mm_cvttps_epi32(four);  // what is no number becomes the least integer, its highest bit alone
+    const __m128i none = _mm_cmpeq_epi32(_mm_and_si128(sets, mask), _mm_setzero_si128());
+    return _mm_castsi128_ps(_mm_xor_si128(none, _mm_set1_epi32(-1)));
+  }
+};
+
+/// Appends `first` + the places of the numbers that fit, of the first multiple of 64; gives how many those are.
+template <typename Fits>
+std::size_t append_blocks(std::span<const float> column, const Fits& fits, RowId first, std::vector<RowId>& rows) {
   constexpr std::size_t kBlock = 64;
-  const __m128 low = _mm_set1_ps(low_bound);
-  const __m128 high = _mm_set1_ps(high_bound);
   std::size_t i = 0;
   for (; i + kBlock <= column.size(); i += kBlock) {
-    // Of most blocks nothing fits: that is told first, with one branch.
+    // Of most blocks nothing fits: that is found first, with one branch.
     const float* values = column.data() + i;
     __m128 any[4];
-    for (std::size_t k = 0; k < 4; ++k) any[k] = within<kLow, kHigh>(values + 4 * k, low, high);
-    for (std::size_t k = 4; k < kBlock / 4; ++k) {
-      any[k % 4] = _mm_or_ps(any[k % 4], within<kLow, kHigh>(values + 4 * k, low, high));
-    }
+    for (std::size_t k = 0; k < 4; ++k) any[k] = fits(_mm_loadu_ps(values + 4 * k));
+    for (std::size_t k = 4; k < kBlock / 4; ++k) any[k % 4] = _mm_or_ps(any[k % 4], fits(_mm_loadu_ps(values + 4 * k)));
     if (_mm_movemask_ps(_mm_or_ps(_mm_or_ps(any[0], any[1]), _mm_or_ps(any[2], any[3]))) == 0) continue;
     std::uint64_t bits = 0;
     for (std::size_t k = 0; k < kBlock / 4; ++k) {
-      const auto four = static_cast<unsigned>(_mm_movemask_ps(within<kLow, kHigh>(values + 4 * k, low, high)));
+      const auto four = static_cast<unsigned>(_mm_movemask_ps(fits(_mm_loadu_ps(values + 4 * k))));
       bits |= std::uint64_t{four} << 4 * k;
     }
     std::size_t end = rows.size();
@@ -321,16 +440,25 @@ std::size_t append_blocks(std::span<const float> column, float low_bound, float 
 }  // namespace
 #endif
 
-void MovementCheck::append_within(std::span<const float> column, Bounds bounds, RowId first, std::vector<RowId>& rows) {
+void MovementCheck::append_fitting(std::span<const float> column, RowId first, std::vector<RowId>& rows) const {
   std::size_t i = 0;
 #if defined(__SSE2__)
-  const auto append = bounds.high == kUnbounded   ? append_blocks<true, false>
-                      : bounds.low == -kUnbounded ? append_blocks<false, true>
-                                                  : append_blocks<true, true>;
-  i = append(column, bounds.low, bounds.high, first, rows);
+  const auto append = [&](const auto& fits) { i = append_blocks(column, fits, first, rows); };
+  const auto [low, high] = bounds_;
+  if (reading_ == Reading::set) {
+    append(HasBit(mask_));
+  } else if (reading_ == Reading::outside) {
+    append(Outside(low, high));
+  } else if (reading_ == Reading::within && high == kUnbounded) {
+    append(Within<true, false>(low, high));
+  } else if (reading_ == Reading::within && low == -kUnbounded) {
+    append(Within<false, true>(low, high));
+  } else if (reading_ == Reading::within) {
+    append(Within<true, true>(low, high));
+  }
 #endif
   for (; i < column.size(); ++i) {
-    if (bounds.hold(column[i])) rows.push_back(first + static_cast<RowId>(i));
+    if (fits(column[i])) rows.push_back(first + static_cast<RowId>(i));
   }
 }
 
@@ -345,15 +473,7 @@ bool MovementCheck::scan(std::uint32_t recording, RowId first, std::vector<RowId
   load(recording);
   if (std::ranges::any_of(ways_, [](const Way& way) { return way.column.values.empty(); })) return false;
   const std::size_t before = rows.size();
-  for (const Way& way : ways_) {
-    if (!by_state_ && std::holds_alternative<Amount>(condition_->value)) {
-      append_within(way.column.values, bounds_, first, rows);
-      continue;
-    }
-    for (std::size_t i = 0; i < way.column.values.size(); ++i) {
-      if (fits(way.column.values[i])) rows.push_back(first + static_cast<RowId>(i));
-    }
-  }
+  for (const Way& way : ways_) append_fitting(way.column.values, first, rows);
   if (ways_.size() < 2) return true;
   const auto from = rows.begin() + static_cast<std::ptrdiff_t>(before);
   std::sort(from, rows.end());

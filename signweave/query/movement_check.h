@@ -47,10 +47,16 @@ class MovementCheck {
   struct Way {
     Point point;
     std::optional<Point> other;
-    bool own = false;        ///< `point` is there for `hand`: of a row of one hand it must be that
-    bool other_own = false;  ///< the same of `other`
-    HandMeasure measure = HandMeasure::speed;
+    bool own = false;          ///< `point` is there for `hand`: of a row of one hand it must be that
+    bool other_own = false;    ///< the same of `other`
     ColumnValues column = {};  ///< of `recording_`; empty: from frames
+  };
+  /// How the number of a row answers.
+  enum class Reading : std::uint8_t {
+    within,   ///< by the bounds
+    outside,  ///< by lying outside the bounds
+    set,      ///< by a bit that it has of the mask
+    state,    ///< by what the state number says
   };
   /// Both included; no number lies within where low is above high, and what is no number nowhere.
   struct Bounds {
@@ -60,9 +66,11 @@ class MovementCheck {
 
   void load(std::uint32_t recording);
   float series_of(const MovingRow& row, const Stretches& stretches);
-  static void append_within(std::span<const float> column, Bounds bounds, RowId first, std::vector<RowId>& rows);
+  static Reading reading_of(const Condition& condition, HandMeasure measure) noexcept;
+  void append_fitting(std::span<const float> column, RowId first, std::vector<RowId>& rows) const;
   bool fits(float value) const;
-  Bounds bounds(std::uint32_t recording) const;
+  Bounds bounds_of_amount(std::uint32_t recording) const;
+  Bounds bounds_of_zone(std::uint32_t recording) const;
   float from_frames(const Way& way, std::uint32_t recording, std::span<const TimeSpan> stretches) const;
   void track(const Point& point, std::uint32_t recording, const HandTrace& trace, FrameRange frames,
              PointTrack& out) const;
@@ -71,9 +79,11 @@ class MovementCheck {
   const Condition* condition_;
   std::vector<Way> ways_;                   ///< one of them has to hold
   std::optional<std::uint32_t> recording_;  ///< of which columns and bounds are at hand
-  Bounds bounds_{};
+  HandMeasure measure_ = HandMeasure::speed;
+  Reading reading_ = Reading::within;
+  std::uint32_t mask_ = 0;   ///< where it is a set
+  Bounds bounds_{};          ///< of `recording_`
   bool scaled_ = false;      ///< the value's unit is not the column's: it depends on the signer's shoulders
-  bool by_state_ = false;    ///< the value is told from a state number
   std::vector<float> told_;  ///< [row of `recording_`] of a track or the gaze; infinite: not looked at yet
 };
 

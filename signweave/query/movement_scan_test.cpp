@@ -41,15 +41,34 @@ std::vector<float> some_numbers(std::mt19937& random, std::size_t count) {
   return numbers;
 }
 
+/// Sets of up to 24 members as numbers, some of which are none; few or most of them with many members.
+std::vector<float> some_sets(std::mt19937& random, std::size_t count) {
+  std::vector<float> sets(count);
+  const bool sparse = random() % 2 == 0;
+  for (float& set : sets) {
+    const std::uint32_t bits = sparse ? random() & random() & random() & random() & random() : random();
+    set = random() % 40 == 0 ? kNotKnown : static_cast<float>(bits & 0xFFFFFFU);
+  }
+  return sets;
+}
+
 RC_GTEST_PROP(MovementScan, FindsTheRowsOfWhichEachHoldsHoweverMany, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const std::size_t count = random() % 700;
-  TwoColumns movement;
-  for (std::vector<float>& values : movement.values) values = some_numbers(random, count);
+  TwoColumns numbers;
+  for (std::vector<float>& values : numbers.values) values = some_numbers(random, count);
+  TwoColumns sets;
+  for (std::vector<float>& values : sets.values) values = some_sets(random, count);
   for (const char* hand : {"left_hand", "right_hand", "hand"}) {
-    for (const char* compare : {"<", "<=", ">", ">="}) {
-      const PhaseQuery query = parse(fmt::format("speed({}) {} 1 m/s", hand, compare));
-      MovementCheck check(query.elements.front().term.expression.condition, &movement);
+    for (const char* what : {"speed({}) < 1 m/s", "speed({}) <= 1 m/s", "speed({}) > 1 m/s", "speed({}) >= 1 m/s",
+                             "max({}).x = centre", "max({}).x != centre", "max({}).x != left", "any({}).x = left",
+                             "any({}).x != left", "enters({}, chin)", "any({}).palm = up"}) {
+      const PhaseQuery query = parse(fmt::format(fmt::runtime(what), hand));
+      const Condition& condition = query.elements.front().term.expression.condition;
+      const Quantity quantity = condition.movement.quantity;
+      const bool of_sets = quantity == Quantity::any || quantity == Quantity::enters;
+      const TwoColumns& movement = of_sets ? sets : numbers;
+      MovementCheck check(condition, &movement);
       std::vector<RowId> expected = {3};
       for (RowId row = 0; row < count; ++row) {
         if (check.holds({.row = row}, {})) expected.push_back(row + 100);

@@ -49,6 +49,10 @@ ValueKind value_kind(const MovementTerm& term) noexcept {
       return ValueKind::angle;
     case Quantity::begin:
     case Quantity::end:
+    case Quantity::max:
+    case Quantity::min:
+    case Quantity::any:
+    case Quantity::enters:
       break;
   }
   switch (term.component) {
@@ -69,6 +73,7 @@ ValueKind value_kind(const MovementTerm& term) noexcept {
     case Component::begin:
     case Component::end:
     case Component::least:
+    case Component::most:
       break;
   }
   return ValueKind::length;
@@ -109,9 +114,11 @@ std::string to_string(const Point& point) {
 }
 
 std::string_view word_of(Quantity quantity) noexcept {
-  constexpr std::string_view kWords[] = {
-      "speed", "mean_speed", "acceleration", "mean_acceleration", "path", "displacement", "distance", "contact",
-      "begin", "end",        "track",        "mean_track",        "gaze", "mean_gaze"};
+  constexpr std::string_view kWords[] = {"speed", "mean_speed",   "acceleration", "mean_acceleration",
+                                         "path",  "displacement", "distance",     "contact",
+                                         "begin", "end",          "max",          "min",
+                                         "any",   "enters",       "track",        "mean_track",
+                                         "gaze",  "mean_gaze"};
   return kWords[static_cast<std::size_t>(quantity)];
 }
 
@@ -121,7 +128,7 @@ std::string_view word_of(GazeAngle angle) noexcept {
 
 std::string_view word_of(Component component) noexcept {
   constexpr std::string_view kWords[] = {"",        "x",       "height", "forward", "openness", "palm",
-                                         "fingers", "contact", "begin",  "end",     "least"};
+                                         "fingers", "contact", "begin",  "end",     "least",    "most"};
   return kWords[static_cast<std::size_t>(component)];
 }
 

@@ -35,16 +35,20 @@ struct Point {
 
 /// What is asked of a point, or of what a face does.
 enum class Quantity : std::uint8_t {
-  speed,  ///< the peak
+  speed,  ///< the peak, or the least
   mean_speed,
-  acceleration,  ///< the peak
+  acceleration,  ///< the peak, or the least
   mean_acceleration,
   path,          ///< its length
   displacement,  ///< straight from begin to end
-  distance,      ///< from another point: the least, or that at begin or end
+  distance,      ///< from another point: the least, the most, or that at begin or end
   contact,       ///< what a hand touches at some moment
   begin,         ///< a component at the first moment
   end,           ///< a component at the last moment
+  max,           ///< the most that a component is at any moment
+  min,           ///< the least
+  any,           ///< a component at some moment, whichever
+  enters,        ///< a zone that the point comes into
   track,         ///< of a scalar track: the most, or the component
   mean_track,
   gaze,  ///< of an angle of the gaze: the most, or the component
@@ -53,7 +57,8 @@ enum class Quantity : std::uint8_t {
 inline constexpr std::array kQuantities = {
     Quantity::speed, Quantity::mean_speed,   Quantity::acceleration, Quantity::mean_acceleration,
     Quantity::path,  Quantity::displacement, Quantity::distance,     Quantity::contact,
-    Quantity::begin, Quantity::end,          Quantity::track,        Quantity::mean_track,
+    Quantity::begin, Quantity::end,          Quantity::max,          Quantity::min,
+    Quantity::any,   Quantity::enters,       Quantity::track,        Quantity::mean_track,
     Quantity::gaze,  Quantity::mean_gaze};
 /// Whether it is a scalar track or the gaze: one number a frame, without a point.
 constexpr bool is_series(Quantity quantity) noexcept {
@@ -63,7 +68,25 @@ constexpr bool is_gaze(Quantity quantity) noexcept {
   return quantity >= Quantity::gaze;
 }
 
-enum class Component : std::uint8_t { none, x, height, forward, openness, palm, fingers, contact, begin, end, least };
+/// Whether a component of the point's place or of the hand belongs to it: `begin(right_hand)` says nothing yet.
+constexpr bool needs_component(Quantity quantity) noexcept {
+  return quantity >= Quantity::begin && quantity <= Quantity::enters;
+}
+
+enum class Component : std::uint8_t {
+  none,
+  x,
+  height,
+  forward,
+  openness,
+  palm,
+  fingers,
+  contact,
+  begin,
+  end,
+  least,
+  most
+};
 
 /// An angle of the gaze (features/gaze.h).
 enum class GazeAngle : std::uint8_t { yaw, pitch };

@@ -104,21 +104,110 @@ TEST(Movement, PhasesHaveTheirFeaturesSignsThoseOfTheirStrokesOthersWhatTheTrace
   EXPECT_EQ(at(HandMeasure::path, 0), over(track, trace.rate, trace.shoulder_width).path_length);
 }
 
+TEST(Movement, WhatIsReachedAtAnyMomentIsWhatTheFramesSay) {
+  const TestMotion test(240, 11);
+  const HandTrace trace = trace_hands(test.motion, test.model);
+  const std::vector<MovementRow> rows = {annotation({500ms, 2'500ms})};
+  const MovementColumns columns = measure_rows(rows, {}, trace, test.clock);
+  const auto at = [&](HandMeasure measure) { return columns[place_of({measure, Side::left})][0]; };
+  const PointTrack left = trace.track(TracePoint::left_palm, {30, 150});
+  const PointTrack right = trace.track(TracePoint::right_palm, {30, 150});
+  const auto number = [&](const auto& of, bool most) {
+    std::vector<float> numbers;
+    for (const PointFrame& frame : left) numbers.push_back(of(frame));
+    return most ? *std::ranges::max_element(numbers) : *std::ranges::min_element(numbers);
+  };
+  const auto height = [](const PointFrame& frame) { return frame.position.y(); };
+  EXPECT_EQ(at(HandMeasure::most_height), number(height, true));
+  EXPECT_EQ(at(HandMeasure::least_height), number(height, false));
+  const auto x = [](const PointFrame& frame) { return frame.position.x(); };
+  EXPECT_EQ(at(HandMeasure::most_x), number(x, true));
+  EXPECT_EQ(at(HandMeasure::least_x), number(x, false));
+  const auto forward = [](const PointFrame& frame) { return frame.position.z(); };
+  EXPECT_EQ(at(HandMeasure::most_forward), number(forward, true));
+  EXPECT_EQ(at(HandMeasure::least_forward), number(forward, false));
+  const auto openness = [](const PointFrame& frame) { return frame.state.openness; };
+  EXPECT_EQ(at(HandMeasure::most_openness), number(openness, true));
+  EXPECT_EQ(at(HandMeasure::least_openness), number(openness, false));
+  EXPECT_EQ(at(HandMeasure::least_speed), number([](const PointFrame& frame) { return frame.velocity.norm(); }, false));
+  EXPECT_EQ(at(HandMeasure::least_acceleration),
+            number([](const PointFrame& frame) { return frame.acceleration; }, false));
+  EXPECT_GT(at(HandMeasure::most_height), at(HandMeasure::least_height));
+
+  std::uint32_t in = 0;
+  std::uint32_t into = 0;
+  std::uint32_t faces = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const Zone zone = zone_of(left[i].position, trace.body);
+    in |= bits_of(zone);
+    faces |= palm_bit(left[i].state.palm) | fingers_bit(left[i].state.fingers);
+    if (i == 0) continue;
+    const Zone before = zone_of(left[i - 1].position, trace.body);
+    if (zone.height != before.height) into |= bit_of(zone.height);
+    if (zone.across != before.across) into |= bit_of(zone.across);
+    if (zone.reach != before.reach) into |= bit_of(zone.reach);
+  }
+  EXPECT_EQ(at(HandMeasure::zones), static_cast<float>(in));
+  EXPECT_EQ(at(HandMeasure::entered), static_cast<float>(into));
+  EXPECT_EQ(at(HandMeasure::facings), static_cast<float>(faces));
+  EXPECT_NE(into, 0U);
+
+  float most = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    most = std::max(most, (left[i].position - right[i].position).norm() * trace.shoulder_width);
+  }
+  EXPECT_EQ(at(HandMeasure::most_distance), most);
+  EXPECT_LT(at(HandMeasure::distance), most);
+}
+
+TEST(Movement, AZoneIsEnteredFromOutsideOnly) {
+  SignerBody body;
+  for (std::size_t i = 0; i < body.heights.size(); ++i) body.heights[i] = static_cast<float>(i);
+  const auto at = [](float height) { return PointFrame{.position = {0, height, 0}}; };
+  ExtentSum sum(body);
+  for (const float height : {3.5f, 3.5f, 4.5f, 4.6f}) sum.add(at(height));
+  EXPECT_EQ(sum.extent().in & kHeightBits, bit_of(Height::shoulder) | bit_of(Height::chin));
+  EXPECT_EQ(sum.extent().into, bit_of(Height::chin)) << "it was at the shoulder from the start";
+  sum.add(at(3.5f));
+  EXPECT_EQ(sum.extent().into, bit_of(Height::shoulder) | bit_of(Height::chin)) << "it left and came back";
+  sum.include(at(1.5f));
+  EXPECT_EQ(sum.extent().into, bit_of(Height::shoulder) | bit_of(Height::chin)) << "a frame by itself enters nothing";
+  EXPECT_EQ(sum.extent().height.least, 1.5f);
+}
+
+TEST(Movement, AHandWithoutFingersHasNoOpennessAndPointsNowhere) {
+  const SignerBody body;
+  ExtentSum sum(body);
+  sum.add({.state = {.openness = 0, .palm = Facing::unknown}});
+  const Course course{.over = {}, .extent = sum.extent()};
+  EXPECT_TRUE(std::isnan(measure_of(course, HandMeasure::most_openness, body)));
+  EXPECT_TRUE(std::isnan(measure_of(course, HandMeasure::least_openness, body)));
+  EXPECT_EQ(measure_of(course, HandMeasure::facings, body), 0);
+}
+
 TEST(Movement, SeveralStretchesAreJoinedByPeaksSumsAndMeans) {
-  std::array<PointOver, 2> overs;
-  overs[0].peak_speed = 1;
-  overs[1].peak_speed = 3;
-  overs[0].mean_speed = 1;
-  overs[1].mean_speed = 2;
-  overs[0].path_length = 0.1f;
-  overs[1].path_length = 0.2f;
-  overs[1].end.position = {1, 0, 0};
+  std::array<Course, 2> courses;
+  courses[0].over.peak_speed = 1;
+  courses[1].over.peak_speed = 3;
+  courses[0].over.mean_speed = 1;
+  courses[1].over.mean_speed = 2;
+  courses[0].over.path_length = 0.1f;
+  courses[1].over.path_length = 0.2f;
+  courses[1].over.end.position = {1, 0, 0};
+  courses[0].extent.height.add(-1);
+  courses[1].extent.height.add(2);
+  courses[0].extent.in = bit_of(Height::waist);
+  courses[1].extent.in = bit_of(Height::chin);
   const std::array<double, 2> frames = {10, 30};
-  const PointOver all = join(overs, frames, 0.4f);
-  EXPECT_EQ(all.peak_speed, 3);
-  EXPECT_FLOAT_EQ(all.mean_speed, 1.75f);
-  EXPECT_FLOAT_EQ(all.path_length, 0.3f);
-  EXPECT_FLOAT_EQ(all.displacement, 0.4f);
+  const Course all = join(courses, frames, 0.4f);
+  EXPECT_EQ(all.over.peak_speed, 3);
+  EXPECT_FLOAT_EQ(all.over.mean_speed, 1.75f);
+  EXPECT_FLOAT_EQ(all.over.path_length, 0.3f);
+  EXPECT_FLOAT_EQ(all.over.displacement, 0.4f);
+  EXPECT_EQ(all.extent.height.least, -1);
+  EXPECT_EQ(all.extent.height.most, 2);
+  EXPECT_EQ(all.extent.in, bit_of(Height::waist) | bit_of(Height::chin));
+  EXPECT_EQ(all.extent.into, 0) << "what lies between two stretches is not looked at";
 }
 
 TEST(Movement, WhatLiesOutsideTheMotionOrHasNoStrokeIsNotKnown) {
@@ -171,6 +260,19 @@ class Check : public testing::Test {
     set({HandMeasure::end_x, Side::right}, {0.7f, -0.7f, 0});
     set({HandMeasure::contact, Side::right}, {2, 5, kNotKnown});
     set({HandMeasure::distance, Side::right}, {0.1f, 0.5f, kNotKnown});
+    set({HandMeasure::most_distance, Side::right}, {0.2f, 0.9f, kNotKnown});
+    const SignerBody body = movement_.hands(0)->body;
+    chin_ = body.heights[static_cast<std::size_t>(Height::chin)];
+    set({HandMeasure::most_height, Side::right}, {chin_, std::nextafter(chin_, -9.0f), kNotKnown});
+    set({HandMeasure::least_height, Side::right}, {-1, -2, kNotKnown});
+    set({HandMeasure::most_x, Side::right}, {kCentre, std::nextafter(kCentre, 9.0f), kNotKnown});
+    set({HandMeasure::least_speed, Side::right}, {0.1f, 0.2f, kNotKnown});
+    const auto bits = [](auto... each) { return static_cast<float>((bit_of(each) | ...)); };
+    set({HandMeasure::zones, Side::right}, {bits(Height::chin, Height::shoulder, Across::centre, Reach::near),
+                                            bits(Height::shoulder, Across::left, Reach::far), kNotKnown});
+    set({HandMeasure::entered, Side::right}, {bits(Height::chin), 0, kNotKnown});
+    set({HandMeasure::facings, Side::right},
+        {static_cast<float>(palm_bit(Facing::up) | fingers_bit(Facing::left)), 0, kNotKnown});
   }
   void set(Column column, std::initializer_list<float> values) {
     RowId row = 0;
@@ -192,7 +294,42 @@ class Check : public testing::Test {
     return result;
   }
   TestMovement movement_;
+  float chin_ = 0;  ///< where its zone begins
 };
+
+TEST_F(Check, ComparesWhatIsReachedAtAnyMoment) {
+  using Rows = std::vector<RowId>;
+  EXPECT_EQ(rows("max(right_hand).height >= chin"), (Rows{0}));
+  EXPECT_EQ(rows("max(right_hand).height > shoulder"), (Rows{0}));
+  EXPECT_EQ(rows("max(right_hand).height = chin"), (Rows{0}));
+  EXPECT_EQ(rows("max(right_hand).height != chin"), (Rows{1}));
+  EXPECT_EQ(rows("max(right_hand).height < chin"), (Rows{1}));
+  EXPECT_EQ(rows("max(right_hand).height <= chin"), (Rows{0, 1}));
+  EXPECT_EQ(rows("max(right_hand).height > chin"), Rows());
+  EXPECT_EQ(rows("max(right_hand).height < 100"), (Rows{0, 1}));
+  EXPECT_EQ(rows("max(right_hand).x = centre"), (Rows{0}));
+  EXPECT_EQ(rows("max(right_hand).x = left"), (Rows{1}));
+  EXPECT_EQ(rows("max(right_hand).x != left"), (Rows{0}));
+  EXPECT_EQ(rows("min(right_hand).height < -1.5"), (Rows{1}));
+  EXPECT_EQ(rows("any(right_hand).height > shoulder"), (Rows{0})) << "where the most is";
+  EXPECT_EQ(rows("any(right_hand).height < -1.5"), (Rows{1})) << "where the least is";
+  EXPECT_EQ(rows("any(right_hand).height = chin"), (Rows{0}));
+  EXPECT_EQ(rows("any(right_hand).height = shoulder"), (Rows{0, 1}));
+  EXPECT_EQ(rows("any(right_hand).height != shoulder"), (Rows{0})) << "at some moment elsewhere";
+  EXPECT_EQ(rows("any(right_hand).x = left"), (Rows{1}));
+  EXPECT_EQ(rows("any(right_hand).forward = far"), (Rows{1}));
+  EXPECT_EQ(rows("any(right_hand).palm = up"), (Rows{0}));
+  EXPECT_EQ(rows("any(right_hand).palm != up"), Rows()) << "nor has a hand without fingers a palm that is not up";
+  EXPECT_EQ(rows("any(right_hand).fingers != up"), (Rows{0}));
+  EXPECT_EQ(rows("any(right_hand).contact = head"), (Rows{0}));
+  EXPECT_EQ(rows("enters(right_hand, chin)"), (Rows{0}));
+  EXPECT_EQ(rows("enters(right_hand).height = shoulder"), Rows());
+  EXPECT_EQ(rows("min(speed(right_hand)) > 0.15 m/s"), (Rows{1}));
+  EXPECT_EQ(rows("any(speed(right_hand)) < 0.15 m/s"), (Rows{0}));
+  EXPECT_EQ(rows("any(speed(right_hand)) > 1.5 m/s"), (Rows{1}));
+  EXPECT_EQ(rows("max(distance(right_hand, left_hand)) < 50 cm"), (Rows{0}));
+  EXPECT_EQ(rows("min(distance(right_hand, left_hand)) < 50 cm"), (Rows{0}));
+}
 
 TEST_F(Check, ComparesWhatIsStored) {
   using Rows = std::vector<RowId>;

@@ -21,7 +21,9 @@ using Kind = QueryToken::Kind;
 constexpr std::array kPlaceComponents = {Component::height, Component::x, Component::forward};
 constexpr std::array kHandComponents = {Component::height, Component::x,       Component::forward, Component::openness,
                                         Component::palm,   Component::fingers, Component::contact};
-constexpr std::array kDistanceComponents = {Component::begin, Component::end};
+constexpr std::array kExtentComponents = {Component::height, Component::x, Component::forward, Component::openness};
+constexpr std::array kDistanceComponents = {Component::begin, Component::end, Component::most};
+constexpr std::array kPeakComponents = {Component::least};
 constexpr std::array kHeights = {Height::below_waist, Height::waist, Height::chest,    Height::shoulder,
                                  Height::chin,        Height::mouth, Height::forehead, Height::above_head};
 constexpr std::array kAcross = {Across::left, Across::centre, Across::right};
@@ -64,6 +66,14 @@ struct Allowed {
   std::string_view compares;
 };
 
+/// What may be asked of as a whole in max(…), min(…) and any(…): one number at each moment.
+constexpr std::array kMomentary = {Quantity::speed, Quantity::acceleration, Quantity::distance, Quantity::track,
+                                   Quantity::gaze};
+
+constexpr bool is_over_moments(Quantity quantity) noexcept {
+  return quantity == Quantity::max || quantity == Quantity::min || quantity == Quantity::any;
+}
+
 Allowed allowed_for(ValueKind kind) {
   const std::vector<Unit> lengths = {Unit::shoulder_widths, Unit::metres, Unit::none};
   switch (kind) {
@@ -91,6 +101,12 @@ Allowed allowed_for(ValueKind kind) {
   return {};
 }
 
+Allowed allowed_for(const MovementTerm& term) {
+  Allowed allowed = allowed_for(value_kind(term));
+  if (term.quantity == Quantity::enters) return {{}, "", std::move(allowed.names), "="};
+  return allowed;
+}
+
 /// "write 1.5 m/s", "write one of up, down", or both.
 std::string what_to_write(const Allowed& allowed) {
   if (allowed.number.empty()) return fmt::format("use one of {}", fmt::join(allowed.names, ", "));
@@ -112,24 +128,13 @@ class MovementParser {
     result.field = Field::movement;
     MovementTerm& term = result.movement;
     term.quantity = value_of(kQuantities, name.text).value();
-    if (is_series(term.quantity)) {
-      parse_series(in_, name, term);
+    if (is_over_moments(term.quantity) && measured_inside()) return over_moments(name);
+    take_term(name, term);
+    if (term.quantity == Quantity::enters && term.component == Component::none) {
+      name_zone(result);
+    } else {
       result.compare = compare(result);
-      return result;
     }
-    in_.expect("(", fmt::format("name a point: {}(right_hand)", name.text));
-    term.point = point(false);
-    if (term.quantity == Quantity::distance) {
-      in_.expect(",", "name two points: distance(right_hand, head)");
-      const std::size_t begin = in_.peek().begin;
-      term.other = point(false);
-      if (*term.other == term.point) in_.fail(begin, "a point is in no distance from itself; name two points");
-    }
-    in_.expect(")", term.quantity == Quantity::distance ? "close the parenthesis after the two points"
-                                                        : "close the parenthesis after the point");
-    if (term.quantity == Quantity::contact) require_hand(term.point, name.begin, "contact");
-    term.component = component(term, name);
-    result.compare = compare(result);
     return result;
   }
 
@@ -160,8 +165,106 @@ class MovementParser {
   }
 
  private:
-  Point point(bool sided) {
+  /// Whether a quantity that has a number at each moment stands in the parenthesis that follows.
+  bool measured_inside() {
+    QueryLexer ahead = in_;
+    if (!ahead.accept("(") || ahead.peek().kind != Kind::word) return false;
+    return is_quantity(ahead.take().text) && ahead.next_is("(");
+  }
+
+  /// max(speed(right_hand)): the same as a quantity with a component.
+  Condition over_moments(const QueryToken& name) {
+    Condition result;
+    result.field = Field::movement;
+    MovementTerm& term = result.movement;
+    const Quantity over = value_of(kQuantities, name.text).value();
+    in_.expect("(", "");
+    const QueryToken inner = in_.take();
+    if (!value_of(kMomentary, inner.text)) {
+      in_.fail(inner.begin,
+               fmt::format("'{}' is no number of a moment; {}({}) takes one of {}, or a point: {}(right_hand).height",
+                           inner.text, name.text, "…", fmt::join(words_of(kMomentary), ", "), name.text));
+    }
+    term.quantity = value_of(kMomentary, inner.text).value();
+    take_term(inner, term);
+    if (term.component != Component::none) {
+      in_.fail(inner.begin, fmt::format("'{}' is one moment's already; leave '{}' out", to_string(term), name.text));
+    }
+    in_.expect(")", fmt::format("close the parenthesis of '{}'", name.text));
+    const bool is_distance = term.quantity == Quantity::distance;
+    const auto ask = [&](bool most) {
+      if (most) term.component = is_distance ? Component::most : Component::none;
+      if (!most) term.component = is_distance ? Component::none : Component::least;
+    };
+    ask(over == Quantity::max);
+    result.compare = compare(result);
+    // At some moment above: the most is above. At some moment below: the least is.
+    if (over == Quantity::any) ask(result.compare == Compare::greater || result.compare == Compare::greater_equal);
+    return result;
+  }
+
+  /// What stands in parentheses behind a quantity's name, and the component behind it.
+  void take_term(const QueryToken& name, MovementTerm& term) {
+    if (is_series(term.quantity)) return parse_series(in_, name, term);
+    in_.expect("(", fmt::format("name a point: {}(right_hand)", name.text));
+    std::optional<QueryToken> inside;
+    term.point = needs_component(term.quantity) ? point_and_component(inside) : point(false);
+    if (term.quantity == Quantity::distance) {
+      in_.expect(",", "name two points: distance(right_hand, head)");
+      const std::size_t begin = in_.peek().begin;
+      term.other = point(false);
+      if (*term.other == term.point) in_.fail(begin, "a point is in no distance from itself; name two points");
+    }
+    if (term.quantity == Quantity::enters && !inside && in_.next_is(",")) return;
+    in_.expect(")", term.quantity == Quantity::distance ? "close the parenthesis after the two points"
+                                                        : "close the parenthesis after the point");
+    if (term.quantity == Quantity::contact) require_hand(term.point, name.begin, "contact");
+    term.component = component(term, name, inside ? inside : take_component(in_));
+  }
+
+  /// The rest of enters(right_hand, shoulder).
+  void name_zone(Condition& condition) {
+    in_.expect(",", "");
     const QueryToken token = in_.take();
+    const std::string word = fold_case(token.text);
+    std::vector<std::string> names = words_of(kHeights);
+    for (const std::string& name : words_of(kAcross)) names.push_back(name);
+    for (const std::string& name : words_of(kReaches)) names.push_back(name);
+    if (const auto height = value_of(kHeights, word)) {
+      condition.value = *height;
+      condition.movement.component = Component::height;
+    } else if (const auto across = value_of(kAcross, word == "center" ? "centre" : word)) {
+      condition.value = *across;
+      condition.movement.component = Component::x;
+    } else if (const auto reach = value_of(kReaches, word)) {
+      condition.value = *reach;
+      condition.movement.component = Component::forward;
+    } else {
+      in_.fail(token.begin, fmt::format("expected a zone, found {}{}; use one of {}", QueryLexer::shown(token),
+                                        did_you_mean(token.text, names), fmt::join(names, ", ")));
+    }
+    condition.compare = Compare::equal;
+    in_.expect(")", "close the parenthesis after the zone");
+  }
+
+  /// A point, and the component behind it within the parenthesis: max(right_hand.height).
+  Point point_and_component(std::optional<QueryToken>& component) {
+    const QueryToken& next = in_.peek();
+    const std::size_t dot = next.kind == Kind::word ? next.text.find('.', 1) : std::string::npos;
+    if (dot == std::string::npos) {
+      const Point found = point(false);
+      component = take_component(in_);
+      return found;
+    }
+    QueryToken token = in_.take();
+    component = QueryToken{.kind = Kind::word, .begin = token.begin + dot, .text = token.text.substr(dot), .flags = {}};
+    token.text.resize(dot);
+    return point_of(token, false);
+  }
+
+  Point point(bool sided) { return point_of(in_.take(), sided); }
+
+  Point point_of(const QueryToken& token, bool sided) {
     const bool named = token.kind == Kind::word || token.kind == Kind::text;
     const std::optional<Point> found = named ? point_named(fold_case(token.text)) : std::nullopt;
     if (found && sided && found->kind == Point::Kind::hand) {
@@ -182,36 +285,60 @@ class MovementParser {
     in_.fail(begin, fmt::format("'{}' is known of hands only; use hand, right_hand or left_hand", what));
   }
 
-  Component component(const MovementTerm& term, const QueryToken& name) {
-    const bool ends = term.quantity == Quantity::begin || term.quantity == Quantity::end;
-    const std::optional<QueryToken> found_token = take_component(in_);
-    if (!found_token) {
-      if (!ends) return Component::none;
+  /// `token`: that with the dot before it; none: none was written.
+  Component component(const MovementTerm& term, const QueryToken& name, const std::optional<QueryToken>& token) {
+    if (!token) {
+      if (!needs_component(term.quantity)) return Component::none;
       const QueryToken& next = in_.peek();
       in_.fail(next.begin, fmt::format("expected a component after '{}(…)', found {}; write {}({}).height", name.text,
                                        QueryLexer::shown(next), name.text, to_string(term.point)));
     }
-    const QueryToken& token = *found_token;
-    const std::string word = fold_case(token.text.substr(1));
-    std::optional<Component> found = value_of(kHandComponents, word);
-    std::vector<std::string> known = words_of(kPlaceComponents);
-    if (term.quantity == Quantity::distance) {
-      found = value_of(kDistanceComponents, word);
-      known = words_of(kDistanceComponents);
-    } else if (!ends) {
-      in_.fail(token.begin, fmt::format("'{}' has no components; leave '{}' out, or ask for begin({}){}", name.text,
-                                        printable(token.text), to_string(term.point), printable(token.text)));
-    } else if (term.point.kind != Point::Kind::part) {
-      known = words_of(kHandComponents);
+    const std::string word = fold_case(token->text.substr(1));
+    const std::vector<std::string> known = components_of(term);
+    const bool is_known = std::ranges::find(known, word) != known.end();
+    const std::optional<Component> of_hand = value_of(kHandComponents, word);
+    if (!is_known && !needs_component(term.quantity) && term.quantity != Quantity::distance) {
+      in_.fail(token->begin,
+               fmt::format("'{}' has no component '{}'; leave '{}' out, or ask for begin({}){}", name.text,
+                           printable(word), printable(token->text), to_string(term.point), printable(token->text)));
     }
-    if (!found) refuse_component(in_, token, known);
-    if (std::find(known.begin(), known.end(), word) == known.end()) require_hand(term.point, token.begin, word);
-    return *found;
+    if (!is_known && needs_component(term.quantity) && of_hand) {
+      require_hand(term.point, token->begin, word);
+      in_.fail(token->begin, fmt::format("'{}' is nothing that '{}' tells; ask for any({}).{}", word, name.text,
+                                         to_string(term.point), word));
+    }
+    if (!is_known) refuse_component(in_, *token, known);
+    if (of_hand) return *of_hand;
+    if (const auto of_distance = value_of(kDistanceComponents, word)) return *of_distance;
+    return Component::least;
+  }
+
+  /// The words of the components that a quantity has.
+  static std::vector<std::string> components_of(const MovementTerm& term) {
+    const bool hand = term.point.kind != Point::Kind::part;
+    switch (term.quantity) {
+      case Quantity::speed:
+      case Quantity::acceleration:
+        return words_of(kPeakComponents);
+      case Quantity::distance:
+        return words_of(kDistanceComponents);
+      case Quantity::begin:
+      case Quantity::end:
+      case Quantity::any:
+        return hand ? words_of(kHandComponents) : words_of(kPlaceComponents);
+      case Quantity::max:
+      case Quantity::min:
+        return hand ? words_of(kExtentComponents) : words_of(kPlaceComponents);
+      case Quantity::enters:
+        return words_of(kPlaceComponents);
+      default:
+        return {};
+    }
   }
 
   /// Takes comparison and value, which tell together what is allowed.
   Compare compare(Condition& condition) {
-    const Allowed allowed = allowed_for(value_kind(condition.movement));
+    const Allowed allowed = allowed_for(condition.movement);
     const std::string what = to_string(condition.movement);
     const QueryToken at = in_.peek();
     const std::optional<Compare> found = at.kind == Kind::symbol ? value_of(kCompares, at.text) : std::nullopt;
@@ -230,6 +357,8 @@ class MovementParser {
     }
     const auto padded = [](std::string_view text) { return fmt::format(" {} ", text); };
     if (padded(allowed.compares).find(padded(word_of(*found))) != std::string::npos) return *found;
+    if (condition.movement.quantity == Quantity::enters && !equality)
+      in_.fail(at.begin, fmt::format("a zone is entered or not; use {} = {}", what, in_value_));
     if (*found == Compare::not_equal)
       in_.fail(at.begin, fmt::format("'{}' is one of several at once; use !({} = …)", what, what));
     in_.fail(begin, fmt::format("'{}' has no order; compare it with {}", in_value_, allowed.compares));

@@ -42,16 +42,21 @@ class RandomQueries {
     Condition& condition = result.condition;
     condition.field = Field::movement;
     MovementTerm& term = condition.movement;
-    term.quantity = static_cast<Quantity>(below(14));
+    term.quantity = kQuantities[below(kQuantities.size())];
     if (is_series(term.quantity)) return of_series(std::move(result));
     term.point = point(false);
     if (term.quantity == Quantity::contact && term.point.kind == Point::Kind::part) term.point = Point::own_hand();
     if (term.quantity == Quantity::distance) {
       do term.other = point(false);
       while (*term.other == term.point);
-      if (one_in(2)) term.component = one_in(2) ? Component::begin : Component::end;
-    } else if (term.quantity >= Quantity::begin) {
-      term.component = static_cast<Component>(1 + below(term.point.kind == Point::Kind::part ? 3 : 7));
+      constexpr Component kOfDistance[] = {Component::begin, Component::end, Component::most};
+      if (one_in(2)) term.component = kOfDistance[below(3)];
+    } else if (term.quantity == Quantity::speed || term.quantity == Quantity::acceleration) {
+      if (one_in(2)) term.component = Component::least;
+    } else if (needs_component(term.quantity)) {
+      const unsigned of_hand = term.quantity == Quantity::max || term.quantity == Quantity::min ? 4 : 7;
+      const bool place = term.point.kind == Point::Kind::part || term.quantity == Quantity::enters;
+      term.component = static_cast<Component>(1 + below(place ? 3 : of_hand));
     }
     constexpr Compare kOrder[] = {Compare::less, Compare::less_equal, Compare::greater, Compare::greater_equal};
     condition.compare = kOrder[below(4)];
@@ -61,7 +66,8 @@ class RandomQueries {
       condition.compare = compare;
     };
     const Unit length = one_in(2) ? Unit::metres : Unit::shoulder_widths;
-    const bool number = one_in(2);
+    const bool enters = term.quantity == Quantity::enters;
+    const bool number = !enters && one_in(2);
     switch (value_kind(term)) {
       case ValueKind::speed:
         condition.value = amount(Unit::metres_per_second);
@@ -97,6 +103,7 @@ class RandomQueries {
         named(static_cast<Contact>(1U << below(3)), Compare::equal);
         break;
     }
+    if (enters) condition.compare = Compare::equal;
     return result;
   }
 

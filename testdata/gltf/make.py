@@ -352,6 +352,16 @@ def squashed():
     return file
 
 
+def growing():
+    """A root whose scale changes, above all other joints: baked into where they are, and told."""
+    file = simple()
+    file.json["nodes"][1]["children"] = [2]
+    file.json["nodes"].append({"name": "Finger", "translation": [0.5, 0, 0]})
+    file.channel(0, "scale", [0, 0.1], [[1, 1, 1], [2, 2, 2]])
+    file.channel(2, "translation", [0, 0.1], [[0.5, 0, 0], [1, 0, 0]])
+    return file
+
+
 def tracks():
     file = linear()
     file.json["animations"][0]["extras"] = {
@@ -364,7 +374,7 @@ def tracks():
 def good_files():
     write = lambda name, data: (GOOD / name).write_bytes(data)
     for make in (linear, cubic, uneven, armature, morph, quantised, sparse, meshopt, two_skins, bent_bind, squashed,
-                 tracks):
+                 growing, tracks):
         write(make.__name__ + ".glb", make().glb())
     outside = step()
     write("step.gltf", outside.gltf("step%20keys.bin"))
@@ -416,6 +426,12 @@ def broken_files():
             if turn:
                 file.channel(1, "rotation", [0, 0.1], [NONE, turn])
         return change
+
+    def one_grows(document, file):
+        document["nodes"][0]["children"] = [1, 3]
+        document["nodes"][1]["children"] = [2]
+        document["nodes"] += [{"name": "Finger", "translation": [0, 1, 0]}, {"name": "Other", "translation": [1, 0, 0]}]
+        file.channel(1, "scale", [0, 0.1], [[1, 1, 1], [2, 2, 2]])
 
     def many_weights(document, file):
         node = file.mesh(2)
@@ -510,7 +526,9 @@ def broken_files():
         "packed_count_huge": changed(packed_as(count=2 ** 31)),
         "rotation_without_length": changed(set_at("nodes", 1, "rotation", [0, 0, 0, 0])),
         "rotation_of_three": changed(set_at("nodes", 1, "rotation", [0, 0, 0])),
-        "scale_changes": changed(keys(0, "scale", [0, 0.1], [[1, 1, 1], [2, 2, 2]])),
+        "scale_changes_by_axis": changed(keys(0, "scale", [0, 0.1], [[1, 1, 1], [1, 2, 1]])),
+        "scale_changes_of_some": changed(one_grows),
+        "scale_changes_to_nothing": changed(keys(0, "scale", [0, 0.1], [[1, 1, 1], [0, 0, 0]])),
         "scale_nothing": changed(scaled([0, 0, 0])),
         "scale_shears": changed(scaled([1, 1, 2], X90)),
         "skin_joint_missing": changed(set_at("skins", [{"joints": [7]}])),

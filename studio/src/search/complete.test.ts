@@ -18,7 +18,7 @@ const words: Words = {
     phases: ['preparation', 'stroke', 'retraction', 'hold', 'other'],
     hands: ['both', 'right', 'left'],
     points: ['hand', 'left_hand', 'right_hand', 'head', 'neck'],
-    functions: ['speed', 'mean_speed', 'path', 'distance', 'contact', 'begin', 'end', 'track', 'gaze', 'like'],
+    functions: ['speed', 'mean_speed', 'path', 'distance', 'contact', 'begin', 'end', 'max', 'any', 'enters', 'track', 'gaze', 'like'],
   },
 }
 /** `|` is the caret. What is offered, and what the text becomes with the first of it. */
@@ -144,6 +144,28 @@ it('offers comparisons, components and what joins conditions', () => {
   expect(at('(gloss = "A") |').labels).not.toContain(')')
   expect(at('duration > 300ms |').labels).toContain('&')
   expect(at('unit |').labels).toContain('&')
+})
+
+it('offers what is there at any moment', () => {
+  expect(at('max(|').labels).toEqual(expect.arrayContaining(['right_hand', 'speed(…)', 'track(…)']))
+  expect(at('max(right_|').chosen).toBe('max(right_hand)')
+  expect(at('max(right_hand)|').labels).toEqual(['.height', '.x', '.forward', '.openness'])
+  expect(at('any(right_hand).pa|').chosen).toBe('any(right_hand).palm')
+  expect(at('any(right_hand).palm |').labels).toEqual(['=', '!='])
+  expect(at('max(right_hand).height > |').labels).toContain('shoulder')
+  expect(at('max(spe|').chosen).toBe('max(speed(')
+  expect(at('max(speed(ha|').chosen).toBe('max(speed(hand)')
+  expect(at('max(speed(hand)|').labels).toEqual([')'])
+  expect(at('max(speed(hand))|').labels).toEqual(['>', '<', '>=', '<='])
+  expect(at('max(speed(hand)) > |').labels).toEqual(['1 m/s'])
+  expect(at('track(jawOpen).least > |').labels).toEqual(['0.4'])
+  expect(at('speed(hand)|').labels).toContain('.least')
+  expect(at('enters(ha|').chosen).toBe('enters(hand, ')
+  expect(at('enters(hand, ch|').chosen).toBe('enters(hand, chest)')
+  expect(at('enters(hand, chin) |').labels).toContain('&')
+  expect(at('enters(hand)|').labels).toEqual(['.height', '.x', '.forward'])
+  expect(at('enters(hand).height |').labels).toEqual(['='])
+  expect(at('enters(hand).height = |').labels).toEqual(['below_waist', 'waist', 'chest', 'shoulder', 'chin', 'mouth', 'forehead', 'above_head'])
 })
 
 it('is silent where nothing in its lists can stand', () => {

@@ -1,7 +1,7 @@
 import type { TierLabels, Vocabulary } from '../api/answers'
 import { quoted } from './answers'
 import { contextAfter, isCall, type Context } from './context'
-import { kAngles, kComponents, kMoments, kNamesOf, kNumberOf, kRelations, kTextFields, kTimes } from './language'
+import { kAngles, kComponentsOf, kMomentsOf, kNamesOf, kNumberOf, kRelations, kTextFields, kTimes, kZones } from './language'
 import { scan, type Token } from './scan'
 
 /** What completion knows of a database; `tracks` are those of the face, `labels` those of the tiers that were asked for. */
@@ -92,6 +92,8 @@ function offered(context: Context, words: Words, rest: string, before: readonly 
       return values(context, words)
     case 'argument':
       return argumentsOf(context.of, context.index, words, rest)
+    case 'inner':
+      return [sign(')')]
     case 'after':
       return after(context.open)
     case 'nothing':
@@ -117,13 +119,13 @@ function conditions({ language }: Words, before: readonly Token[]): Option[] {
 function compares(of: string, part?: string): Option[] {
   // A function wants its parenthesis, and behind it some want or may have a component.
   if (part === undefined && isCall(of)) return [sign('(')]
-  if (part === '' && (of === 'begin' || of === 'end')) return kComponents.map((name) => word(name))
-  const moments = part !== '' ? [] : of === 'track' || of === 'gaze' ? kMoments : of === 'distance' ? kMoments.slice(1) : []
+  if (part === '' && of in kComponentsOf) return kComponentsOf[of].map((name) => word(name))
+  const moments = part === '' ? (kMomentsOf[of] ?? []) : []
   const named = part === '.palm' || part === '.fingers' || part === '.x' || part === '.forward'
   const signs =
     kTextFields.includes(of) || of === 'tier'
       ? ['=', '!=', ...(of === 'hand' ? [] : ['=~'])]
-      : of === 'contact' || part === '.contact'
+      : of === 'contact' || of === 'enters' || part === '.contact'
         ? ['=']
         : part === '.palm' || part === '.fingers'
           ? ['=', '!=']
@@ -154,8 +156,8 @@ function values({ of, by, part, tier }: Context & { readonly at: 'value' }, word
       return [...(labels ?? [sign('"…"', '"')]), sign('$X')]
     }
   }
-  const what = part || of
-  return [...(what in kNumberOf ? [sign(kNumberOf[what])] : []), ...(kNamesOf[what] ?? []).map((name) => word(name))]
+  const what = part && (part in kNumberOf || part in kNamesOf) ? part : of
+  return [...(what in kNumberOf && of !== 'enters' ? [sign(kNumberOf[what])] : []), ...(kNamesOf[what] ?? []).map((name) => word(name))]
 }
 
 function argumentsOf(of: string, index: number, words: Words, rest: string): readonly Option[] {
@@ -173,6 +175,12 @@ function argumentsOf(of: string, index: number, words: Words, rest: string): rea
       return closing(kAngles, 'word')
     case 'like':
       return index > 0 ? closing(words.language.points, 'word') : closing(words.recordings, 'recording', quoted, /^\s*@/.test(rest) ? '' : '@')
+    case 'enters':
+      return index > 0 ? closing(kZones, 'word') : closing(words.language.points, 'word', undefined, end ? ', ' : end)
+    case 'max':
+    case 'min':
+    case 'any':
+      return [...closing(words.language.points, 'word'), ...Object.keys(kMomentsOf).map((name) => word(`${name}(…)`, `${name}(`))]
     case 'distance':
       return closing(words.language.points, 'word', undefined, index === 0 && end ? ', ' : end)
   }

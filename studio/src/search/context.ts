@@ -1,4 +1,4 @@
-import { kRelations, kTextFields, kTimes } from './language'
+import { kMomentsOf, kOverMoments, kRelations, kTextFields, kTimes } from './language'
 import type { Token } from './scan'
 
 /** What may stand at the end of what was typed. */
@@ -7,7 +7,10 @@ export type Context =
   /** `of` is the field or function; `tier` the name that was given in the parenthesis of `tier`, `part` the component behind a function. */
   | { readonly at: 'compare'; readonly of: string; readonly part?: string; readonly tier?: string }
   | { readonly at: 'value'; readonly of: string; readonly by: string; readonly part?: string; readonly tier?: string }
-  | { readonly at: 'argument'; readonly of: string; readonly index: number }
+  /** `inner` is the quantity that was named in max(…) and its like. */
+  | { readonly at: 'argument'; readonly of: string; readonly index: number; readonly inner?: string }
+  /** The quantity `of` in max(…) and its like is whole. */
+  | { readonly at: 'inner'; readonly of: string }
   /** A condition is whole. `open` counts parentheses. */
   | { readonly at: 'after'; readonly open: number }
   | { readonly at: 'nothing' }
@@ -25,8 +28,11 @@ export function contextAfter(tokens: readonly Token[]): Context {
     const { text } = token
     const symbol = token.kind === 'symbol'
     if (symbol && (text === '&' || text === '|' || text === '->')) here = { at: 'condition' }
-    else if (symbol && text === ')') here = closed(open.pop(), open, tier)
-    else if (symbol && text === '(') {
+    else if (symbol && text === ')') here = closed(open.pop(), open, tier, here)
+    else if (symbol && text === '(' && here.at === 'argument' && here.inner) {
+      open.push(here.inner)
+      here = { at: 'argument', of: here.inner, index: 0 }
+    } else if (symbol && text === '(') {
       const of: string = here.at === 'compare' ? here.of : ''
       const call = of !== '' && !kLinks.includes(of)
       open.push(call ? of : '')
@@ -36,6 +42,8 @@ export function contextAfter(tokens: readonly Token[]): Context {
       here = here.at === 'compare' ? { at: 'value', of: here.of, by: text, part: here.part, tier: here.tier } : { at: 'nothing' }
     else if (symbol && text === ',') here = here.at === 'argument' ? { at: 'argument', of: here.of, index: here.index + 1 } : here
     else if (here.at === 'argument' && here.of === 'tier') tier = text
+    else if (here.at === 'argument' && kOverMoments.includes(here.of) && text in kMomentsOf)
+      here = { at: 'argument', of: here.of, index: here.index, inner: text }
     else if (here.at === 'condition') here = begun(here, token, open)
     else if (here.at === 'value') here = { at: 'after', open: open.length }
     else if (here.at === 'after' && token.kind === 'word' && kRelations.includes(text)) here = { at: 'condition' }
@@ -53,9 +61,13 @@ function begun(here: Context, { kind, text }: Token, open: readonly string[]): C
 }
 
 /** Behind a parenthesis that was closed. */
-function closed(of: string | undefined, open: readonly string[], tier: string | undefined): Context {
+function closed(of: string | undefined, open: readonly string[], tier: string | undefined, here: Context): Context {
   if (of === undefined) return { at: 'nothing' }
-  return of === '' || of === 'like' ? { at: 'after', open: open.length } : { at: 'compare', of, part: '', tier }
+  if (kOverMoments.includes(open[open.length - 1])) return { at: 'inner', of }
+  // max(speed(hand)) is one moment's: no component may follow.
+  if (here.at === 'inner') return { at: 'compare', of: here.of, part: of === 'max' ? '.most' : '.least', tier }
+  const zone = of === 'enters' && here.at === 'argument' && here.index > 0
+  return of === '' || of === 'like' || zone ? { at: 'after', open: open.length } : { at: 'compare', of, part: '', tier }
 }
 
 /** Whether a word needs a parenthesis, as functions and links do. */

@@ -1,8 +1,25 @@
 // What docs/query.md lists and the server's vocabulary does not.
 
-/** Of `begin(POINT)` and `end(POINT)`. */
-export const kComponents = ['.height', '.x', '.forward', '.openness', '.palm', '.fingers', '.contact'] as const
-export const kMoments = ['.least', '.begin', '.end'] as const
+const kComponents = ['.height', '.x', '.forward', '.openness', '.palm', '.fingers', '.contact']
+/** The components of which a quantity wants one. */
+export const kComponentsOf: Readonly<Record<string, readonly string[]>> = {
+  begin: kComponents,
+  end: kComponents,
+  any: kComponents,
+  max: kComponents.slice(0, 4),
+  min: kComponents.slice(0, 4),
+  enters: kComponents.slice(0, 3),
+}
+/** Those that a quantity may have. */
+export const kMomentsOf: Readonly<Record<string, readonly string[]>> = {
+  speed: ['.least'],
+  acceleration: ['.least'],
+  distance: ['.begin', '.end', '.most'],
+  track: ['.least', '.begin', '.end'],
+  gaze: ['.least', '.begin', '.end'],
+}
+/** Quantities that take a quantity of kMomentsOf, too: max(speed(right_hand)). */
+export const kOverMoments: readonly string[] = ['max', 'min', 'any']
 export const kAngles = ['yaw', 'pitch'] as const
 const kDirections = ['up', 'down', 'left', 'right', 'forward', 'back']
 /** What a component may be compared with, by name. */
@@ -15,6 +32,8 @@ export const kNamesOf: Readonly<Record<string, readonly string[]>> = {
   '.contact': ['hand', 'head', 'torso'],
   contact: ['hand', 'head', 'torso'],
 }
+/** What enters(POINT, …) takes. */
+export const kZones: readonly string[] = ['.height', '.x', '.forward'].flatMap((part) => kNamesOf[part])
 /** What a number of each quantity looks like. */
 export const kNumberOf: Readonly<Record<string, string>> = {
   duration: '300ms',

@@ -46,7 +46,8 @@ std::vector<float> some_sets(std::mt19937& random, std::size_t count) {
   std::vector<float> sets(count);
   const bool sparse = random() % 2 == 0;
   for (float& set : sets) {
-    const std::uint32_t bits = sparse ? random() & random() & random() & random() & random() : random();
+    std::uint32_t bits = random();
+    for (int i = 0; sparse && i < 4; ++i) bits &= random();
     set = random() % 40 == 0 ? kNotKnown : static_cast<float>(bits & 0xFFFFFFU);
   }
   return sets;

@@ -55,7 +55,9 @@ struct Annotated {
 Annotated annotation_of(const ImportJob& job, FrameRate rate) {
   Annotated found{.signs = {}, .clock = {rate.frame_time(), Seconds(0)}};
   if (!job.annotation) return found;
-  const AnnotationDocument document = annotation_file::read(*job.annotation).document;
+  // Signs that are left out would be missing from what is judged, and nobody would be told.
+  const AnnotationDocument document =
+      annotation_file::read(*job.annotation, annotation_file::Unsound::refused).document;
   found.signs = signs_in(document, guess_tier_names(document)).signs;
   for (const LinkedFile& linked : document.linked_files) {
     for (const std::string& url : {linked.url, linked.relative_url}) {

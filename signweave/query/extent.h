@@ -43,7 +43,7 @@ inline constexpr std::uint32_t kReachBits = 0x1800;
 constexpr std::uint32_t bits_of(Zone zone) noexcept {
   return bit_of(zone.height) | bit_of(zone.across) | bit_of(zone.reach);
 }
-/// Of the palm's and the fingers' direction, in one set; that of Facing::unknown is never in it.
+/// Of the palm's and the fingers' direction, in one set; the masks leave Facing::unknown out.
 constexpr std::uint32_t palm_bit(Facing facing) noexcept {
   return 1U << static_cast<unsigned>(facing);
 }

@@ -42,7 +42,7 @@ export function contextAfter(tokens: readonly Token[]): Context {
       here = here.at === 'compare' ? { at: 'value', of: here.of, by: text, part: here.part, tier: here.tier } : { at: 'nothing' }
     else if (symbol && text === ',') here = here.at === 'argument' ? { at: 'argument', of: here.of, index: here.index + 1 } : here
     else if (here.at === 'argument' && here.of === 'tier') tier = text
-    else if (here.at === 'argument' && kOverMoments.includes(here.of) && text in kMomentsOf)
+    else if (here.at === 'argument' && kOverMoments.includes(here.of) && Object.hasOwn(kMomentsOf, text))
       here = { at: 'argument', of: here.of, index: here.index, inner: text }
     else if (here.at === 'condition') here = begun(here, token, open)
     else if (here.at === 'value') here = { at: 'after', open: open.length }

@@ -116,6 +116,33 @@ float sum_of(std::span<const float> values) {
   return std::accumulate(sums.begin(), sums.end(), 0.0f);
 }
 
+/// A condition that looks at one column of `rows` values, distributed so, against the sum of that column. False where
+/// it does not find exactly what is above `least`.
+bool scan_rows(const char* name, const char* condition, std::normal_distribution<float> value, double least,
+               std::size_t rows, int rounds, std::mt19937& random) {
+  std::vector<float> values(rows);
+  for (float& each : values) each = value(random);
+  const OneColumn movement(std::move(values));
+  const PhaseQuery query = parse(condition);
+  MovementCheck check(query.elements.front().term.expression.condition, &movement);
+  std::vector<RowId> hits;
+  const auto scan = [&] {
+    hits.clear();
+    check.scan(0, 0, hits);
+    bench::keep(hits);
+  };
+  const std::span<const float> column = movement.column({}, 0).values;
+  const auto sum = [&] { bench::keep(sum_of(column)); };
+  scan();
+  const auto expected = std::ranges::count_if(column, [&](float each) { return static_cast<double>(each) > least; });
+  if (static_cast<std::ptrdiff_t>(hits.size()) != expected) {
+    fmt::print(stderr, "bench_like: '{}' found {} rows, not {}\n", condition, hits.size(), expected);
+    return false;
+  }
+  bench::print(fmt::format("{}_{}_rows", name, rows), 1e6, "us", bench::compare(rounds, scan, sum), "<= 1.5");
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -165,27 +192,12 @@ int main(int argc, char** argv) {
   }
 
   const std::size_t rows = quick ? 10'000 : 1'000'000;
-  std::vector<float> speeds(rows);
-  std::normal_distribution<float> speed(0.9f, 0.25f);
-  for (float& each : speeds) each = speed(random);
-  const OneColumn movement(std::move(speeds));
-  const PhaseQuery query = parse("speed(right_hand) > 1.8 m/s");
-  MovementCheck check(query.elements.front().term.expression.condition, &movement);
-  std::vector<RowId> hits;
-  const auto scan = [&] {
-    hits.clear();
-    check.scan(0, 0, hits);
-    bench::keep(hits);
-  };
-  const std::span<const float> column = movement.column({}, 0).values;
-  const auto sum = [&] { bench::keep(sum_of(column)); };
-  scan();
-  const auto expected = std::ranges::count_if(column, [](float value) { return static_cast<double>(value) > 1.8; });
-  if (static_cast<std::ptrdiff_t>(hits.size()) != expected) {
-    fmt::print(stderr, "bench_like: the scan found {} rows of {}\n", hits.size(), expected);
+  if (!scan_rows("movement/scan_of", "speed(right_hand) > 1.8 m/s", std::normal_distribution<float>(0.9f, 0.25f), 1.8,
+                 rows, rounds, random))
     return 1;
-  }
-  bench::print(fmt::format("movement/scan_of_{}_rows", rows), 1e6, "us", bench::compare(rounds, scan, sum), "<= 1.5");
+  if (!scan_rows("movement/scan_of_heights_of", "max(right_hand).height > 0.5",
+                 std::normal_distribution<float>(-1.3f, 0.5f), 0.5, rows, rounds, random))
+    return 1;
   bench::ask_database(quick ? 1 : 44, quick ? 3 : 200);
   return 0;
 }

@@ -67,6 +67,10 @@ inline void ask_database(double minutes, int times) {
   };
   for (const auto& [name, text] : {Question{"speed_of_hands", "speed(hand) > 1.2 m/s"},
                                    Question{"speed_of_strokes", "phase = stroke & speed(right_hand) > 1.2 m/s"},
+                                   Question{"height_of_strokes", "phase = stroke & max(right_hand).height > shoulder"},
+                                   Question{"zone_of_strokes", "phase = stroke & enters(right_hand, chin)"},
+                                   Question{"palm_of_strokes", "phase = stroke & any(right_hand).palm = up"},
+                                   Question{"height_of_elbow", "max(right_elbow).height > chest"},
                                    Question{"speed_of_elbow", "speed(right_elbow) > 0.5 m/s"},
                                    Question{"like_hands", R"(like("whole"@61000..61500))"},
                                    Question{"like_elbow", R"(like("whole"@61000..61500, right_elbow))"}}) {

@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     const calls::EvaluationInput input =
         calls::read_evaluation_input({argv + 2, argv + argc}, {}, cli::listener_of(io));
     const SpanChoice choice = choose_spans(input.recordings);
-    const auto model = train(input.recordings, choice.spans).model();
+    const auto model = train(input.recordings, choice.spans, folds_of(input.recordings)).model();
     std::ofstream out(argv[1]);
     out << text_of(*model);
     if (!out.flush()) throw Error(ErrorCode::io, fmt::format("{}: cannot be written", argv[1]));

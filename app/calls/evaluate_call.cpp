@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
+#include "app/calls/collection_report.h"
 #include "signweave/core/text.h"
+#include "signweave/evaluation/folds.h"
 
 namespace signweave::calls {
 namespace {
@@ -86,6 +89,17 @@ nlohmann::ordered_json json_of_spans(const EvaluationInput& input, const SpanCho
   return spans;
 }
 
+/// Tells a task which collection each recording belongs to.
+void add_collections(const EvaluationInput& input, EvaluatedTask& task) {
+  std::set<std::string> names;
+  for (const EvaluatedMotion& one : input.recordings) names.insert(one.collection);
+  task.collections.assign(names.begin(), names.end());
+  for (const EvaluatedMotion& one : input.recordings) {
+    const auto place = std::ranges::find(task.collections, one.collection) - task.collections.begin();
+    task.collection_of.push_back(static_cast<std::size_t>(place));
+  }
+}
+
 /// What tells methods apart best, of each task.
 constexpr Measure kDrawn[] = {Measure::wrist,      Measure::fingertips,    Measure::peak_speed_error,
                               Measure::jerk_error, Measure::velocity_jump, Measure::depth};
@@ -109,10 +123,12 @@ std::string check_method(const std::string& name) {
 
 Evaluated evaluate(EvaluationInput input, SpanChoice choice, const EvaluateCall& call, const Listener& listener) {
   const std::vector<const GapMethod*> methods = methods_of(call);
-  Evaluated made{.input = std::move(input), .choice = std::move(choice), .tasks = {}};
+  Evaluated made{.input = std::move(input), .choice = std::move(choice), .tasks = {}, .left_out_by = {}};
+  made.left_out_by = folds_of(made.input.recordings).by;
   made.tasks.push_back(given_task(made.input, made.choice, methods, listener));
   made.tasks.push_back(predicted_task(made.input, made.choice, methods, listener));
   made.tasks.push_back(replaced_task(made.input, made.choice, methods, listener));
+  for (EvaluatedTask& task : made.tasks) add_collections(made.input, task);
   return made;
 }
 
@@ -135,6 +151,8 @@ nlohmann::ordered_json json_of(const Evaluated& evaluated, const EvaluateCall& c
   for (const EvaluatedTask& task : evaluated.tasks) list.push_back(json_of(task, bootstrap));
   return {{"recordings", evaluated.input.recordings.size()},
           {"recordings_left_out", evaluated.input.left_out},
+          {"left_out_by", evaluated.left_out_by},
+          {"judged", judged_json(evaluated.tasks.front(), bootstrap)},
           {"spans_left_out", evaluated.choice.left_out},
           {"seed", call.seed},
           {"confidence", kConfidence},

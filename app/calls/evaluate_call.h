@@ -43,6 +43,7 @@ struct Evaluated {
   EvaluationInput input;
   SpanChoice choice;
   std::vector<EvaluatedTask> tasks;
+  std::string_view left_out_by;  ///< see Folds
 };
 
 /// Throws Error{not_found} where there is nothing to evaluate on; what `listener.progress` throws ends it.

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <map>
+#include <set>
 
 #include "signweave/annotation/sign.h"
 #include "signweave/core/text.h"
@@ -96,7 +99,37 @@ void add(Read read, EvaluationInput& input, const Listener& listener) {
   }
 }
 
-void add_database(const Database& database, EvaluationInput& input, const Listener& listener) {
+/// Absolute, and without a slash at its end.
+fs::path whole_path(const fs::path& path) {
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+/// The folder that a file's recording belongs to: of those in a folder that was given the first below it, of others
+/// their own. Files that were given one by one lie in theirs.
+std::string collection_of(const fs::path& file, const std::vector<fs::path>& given) {
+  const fs::path whole = whole_path(file);
+  for (const fs::path& path : given) {
+    const fs::path folder = whole_path(path);
+    const fs::path below = whole.lexically_relative(folder);
+    if (below.empty() || *below.begin() == "..") continue;
+    if (below == ".") break;  // the file itself was given
+    return (std::distance(below.begin(), below.end()) > 1 ? folder / *below.begin() : folder).string();
+  }
+  return whole.parent_path().string();
+}
+
+/// Calls each collection by its folder's name, unless two are called so.
+void name_collections(EvaluationInput& input) {
+  std::map<std::string, std::set<std::string>> of_name;
+  const auto name_of = [](const std::string& path) { return fs::path(path).filename().string(); };
+  for (const EvaluatedMotion& one : input.recordings) of_name[name_of(one.collection)].insert(one.collection);
+  for (EvaluatedMotion& one : input.recordings) {
+    if (of_name[name_of(one.collection)].size() == 1) one.collection = name_of(one.collection);
+  }
+}
+
+void add_database(const Database& database, const std::string& name, EvaluationInput& input, const Listener& listener) {
   tell_damage(database, listener);
   const std::shared_ptr<const Contents> contents = database.contents();
   for (std::size_t i = 0; i < contents->recordings.size(); ++i) {
@@ -107,8 +140,12 @@ void add_database(const Database& database, EvaluationInput& input, const Listen
         [&] {
           Motion motion = database.read(info.name);
           const RigMap rig = map_rig(motion, info.rig);
-          return evaluated_motion(info.name, std::move(motion), rig,
-                                  signs_of(contents->segments, static_cast<std::uint32_t>(i)), info.clock);
+          EvaluatedMotion one =
+              evaluated_motion(info.name, std::move(motion), rig,
+                               signs_of(contents->segments, static_cast<std::uint32_t>(i)), info.clock);
+          one.collection = name;
+          one.performer = info.signer;
+          return one;
         },
         input, listener);
   }
@@ -129,8 +166,10 @@ void add_files(const std::vector<fs::path>& paths, const MotionReading& reading,
           }
           const RigMap rig = map_rig(file.motion);
           Annotated annotated = annotation_of(job, file.motion.rate());
-          return evaluated_motion(job.motion->string(), std::move(file.motion), rig, std::move(annotated.signs),
-                                  annotated.clock);
+          EvaluatedMotion one = evaluated_motion(job.motion->string(), std::move(file.motion), rig,
+                                                 std::move(annotated.signs), annotated.clock);
+          one.collection = collection_of(*job.motion, paths);
+          return one;
         },
         input, listener);
   }
@@ -145,19 +184,20 @@ EvaluationInput read_evaluation_input(const std::vector<std::string>& paths, con
   std::vector<fs::path> files;
   for (const std::string& path : paths) {
     if (const std::unique_ptr<Database> database = database_in(path)) {
-      add_database(*database, input, listener);
+      add_database(*database, whole_path(path).string(), input, listener);
     } else {
       files.emplace_back(path);
     }
   }
   if (!files.empty()) add_files(files, reading, input, listener);
+  name_collections(input);
   return input;
 }
 
 EvaluationInput read_evaluation_input(const Database& database, const Listener& listener) {
   EvaluationInput input;
   listener.begin("reading");
-  add_database(database, input, listener);
+  add_database(database, {}, input, listener);
   return input;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/calls/table.h"
 
@@ -44,44 +45,28 @@ bool same_for_all(Measure measure) {
   return measure == Measure::duration || measure == Measure::mean_duration;
 }
 
-/// Rows of one figure for each method and group; `figure` may answer none. Methods without any are left out.
-template <class Figure>
-std::string table_of(const EvaluatedTask& task, const std::vector<ReportGroup>& groups, const std::string& title,
-                     int decimals, Figure figure) {
-  TextRows rows = {{title}};
-  for (const ReportGroup& group : groups) rows[0].push_back(group.name);
-  for (const MethodScores& method : task.methods) {
-    std::vector<std::string> row = {method.name};
-    bool any = false;
-    for (const ReportGroup& group : groups) {
-      const std::optional<Estimate> estimate = figure(method, group);
-      row.push_back(estimate ? number(estimate->value, decimals) : "-");
-      any = any || row.back() != "-";
-    }
-    if (any) rows.push_back(std::move(row));
-  }
-  return rows.size() > 1 ? fmt::format("\n{}", format_table(rows)) : std::string();
+std::size_t recordings_of(const EvaluatedTask& task, const ReportGroup& group) {
+  std::set<std::size_t> recordings;
+  for (const std::size_t span : group.spans) recordings.insert(task.spans[span].recording);
+  return recordings.size();
 }
 
-std::size_t recordings_of(const EvaluatedTask& task, const ReportGroup& group) {
-  std::vector<std::size_t> recordings;
-  for (const std::size_t span : group.spans) recordings.push_back(task.spans[span].recording);
-  std::sort(recordings.begin(), recordings.end());
-  return static_cast<std::size_t>(std::unique(recordings.begin(), recordings.end()) - recordings.begin());
+std::size_t collections_of(const EvaluatedTask& task, const ReportGroup& group) {
+  std::set<std::size_t> collections;
+  for (const std::size_t span : group.spans) collections.insert(task.collection_of[task.spans[span].recording]);
+  return collections.size();
 }
+
+}  // namespace
 
 nlohmann::ordered_json estimate_json(const Estimate& estimate) {
   const auto number_or_null = [](double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
   };
-  return {{"value", number_or_null(estimate.value)},
-          {"low", number_or_null(estimate.low)},
-          {"high", number_or_null(estimate.high)},
-          {"spans", estimate.scores},
-          {"recordings", estimate.clusters}};
+  return {{"value", number_or_null(estimate.value)}, {"low", number_or_null(estimate.low)},
+          {"high", number_or_null(estimate.high)},   {"spans", estimate.scores},
+          {"recordings", estimate.clusters},         {"collections", estimate.collections}};
 }
-
-}  // namespace
 
 std::vector<ReportGroup> groups_of(const EvaluatedTask& task, bool by_peaks) {
   std::vector<ReportGroup> groups;
@@ -108,7 +93,10 @@ Estimate estimate_of(const EvaluatedTask& task, const MethodScores& method, cons
   std::vector<ClusteredScore> scores;
   scores.reserve(group.spans.size());
   for (const std::size_t span : group.spans) {
-    scores.push_back({task.spans[span].recording, method.spans[span].at(hand, measure)});
+    const std::size_t recording = task.spans[span].recording;
+    scores.push_back({.cluster = recording,
+                      .score = method.spans[span].at(hand, measure),
+                      .collection = task.collection_of[recording]});
   }
   return bootstrap.estimate(scores, info_of(measure).pooling);
 }
@@ -119,23 +107,44 @@ std::optional<Estimate> ratio_to(const EvaluatedTask& task, const MethodScores& 
     if (yardstick.name != other) continue;
     std::vector<ClusteredScore> scores;
     for (const std::size_t span : group.spans) {
-      scores.push_back({task.spans[span].recording,
-                        {method.spans[span].at(hand, measure).value, yardstick.spans[span].at(hand, measure).value}});
+      const std::size_t recording = task.spans[span].recording;
+      scores.push_back(
+          {.cluster = recording,
+           .score = {method.spans[span].at(hand, measure).value, yardstick.spans[span].at(hand, measure).value},
+           .collection = task.collection_of[recording]});
     }
     return bootstrap.estimate(scores, Pooling::ratio);
   }
   return std::nullopt;
 }
 
+std::string method_table(const EvaluatedTask& task, std::span<const ReportGroup> groups, const std::string& title,
+                         int decimals, const GroupFigure& figure) {
+  TextRows rows = {{title}};
+  for (const ReportGroup& group : groups) rows[0].push_back(group.name);
+  for (const MethodScores& method : task.methods) {
+    std::vector<std::string> row = {method.name};
+    bool any = false;
+    for (const ReportGroup& group : groups) {
+      row.push_back(number(figure(method, group), decimals));
+      any = any || row.back() != "-";
+    }
+    if (any) rows.push_back(std::move(row));
+  }
+  return rows.size() > 1 ? fmt::format("\n{}", format_table(rows)) : std::string();
+}
+
 std::string summary_text(const EvaluatedTask& task, std::span<const Measure> chosen, Bootstrap& bootstrap) {
   const std::vector<ReportGroup> groups = groups_of(task, false);
   if (groups.empty()) return fmt::format("{}: no span\n", task.name);
-  TextRows counts = {{task.name}, {"spans"}, {"recordings"}};
+  TextRows counts = {{task.name}, {"spans"}, {"recordings"}, {"collections"}};
   for (const ReportGroup& group : groups) {
     counts[0].push_back(group.name);
     counts[1].push_back(std::to_string(group.spans.size()));
     counts[2].push_back(std::to_string(recordings_of(task, group)));
+    counts[3].push_back(std::to_string(collections_of(task, group)));
   }
+  if (task.collections.size() < 2) counts.pop_back();
   for (const Measure measure : chosen) {
     if (!same_for_all(measure)) continue;
     counts.push_back({title_of(info_of(measure))});
@@ -148,16 +157,17 @@ std::string summary_text(const EvaluatedTask& task, std::span<const Measure> cho
   for (const Measure measure : chosen) {
     if (same_for_all(measure)) continue;
     const MeasureInfo& info = info_of(measure);
-    text += table_of(task, groups, title_of(info), info.decimals,
-                     [&](const MethodScores& method, const ReportGroup& group) {
-                       return std::optional(estimate_of(task, method, group, HandChoice::moving, measure, bootstrap));
-                     });
+    text += method_table(task, groups, title_of(info), info.decimals,
+                         [&](const MethodScores& method, const ReportGroup& group) {
+                           return estimate_of(task, method, group, HandChoice::moving, measure, bootstrap).value;
+                         });
     const std::string_view yardstick = yardstick_of(measure);
     if (yardstick.empty()) continue;
-    text += table_of(task, groups, fmt::format("{} / {}", info.name, yardstick), 3,
-                     [&](const MethodScores& method, const ReportGroup& group) {
-                       return ratio_to(task, method, yardstick, group, HandChoice::moving, measure, bootstrap);
-                     });
+    text += method_table(
+        task, groups, fmt::format("{} / {}", info.name, yardstick), 3,
+        [&](const MethodScores& method, const ReportGroup& group) {
+          return value_of(ratio_to(task, method, yardstick, group, HandChoice::moving, measure, bootstrap));
+        });
   }
   return text;
 }
@@ -265,6 +275,7 @@ nlohmann::ordered_json json_of(const EvaluatedTask& task, Bootstrap& bootstrap) 
     groups.push_back({{"group", group.name},
                       {"spans", group.spans.size()},
                       {"recordings", recordings_of(task, group)},
+                      {"collections", collections_of(task, group)},
                       {"hands", std::move(hands)}});
   }
   return {{"task", task.key}, {"groups", std::move(groups)}};

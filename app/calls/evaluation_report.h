@@ -1,6 +1,10 @@
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,9 +19,11 @@ struct EvaluatedTask {
   std::string name;  ///< "duration given"
   std::string key;   ///< in JSON: "given"
   std::vector<EvaluatedSpan> spans;
-  std::vector<std::string> groups;    ///< [EvaluatedSpan::group]
-  std::vector<MethodScores> methods;  ///< the default first; what bounds them at the end
-  std::vector<Measure> summary;       ///< what is told of every method
+  std::vector<std::string> groups;              ///< [EvaluatedSpan::group]
+  std::vector<MethodScores> methods;            ///< the default first; what bounds them at the end
+  std::vector<Measure> summary;                 ///< what is told of every method
+  std::vector<std::string> collections = {};    ///< names, ascending
+  std::vector<std::size_t> collection_of = {};  ///< [recording]
 };
 
 /// Some spans of a task that are told together.
@@ -35,6 +41,19 @@ std::optional<Estimate> ratio_to(const EvaluatedTask& task, const MethodScores& 
                                  const ReportGroup& group, HandChoice hand, Measure measure, Bootstrap& bootstrap);
 Estimate estimate_of(const EvaluatedTask& task, const MethodScores& method, const ReportGroup& group, HandChoice hand,
                      Measure measure, Bootstrap& bootstrap);
+
+/// Not a number where there is none.
+inline double value_of(const std::optional<Estimate>& estimate) {
+  return estimate ? estimate->value : std::numeric_limits<double>::quiet_NaN();
+}
+nlohmann::ordered_json estimate_json(const Estimate& estimate);
+
+/// A figure of a method in a group; not a number where it is not known.
+using GroupFigure = std::function<double(const MethodScores&, const ReportGroup&)>;
+/// A table of one figure: rows are methods, columns groups. Methods without any number are left out; empty where all
+/// are.
+std::string method_table(const EvaluatedTask& task, std::span<const ReportGroup> groups, const std::string& title,
+                         int decimals, const GroupFigure& figure);
 
 /// How many spans there are, and a table for each of some measures, of the moving hand: rows are methods, columns
 /// groups; for the wrist's error also over slerp's, for the fingertips' also over hermite's. What is the same for each

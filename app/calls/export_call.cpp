@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "signweave/core/text.h"
 #include "signweave/database/import.h"
@@ -52,6 +53,22 @@ AnnotationDocument cut_document(const AnnotationDocument& document, TimeSpan spa
     }
   }
   return cut;
+}
+
+/// Leaves of a document these tiers, and those that they lie in. Throws for one that is not there.
+void keep_tiers(AnnotationDocument& document, const std::vector<std::string>& wanted) {
+  std::vector<std::string> known;
+  for (const Tier& tier : document.tiers) known.push_back(tier.id);
+  std::set<std::string> kept;
+  for (const std::string& name : wanted) {
+    const Tier* tier = document.find_tier(name);
+    if (tier == nullptr) {
+      throw Error(ErrorCode::not_found, fmt::format("no tier '{}'{}", printable(name), did_you_mean(name, known)));
+    }
+    for (; tier != nullptr && kept.insert(tier->id).second; tier = document.find_tier(tier->parent)) {
+    }
+  }
+  std::erase_if(document.tiers, [&](const Tier& tier) { return !kept.contains(tier.id); });
 }
 
 }  // namespace
@@ -112,6 +129,7 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
   if (made.document && part) {
     made.document = cut_document(*made.document, made.motion ? span_of(made.frames, info.clock) : span, outputs);
   }
+  if (made.document && !call.tiers.empty()) keep_tiers(*made.document, call.tiers);
   for (const std::string& path : outputs) {
     if (!call.joints.empty() && ending_of(path) == ".face.csv") {
       throw Error(ErrorCode::bad_input, path + ": --joints leaves scalar tracks out; export it without");

@@ -22,6 +22,7 @@ struct ExportCall {
   std::string recording;
   std::optional<std::int64_t> from;
   std::optional<std::int64_t> to;
+  std::vector<std::string> tiers;
   std::vector<std::string> remake;
   std::string transition;
   std::string joints;
@@ -31,12 +32,20 @@ struct ExportCall {
   RateWriting rate;
 };
 
+inline Field tiers_field() {
+  return {.name = "tiers",
+          .help = "of the annotation only these tiers, and those that they lie in",
+          .several_words = true,
+          .type_name = "TIER"};
+}
+
 template <class Visit>
 void fields(Visit& visit, ExportCall& call) {
   visit(Field{.name = "recording", .help = "name of the recording", .words = "RECORDING", .required = true},
         call.recording);
   visit(Field{.name = "from", .help = "annotation time in ms to begin at"}, call.from);
   visit(Field{.name = "to", .help = "annotation time in ms to end at"}, call.to);
+  visit(tiers_field(), call.tiers);
   visit(Field{.name = "remake",
               .help = "FROM..TO in ms of annotation time: what was captured there is cut out and made again, as "
                       "'evaluate' does; may be given several times",

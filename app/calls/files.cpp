@@ -8,6 +8,7 @@
 
 #include "app/calls/json.h"
 #include "app/calls/synthesis_report.h"
+#include "app/calls/table.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/core/time.h"
@@ -183,16 +184,6 @@ ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string&
   return options;
 }
 
-Outgoing outgoing(const Synthesized& made, const SynthesisLook& look) {
-  return {.motion = &made.result.motion,
-          .layout = look.layout,
-          .wishes = look.wishes,
-          .title = look.sheet.title,
-          .rig = look.sheet.rig,
-          .declarations = made.result.declarations,
-          .character = look.character};
-}
-
 /// The character's own file with the motion in it.
 std::string character_glb(const Outgoing& recording) {
   const std::filesystem::path& file = recording.character->plain;
@@ -223,6 +214,46 @@ gltf::WriteOptions gltf_options(const Outgoing& recording) {
 }
 
 }  // namespace
+
+Outgoing outgoing(const Synthesized& made, const SynthesisLook& look) {
+  return {.motion = &made.result.motion,
+          .layout = look.layout,
+          .wishes = look.wishes,
+          .title = look.sheet.title,
+          .rig = look.sheet.rig,
+          .declarations = made.result.declarations,
+          .character = look.character,
+          .progress = look.progress};
+}
+
+std::uint64_t estimated_bytes(const std::string& path, const Outgoing& recording) {
+  constexpr std::int64_t kMany = 20'000;
+  constexpr std::int64_t kSome = 32;
+  const std::string ending = ending_of(path);
+  const FileWriter writer = writer_of(ending);
+  const bool is_long = writer == FileWriter::bvh || writer == FileWriter::positions_csv ||
+                       writer == FileWriter::rotations_csv || writer == FileWriter::json;
+  if (!is_long || recording.motion == nullptr || recording.motion->frame_count() < kMany) return 0;
+  const std::int64_t frames = recording.motion->frame_count();
+  const auto bytes_of_first = [&](std::int64_t count) {
+    const std::int64_t begin = frames / 2;
+    const Motion part = recording.motion->slice({begin, begin + count});
+    Outgoing some = recording;
+    some.motion = &part;
+    return recording_text(ending, some, path).size();
+  };
+  const std::uint64_t one = bytes_of_first(1);
+  return one + (bytes_of_first(1 + kSome) - one) * static_cast<std::uint64_t>(frames - 1) / kSome;
+}
+
+void require_room(const std::string& path, std::uint64_t bytes) {
+  std::error_code error;
+  const fs::space_info space = fs::space(fs::absolute(path).parent_path(), error);
+  if (error || bytes <= space.available) return;
+  throw Error(ErrorCode::io, fmt::format("{}: takes about {}, and the disk has {} free; name a place on another disk, "
+                                         "or write a shorter part",
+                                         path, size_text(bytes), size_text(space.available)));
+}
 
 std::string ending_of(const std::string& path) {
   const FileFormat* format = file_format(path);
@@ -327,7 +358,7 @@ void write_recording(const std::string& path, const Outgoing& recording) {
   // The long ones go to the file piece by piece.
   switch (writer) {
     case FileWriter::bvh:
-      bvh::write(path, *recording.motion, layout_for(recording));
+      bvh::write(path, *recording.motion, layout_for(recording), recording.progress);
       break;
     case FileWriter::glb:
     case FileWriter::gltf:
@@ -338,10 +369,10 @@ void write_recording(const std::string& path, const Outgoing& recording) {
       }
       break;
     case FileWriter::positions_csv:
-      write_positions_csv(path, *recording.motion);
+      write_positions_csv(path, *recording.motion, recording.progress);
       break;
     case FileWriter::rotations_csv:
-      write_rotations_csv(path, *recording.motion);
+      write_rotations_csv(path, *recording.motion, recording.progress);
       break;
     default:
       write_text(path, recording_text(ending, recording, path));

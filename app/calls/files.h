@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,13 +37,19 @@ struct SheetWishes {
   RigNames rig;  ///< what a mapping file said of the skeleton
 };
 
+struct Outgoing;
+
 /// How a synthesis is written.
 struct SynthesisLook {
-  std::optional<bvh::Layout> layout;  ///< for .bvh
-  bvh::LayoutWishes wishes;           ///< what of it is to be otherwise
-  SheetWishes sheet;                  ///< for .svg
-  SharedCharacter character;          ///< whose joints it has; for .glb
+  std::optional<bvh::Layout> layout;                ///< for .bvh
+  bvh::LayoutWishes wishes;                         ///< what of it is to be otherwise
+  SheetWishes sheet;                                ///< for .svg
+  SharedCharacter character;                        ///< whose joints it has; for .glb
+  std::function<void(double fraction)> progress{};  ///< of each file; may throw to cancel
 };
+
+/// The motion of a synthesis, for what writes one.
+Outgoing outgoing(const Synthesized& made, const SynthesisLook& look);
 
 // What follows writes by the table of file formats (signweave/formats/file_format.h) and throws Error{bad_input},
 // before anything is written, for an ending that has no writer there.
@@ -65,7 +73,14 @@ struct Outgoing {
   RigNames rig;                                                   ///< what a mapping file said of the skeleton
   std::vector<std::pair<std::string, std::string>> declarations;  ///< what its sources say of themselves
   SharedCharacter character{};                                    ///< whose joints the motion has; for .glb
+  std::function<void(double fraction)> progress{};                ///< of each file; may throw to cancel
 };
+
+/// About how many bytes a motion takes as a file of this ending, estimated from some of its frames; 0 where that is
+/// little, or the ending is one whose files are never large.
+std::uint64_t estimated_bytes(const std::string& path, const Outgoing& recording);
+/// Throws Error{io} where a file of so many bytes has no room on the disk that it would be on.
+void require_room(const std::string& path, std::uint64_t bytes);
 
 /// Writes a motion or, to .eaf, an annotation document. Throws Error{not_found} where what the ending asks for is not
 /// there.

@@ -69,6 +69,7 @@ json json_of(const DatabaseInfo& info) {
           {"engine_version", info.engine.version},
           {"entries", info.engine.entries},
           {"bytes_on_disk", info.engine.bytes_on_disk},
+          {"bytes_free", info.engine.bytes_free ? json(*info.engine.bytes_free) : json(nullptr)},
           {"layout", info.layout},
           {"usage", std::move(usage)},
           {"access_mode", to_string(info.access_mode)},

@@ -6,18 +6,37 @@
 #include "app/calls/table.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "signweave/backup/backup.h"
 #include "signweave/database/check.h"
 
 namespace signweave::cli {
 
+namespace {
+
+/// As that of a database: the recordings of its newest state.
+CheckResult check_of_backup(const std::string& folder, const BackupProgress& progress) {
+  CheckResult result;
+  for (const BackupState& state : backup_states(folder))
+    result.recordings = static_cast<std::uint32_t>(state.recordings);
+  result.faults = check_backup(folder, progress);
+  return result;
+}
+
+}  // namespace
+
 Run check(CLI::App& verb) {
   auto folder = std::make_shared<std::string>();
-  verb.add_option("DB", *folder, "the database")->required();
+  verb.add_option("DB", *folder, "the database, or a backup of one")->required();
   return [folder](Io& io) {
     CheckResult result;
     {
-      Progress progress(io, "checking");
-      result = check_in_child(*folder, [&](double fraction) { progress.show(fraction); });
+      Progress progress(io, "checking", "stopped before all was checked");
+      const auto show = [&](double fraction) { progress.show(fraction); };
+      if (is_backup(*folder)) {
+        result = check_of_backup(*folder, show);
+      } else {
+        result = check_in_child(*folder, show);
+      }
     }
     const std::vector<std::string>& faults = result.faults;
     if (io.json) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <ostream>
 
+#include "app/calls/collection_report.h"
 #include "app/calls/evaluate_call.h"
 #include "app/calls/files.h"
 #include "app/calls/table.h"
@@ -77,10 +78,12 @@ void run_evaluate(const EvaluateArguments& options, Io& io) {
   io.out << fmt::format("{}, {} left out; {}, {} left out for defects of the capture\n",
                         counted(made.input.recordings.size(), "recording"), made.input.left_out,
                         counted(made.choice.spans.size(), "span"), made.choice.left_out);
+  io.out << fmt::format("nothing is learned from the {} that is judged\n", made.left_out_by);
   const std::vector<Measure> chosen = measures_of(options);
   for (const EvaluatedTask& task : made.tasks) {
     io.out << '\n' << summary_text(task, chosen.empty() ? task.summary : chosen, bootstrap);
     if (chosen.empty()) io.out << default_text(task, bootstrap);
+    if (task.key == "given" && chosen.empty()) io.out << calls::judged_text(task, bootstrap);
   }
   if (options.full) {
     for (const EvaluatedTask& task : made.tasks) io.out << full_text(task, bootstrap);

@@ -1,33 +1,114 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <ostream>
 
 #include "app/calls/export_call.h"
+#include "app/calls/export_folder.h"
+#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/delivery.h"
+#include "app/cli/progress.h"
+#include "signweave/formats/file_format.h"
 
 namespace signweave::cli {
+namespace {
+
+struct ExportArguments {
+  std::string database;
+  std::vector<std::string> recordings;
+  bool all = false;
+  std::vector<std::string> outputs;
+  std::vector<std::string> endings;
+  calls::ExportCall call;
+};
+
+/// ".bvh" for "bvh" too.
+std::string with_dot(const std::string& ending) {
+  return ending.starts_with('.') ? ending : "." + ending;
+}
+
+void export_one(const ExportArguments& options, Io& io) {
+  for (const std::string& path : options.outputs) {
+    if (const std::string fault = calls::check_ending(path, writable_endings()); !fault.empty()) {
+      const bool folder = calls::ending_of(path).empty();
+      throw CLI::ValidationError("--output",
+                                 fault + (folder ? "; for a folder give --as, --all or several recordings" : ""));
+    }
+  }
+  check_signing_space(options.call.signing_space, options.outputs);
+  const Database database(options.database, kv::Access::read_only);
+  report_damage(database, io);
+  const calls::SharedCharacter character = character_of(options.call.character);
+  calls::Exported made = calls::run(database, options.call, options.outputs);
+  if (character) show_on(made, stance_of(database, made.info), character);
+  deliver(made, options.outputs, io);
+}
+
+void export_many(const ExportArguments& options, Io& io) {
+  if (options.outputs.size() != 1) {
+    throw CLI::ValidationError("-o", "several recordings go into one folder: name it once, and their files with --as");
+  }
+  if (!options.call.character.empty()) {
+    throw CLI::ValidationError("--character", "is for one recording and one file");
+  }
+  calls::FolderExport wanted{.recordings = options.recordings, .folder = options.outputs[0], .call = options.call};
+  for (const std::string& ending : options.endings) wanted.endings.push_back(with_dot(ending));
+  const Database database(options.database, kv::Access::read_only);
+  report_damage(database, io);
+  calls::FolderExported done;
+  {
+    Progress progress(io, "exporting", "stopped; the files that were written before are there, each whole");
+    calls::Listener listener = listener_of(io);
+    listener.progress = [&](double fraction) { progress.show(fraction); };
+    done = calls::run(database, wanted, listener);
+  }
+  for (const auto& [name, value] : done.declarations) io.err << "signweave: " << one_line(value) << '\n';
+  if (io.json) {
+    io.out << text_of(json_of(done));
+    return;
+  }
+  io.out << fmt::format("{}: {} of {}, and pairs.csv for import\n", options.outputs[0],
+                        counted(done.files.size(), "file"), counted(done.recordings, "recording"));
+}
+
+}  // namespace
 
 Run export_recording(CLI::App& verb) {
-  struct ExportArguments {
-    std::string folder;
-    std::vector<std::string> outputs;
-    calls::ExportCall call;
-  };
   auto options = std::make_shared<ExportArguments>();
-  verb.add_option("DB", options->folder, "the database")->required();
-  bind(verb, options->call, [&verb, options](std::string_view next) {
-    if (next == "from") add_outputs(verb, options->outputs);
+  verb.add_option("DB", options->database, "the database")->required();
+  verb.add_option("RECORDING", options->recordings, "name of the recording; several go into a folder");
+  Binder binder(verb, [&verb, options](std::string_view next) {
+    if (next != "from") return;
+    verb.add_flag("--all", options->all, "every recording, into the folder of -o");
+    verb.add_option("-o,--output", options->outputs,
+                    fmt::format("file to write: {}; may be given several times; with --all, several recordings or --as "
+                                "a folder",
+                                fmt::join(writable_endings(), " ")))
+        ->required()
+        ->allow_extra_args(false);
+    verb.add_option("--as", options->endings,
+                    "endings of the files of each recording in a folder; .bvh .face.csv .eaf where not given")
+        ->type_name("ENDING");
   });
+  const auto bind_rest = [&binder](const calls::Field& field, auto& member) {
+    if (field.name != "recording") binder(field, member);
+  };
+  fields(bind_rest, options->call);
   return [options](Io& io) {
-    check_signing_space(options->call.signing_space, options->outputs);
-    const Database database(options->folder, kv::Access::read_only);
-    report_damage(database, io);
-    const calls::SharedCharacter character = character_of(options->call.character);
-    calls::Exported made = calls::run(database, options->call, options->outputs);
-    if (character) show_on(made, stance_of(database, made.info), character);
-    deliver(made, options->outputs, io);
+    if (options->all == !options->recordings.empty()) {
+      throw CLI::ValidationError(options->all ? "--all stands for every recording: name none beside it"
+                                              : "name a RECORDING, several, or --all");
+    }
+    if (options->all || options->recordings.size() > 1 || !options->endings.empty()) {
+      export_many(*options, io);
+      return;
+    }
+    options->call.recording = options->recordings[0];
+    export_one(*options, io);
   };
 }
 

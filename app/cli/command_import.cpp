@@ -42,12 +42,13 @@ void print(const calls::Imported& imported, Io& io) {
     line += ", " + counted(report.signs, "sign");
     if (report.defects > 0) line += ", " + counted(report.defects, "defect");
   }
-  io.out << line << '\n';
+  io.out << line << std::endl;  // flushed: it is stored, and a pipe or log shows it now
 }
 
 void run_import(const ImportArguments& options, Io& io) {
   const ImportOptions how = options_of(options.call);
   Database database(options.folder, kv::Access::read_write);
+  database.announce("signweave import");
   const std::vector<std::filesystem::path> inputs(options.inputs.begin(), options.inputs.end());
   const Pairing pairing = pairing_of(options.call, inputs);
   print_notices(io, pairing.notices);
@@ -60,12 +61,22 @@ void run_import(const ImportArguments& options, Io& io) {
   nlohmann::json recordings = nlohmann::json::array();
   {
     Progress progress(io, "importing");  // one bar for all; it must be gone before a line is printed
-    calls::run(database, pairing, how, {.progress = [&](double fraction) { progress.show(fraction); }},
-               [&](const calls::Imported& imported) {
-                 progress.hide();
-                 print(imported, io);
-                 if (io.json) recordings.push_back(json_of(imported));
-               });
+    std::size_t looked_at = 0;
+    try {
+      calls::run(database, pairing, how, {.progress = [&](double fraction) { progress.show(fraction); }},
+                 [&](const calls::Imported& imported) {
+                   ++looked_at;
+                   progress.hide();
+                   print(imported, io);
+                   if (io.json) recordings.push_back(json_of(imported));
+                 });
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::cancelled) throw;
+      throw Error(
+          ErrorCode::cancelled,
+          fmt::format("stopped after {} of {}, which are stored whole; the same command goes on with the others",
+                      looked_at, counted(pairing.jobs.size(), "recording")));
+    }
   }
   learn(database, listener_of(io));
   if (io.json) io.out << text_of(nlohmann::json{{"recordings", std::move(recordings)}});

@@ -16,6 +16,7 @@
 #include "app/cli/progress.h"
 #include "app/cli/rig_report.h"
 #include "signweave/annotation/sign.h"
+#include "signweave/backup/backup.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/annotation_file.h"
 #include "signweave/formats/face_csv.h"
@@ -163,8 +164,9 @@ Run info(CLI::App& verb) {
   };
   auto options = std::make_shared<InfoArguments>();
   verb.add_option("PATH", options->path,
-                  "a database, a motion file " + readable_endings(FileKind::motion) + ", an annotation file " +
-                      readable_endings(FileKind::annotation) + " or a face capture (.face.csv)")
+                  "a database, a backup, a motion file " + readable_endings(FileKind::motion) +
+                      ", an annotation file " + readable_endings(FileKind::annotation) +
+                      " or a face capture (.face.csv)")
       ->required();
   verb.add_option("RECORDING", options->recording, "of a database: all that is known of this one");
   verb.add_option("--rig", options->rig, "a mapping file (part = joint) that says which joint plays which part")
@@ -178,7 +180,9 @@ Run info(CLI::App& verb) {
     }
     std::error_code ignored;
     if (std::filesystem::is_directory(options->path, ignored)) {
-      if (options->recording.empty()) {
+      if (is_backup(options->path)) {
+        info_of_backup(options->path, io);
+      } else if (options->recording.empty()) {
         info_of_database(options->path, io);
       } else {
         info_of_recording(options->path, options->recording, io);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <ostream>
 
+#include "app/calls/export_folder.h"
 #include "app/calls/query_call.h"
 #include "app/calls/query_documents.h"
 #include "app/calls/table.h"
@@ -26,10 +27,7 @@ struct QueryArguments {
 void write_files(const QueryArguments& options, const Database& database, const calls::QueryReport& report, Io& io) {
   std::filesystem::create_directories(options.folder_of_files);
   for (const calls::QueryDocument& one : calls::documents_of(database, report.answers)) {
-    std::string name = one.recording;
-    std::ranges::replace_if(
-        name, [](char c) { return c == '/' || c == '\\' || c == ':'; }, '_');
-    const std::filesystem::path file = options.folder_of_files / (name + ".eaf");
+    const std::filesystem::path file = options.folder_of_files / (calls::file_name_of(one.recording) + ".eaf");
     eaf::write(file, one.document);
     io.out << file.string() << '\n';
   }

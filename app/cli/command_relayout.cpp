@@ -26,13 +26,23 @@ Run relayout(CLI::App& verb) {
       throw CLI::ValidationError(fault);
     }
     Database database(options->folder, kv::Access::read_write);
+    database.announce("signweave relayout");
     if (options->call.recordings.empty()) report_damage(database, io);
     calls::Relayouted done;
     {
       Progress progress(io, "storing anew");
       calls::Listener listener = listener_of(io);
       listener.progress = [&](double fraction) { progress.show(fraction); };
-      done = calls::run(database, options->call, listener);
+      std::size_t changed = 0;
+      try {
+        done = calls::run(database, options->call, listener, [&](const std::string&) { ++changed; });
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::cancelled) throw;
+        throw Error(ErrorCode::cancelled,
+                    fmt::format("stopped after {} were stored anew, whole; the others are as they were, and the same "
+                                "command goes on with them",
+                                counted(changed, "recording")));
+      }
     }
     learn(database, listener_of(io));
     if (io.json) {

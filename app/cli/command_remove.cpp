@@ -18,6 +18,7 @@ Run remove(CLI::App& verb) {
   bind(verb, options->call);
   return [options](Io& io) {
     Database database(options->folder, kv::Access::read_write);
+    database.announce("signweave remove");
     const nlohmann::json report = calls::run(database, options->call);
     learn(database, listener_of(io));
     if (io.json) io.out << text_of(report);

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "app/cli/bind.h"
 #include "app/cli/browser.h"
 #include "app/cli/command.h"
+#include "app/cli/interrupts.h"
 #include "app/cli/progress.h"
 #include "app/cli/validators.h"
 #include "app/server/api.h"
@@ -160,27 +160,9 @@ json task_of(const RenderArguments& given, const std::string& database, const st
           {"put", put}};
 }
 
-volatile std::sig_atomic_t interrupted = 0;
-
-/// While it lives, SIGINT and SIGTERM are told by `interrupted`, so that the browser is ended, too.
-class Interrupts {
- public:
-  Interrupts() : int_(std::signal(SIGINT, note)), term_(std::signal(SIGTERM, note)) {}
-  Interrupts(const Interrupts&) = delete;
-  ~Interrupts() {
-    std::signal(SIGINT, int_);
-    std::signal(SIGTERM, term_);
-  }
-
- private:
-  static void note(int) { interrupted = 1; }
-  void (*int_)(int);
-  void (*term_)(int);
-};
-
 /// Waits until the page has said that it is done; its last words.
 json wait_for(Browser& browser, const fs::path& folder, Io& io) {
-  Progress progress(io, "drawing");
+  Progress progress(io, "drawing", "stopped before it was drawn; nothing was written");
   auto heard = std::chrono::steady_clock::now();
   fs::file_time_type last{};
   for (;;) {
@@ -204,7 +186,7 @@ json wait_for(Browser& browser, const fs::path& folder, Io& io) {
       throw Error(ErrorCode::io,
                   fmt::format("the browser has drawn nothing for two minutes: {}", browser.last_words()));
     }
-    if (interrupted != 0) throw Error(ErrorCode::cancelled, "stopped before it was drawn; nothing was written");
+    if (Interrupts::noted()) throw Error(ErrorCode::cancelled, "stopped before it was drawn; nothing was written");
     std::this_thread::sleep_for(20ms);
   }
 }

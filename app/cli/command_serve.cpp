@@ -133,6 +133,7 @@ void run_serve(const ServeArguments& given, Io& io) {
   server::Api api(databases, {}, scratch.path());
   server::Server server(databases, api, options);
   server.stop_on_signals();
+  for (const auto& one : databases.all()) one->announce(fmt::format("signweave serve at {}", server.url()));
   io.err << "listening on " << server.url() << std::endl;
   server.wait();
 }

@@ -10,6 +10,7 @@
 #include "app/calls/files.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
+#include "app/cli/progress.h"
 #include "app/cli/selection_report.h"
 #include "signweave/formats/file_format.h"
 
@@ -65,6 +66,18 @@ void print_junctions(const Synthesized& made, Io& io) {
   io.out << '\n' << format_table(rows) << timing_of(made.durations) << captured_of(made);
 }
 
+/// Before anything is written: tells how large the large ones will be, and refuses what the disk has no room for.
+void announce(const std::vector<std::string>& outputs, const calls::Outgoing& motion, Io& io) {
+  constexpr std::uint64_t kLarge = std::uint64_t{100} << 20;
+  for (const std::string& path : outputs) {
+    const std::uint64_t bytes = calls::estimated_bytes(path, motion);
+    calls::require_room(path, bytes);
+    if (bytes >= kLarge) {
+      io.err << fmt::format("signweave: {}: about {} will be written\n", one_line(path), size_text(bytes));
+    }
+  }
+}
+
 }  // namespace
 
 void add_outputs(CLI::App& verb, std::vector<std::string>& outputs) {
@@ -77,7 +90,13 @@ void add_outputs(CLI::App& verb, std::vector<std::string>& outputs) {
 
 void deliver(const calls::Exported& made, const std::vector<std::string>& outputs, Io& io) {
   print_notices(io, made.notices);
-  for (const std::string& path : outputs) write_recording(path, made.outgoing());
+  {
+    Progress progress(io, "writing", "stopped; the file that was being written is not there");
+    calls::Outgoing written = made.outgoing();
+    written.progress = [&](double fraction) { progress.show(fraction); };
+    announce(outputs, written, io);
+    for (const std::string& path : outputs) write_recording(path, written);
+  }
   for (const auto& [name, value] : made.info.declarations) io.err << "signweave: " << value << '\n';
   if (!io.json) return;
   nlohmann::json report = json_of(made);
@@ -95,7 +114,13 @@ void add_timings(CLI::App& verb, Delivery& delivery) {
 
 void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, const Delivery& delivery,
              const std::string& title, calls::SharedCharacter character, Io& io) {
-  write_synthesis(delivery.outputs, made, look_of(made, choices, title, std::move(character)));
+  {
+    Progress progress(io, "writing", "stopped; the file that was being written is not there");
+    calls::SynthesisLook look = look_of(made, choices, title, std::move(character));
+    look.progress = [&](double fraction) { progress.show(fraction); };
+    announce(delivery.outputs, calls::outgoing(made, look), io);
+    write_synthesis(delivery.outputs, made, look);
+  }
   print_notices(io, made.result.notices);
   for (const auto& [name, value] : made.result.declarations) io.err << "signweave: " << value << '\n';
   const Synthesis& result = made.result;

@@ -12,6 +12,7 @@
 #include "app/calls/listener.h"
 #include "app/cli/command.h"
 #include "app/cli/help_format.h"
+#include "app/cli/interrupts.h"
 #include "signweave/core/text.h"
 #include "signweave/core/version.h"
 #include "signweave/database/database.h"
@@ -19,6 +20,8 @@
 
 namespace signweave::cli {
 namespace {
+
+constexpr int kInterrupted = 130;  // as shells have it: 128 and the number of SIGINT
 
 constexpr Command kCommands[] = {
     {"create", "make an empty database", "signweave create corpus.db --access-mode by_frame:64", create},
@@ -29,6 +32,11 @@ constexpr Command kCommands[] = {
     {"check", "verify every stored byte", "signweave check corpus.db", check},
     {"relayout", "store motions in another access mode",
      "signweave relayout corpus.db --access-mode by_joint_and_frame", relayout},
+    {"backup", "copy a database while it is written to; the next time, what changed",
+     "signweave backup corpus.db corpus.backup", backup},
+    {"restore", "make a database of a backup", "signweave restore corpus.backup corpus.db", restore},
+    {"compact-file", "give the disk back what is free in a database's file", "signweave compact-file corpus.db",
+     compact_file},
     {"query", "find signs, phases and annotations", "signweave query corpus.db 'gloss = \"VANNES\" & phase = stroke'",
      query},
     {"xpath", "ask the annotation documents themselves, in XPath 1.0",
@@ -201,6 +209,7 @@ int dispatch(const std::vector<std::string>& words, Io& io) {
   } catch (const Error& error) {
     io.err << "signweave: " << one_line(error.what()) << '\n';
     print_fault(calls::fault_json(error, calls::name_of(error.code()), one_line(error.what())), io);
+    if (Interrupts::noted()) return kInterrupted;
   } catch (const std::bad_alloc&) {
     io.err << "signweave: not enough memory\n";
     print_fault({{"code", "io"}, {"message", "not enough memory"}}, io);

@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "app/calls/backup_call.h"
 #include "app/calls/defect_report.h"
 #include "app/calls/info_call.h"
 #include "app/calls/selection_report.h"
@@ -47,9 +48,11 @@ void info_of_database(const std::string& folder, Io& io) {
   }
   const kv::EngineInfo& engine = found.engine;
   const Contents& contents = *found.contents;
-  io.out << fmt::format("{}: {} {}, layout {}, {}, {:.1f} MiB on disk, new motions {}, kept {}{}\n", folder,
+  io.out << fmt::format("{}: {} {}, layout {}, {}, {:.1f} MiB on disk{}, new motions {}, kept {}{}\n", folder,
                         engine.name, engine.version, found.layout, counted(engine.entries, "record"),
-                        mebibytes(engine.bytes_on_disk), to_string(found.access_mode), precision_name(found.tolerance),
+                        mebibytes(engine.bytes_on_disk),
+                        engine.bytes_free ? fmt::format(" ({:.1f} free)", mebibytes(*engine.bytes_free)) : "",
+                        to_string(found.access_mode), precision_name(found.tolerance),
                         found.documents == DocumentStorage::node ? ", documents node" : "");
   std::vector<std::vector<std::string>> rows = {{"recording", "signer", "frames", "per second", "seconds", "joints",
                                                  "tracks", "access mode", "packets", "kept", "defects", "signs"}};
@@ -81,6 +84,24 @@ void info_of_database(const std::string& folder, Io& io) {
   io.out << fmt::format("weights of joins: {}\n", describe(found.weights));
   for (const std::string& fault : contents.faults) io.err << "signweave: " << fault << '\n';
   if (!contents.faults.empty()) io.status = 1;
+}
+
+void info_of_backup(const std::string& folder, Io& io) {
+  const std::vector<BackupState> states = backup_states(folder);
+  if (io.json) {
+    io.out << text_of(calls::json_of(states));
+    return;
+  }
+  std::vector<std::vector<std::string>> rows = {{"state", "made", "database", "recordings", "size"}};
+  for (const BackupState& state : states) {
+    rows.push_back({std::to_string(state.number), state.made, state.database, std::to_string(state.recordings),
+                    calls::size_text(state.bytes)});
+    if (state.fault.empty()) continue;
+    rows.pop_back();
+    io.err << "signweave: " << one_line(state.fault) << '\n';
+    io.status = 1;
+  }
+  io.out << format_table(rows);
 }
 
 void info_of_recording(const std::string& folder, const std::string& name, Io& io) {

@@ -9,6 +9,8 @@ namespace signweave::cli {
 
 /// What is in a database: its recordings, and what takes how much space.
 void info_of_database(const std::string& folder, Io& io);
+/// The states of a backup.
+void info_of_backup(const std::string& folder, Io& io);
 /// All that is known of one of its recordings.
 void info_of_recording(const std::string& folder, const std::string& name, Io& io);
 

@@ -9,8 +9,12 @@ namespace signweave::cli {
 
 using namespace std::chrono_literals;
 
-Progress::Progress(Io& io, std::string title)
-    : io_(io), title_(std::move(title)), start_(std::chrono::steady_clock::now()), drawn_(start_) {}
+Progress::Progress(Io& io, std::string title, std::string stopped)
+    : io_(io),
+      title_(std::move(title)),
+      stopped_(std::move(stopped)),
+      start_(std::chrono::steady_clock::now()),
+      drawn_(start_) {}
 
 Progress::~Progress() {
   hide();
@@ -22,6 +26,10 @@ void Progress::hide() {
 }
 
 void Progress::show(double fraction) {
+  if (Interrupts::noted()) {
+    hide();
+    throw Error(ErrorCode::cancelled, stopped_);
+  }
   const auto now = std::chrono::steady_clock::now();
   if (!io_.terminal || now - start_ < 500ms || now - drawn_ < 50ms) return;
   drawn_ = now;

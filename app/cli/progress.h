@@ -4,13 +4,15 @@
 #include <string>
 
 #include "app/cli/command.h"
+#include "app/cli/interrupts.h"
 
 namespace signweave::cli {
 
-/// A progress bar on `err`: only on a terminal, only after half a second, gone when it ends.
+/// A progress bar on `err`: only on a terminal, only after half a second, gone when it ends. While it lives Ctrl-C ends
+/// what is under way in order: the next `show` throws Error{cancelled, stopped}.
 class Progress {
  public:
-  Progress(Io& io, std::string title);
+  Progress(Io& io, std::string title, std::string stopped = "stopped; nothing was changed");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -23,6 +25,8 @@ class Progress {
  private:
   Io& io_;
   std::string title_;
+  std::string stopped_;
+  Interrupts interrupts_;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point drawn_;
   bool visible_ = false;

@@ -24,22 +24,6 @@ std::string another_bvh() {
   return bvh::write_text(another().motion, bvh::default_layout(another().motion.skeleton()));
 }
 
-std::string upload_of(TestApi& api, const std::vector<std::pair<std::string, std::string>>& files) {
-  std::string id = json_in(api.send("POST", at({"uploads"})))["upload"];
-  for (const auto& [name, body] : files) EXPECT_EQ(api.put(at({"uploads", id, "files", name}), body).status, 200);
-  return id;
-}
-
-/// Waits until a job is over.
-json wait_for(TestApi& api, const std::string& job) {
-  for (int i = 0; i < 6'000; ++i) {
-    json state = json_in(api.get({"jobs", job}));
-    if (state["state"] != "waiting" && state["state"] != "running") return state;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return "a job that does not end";
-}
-
 json import(TestApi& api, const std::string& upload, const json& parameters = json::object()) {
   const ApiResponse begun = api.send("POST", at({"uploads", upload, "import"}), parameters);
   EXPECT_EQ(begun.status, 202) << begun.body;
@@ -222,6 +206,14 @@ TEST(ApiChanges, NamesThatAreNoPlainFileNameAreRefused) {
     EXPECT_THAT(fault_of(api.put(at({"uploads", id, "files", name}), "x")), StartsWith("400 bad_input")) << name;
   }
   EXPECT_EQ(api.put(at({"uploads", id, "files", "été 天気.bvh"}), "x").status, 200);
+  for (const char* name : {"photo.jpg", "film.mp4", "all.zip", "a.bvh.gz", "out.svg"}) {
+    EXPECT_THAT(fault_of(api.put(at({"uploads", id, "files", name}), "x")),
+                StartsWith(fmt::format("422 unsupported: {}: no import reads files ending in", name)));
+  }
+  for (const char* name : {"A.BVH", "smile.face.csv", "labels.txt", "labels", "body.rig", "buffer.bin", "spec.xml"}) {
+    EXPECT_EQ(api.put(at({"uploads", id, "files", name}), "x").status, 200) << name;
+    EXPECT_EQ(api.send("DELETE", at({"uploads", id, "files", name})).status, 200) << name;
+  }
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"pairs", "../../x"}})), StartsWith("400"));
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"rig", "none"}})), StartsWith("404"));
   for (const char* field : {"pairs", "phase_labels", "rig", "skeleton"}) {  // nothing outside of the upload is opened

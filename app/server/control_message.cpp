@@ -81,6 +81,10 @@ const TransitionMethod* method_of(const std::string& name, const nlohmann::json&
 
 using Read = void (*)(ControlMessage&, const std::string& name, const nlohmann::json&);
 
+void read_missing(ControlMessage& message, const std::string& name, const nlohmann::json& value) {
+  message.folds = one_of<2>(name, value, {"explain", "fold"}) == 1;
+}
+
 struct Field {
   Control control;
   std::string_view name;
@@ -133,6 +137,8 @@ constexpr Field kFields[] = {
      [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
        m.utterance = parse_utterance(text_of(n, v));
      }},
+    {Control::sign, "missing", false, read_missing},
+    {Control::append, "missing", false, read_missing},
     {Control::append, "utterance", true,
      [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
        m.utterance = parse_utterance(text_of(n, v));

@@ -32,6 +32,7 @@ struct ControlMessage {
   std::string id;  ///< as JSON, to be echoed; empty: none was given
   StreamOptions open;
   Utterance utterance;
+  bool folds = false;  ///< glosses that differ in spelling only are taken for those that are there
   Milliseconds at{0};
   double tempo = 1;
   bool loop = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/server/stream_text.h"
+#include "signweave/synthesis/missing_glosses.h"
 
 namespace signweave::server {
 namespace {
@@ -48,15 +49,31 @@ void FrameSender::stop() noexcept {
   thread_.pacer.forget(*this);
 }
 
+/// The utterance of a message, every gloss of which is there. Throws MissingGlosses.
+Utterance FrameSender::found(const ControlMessage& message) {
+  const std::shared_ptr<const Segments> segments = served_.database().segments();
+  if (!message.folds) {
+    require_glosses(message.utterance, *segments);
+    return message.utterance;
+  }
+  std::vector<Notice> notices;
+  Utterance utterance = with_folded_glosses(message.utterance, *segments, notices);
+  for (Notice& notice : notices) {
+    out_.send_text(
+        event_text({.kind = PlayerEvent::Kind::notice, .frame = player_.frame(), .text = std::move(notice.text)}));
+  }
+  return utterance;
+}
+
 void FrameSender::control(const ControlMessage& message) {
   was_idle_ = player_.idle();
   const Clock::time_point now = Clock::now();
   switch (message.control) {
     case Control::sign:
-      player_.sign(message.utterance);
+      player_.sign(found(message));
       break;
     case Control::append:
-      player_.append(message.utterance);
+      player_.append(found(message));
       break;
     case Control::pause:
       player_.pause();
@@ -248,7 +265,7 @@ void FrameSender::prepare(std::size_t frames) {
       ready_ = player_.prepare(frames);
       break;
     } catch (const Error& error) {  // of one place, which is left out; the next call goes on
-      out_.send_text(error_text(error.code(), error.what(), {}));
+      out_.send_text(error_text(error, {}));
     } catch (const std::exception& error) {  // no memory, for one: this stream has no future, the others have
       out_.send_text(error_text(ErrorCode::io, error.what(), {}));
       stop();
@@ -269,7 +286,7 @@ void FrameSender::announce() {
     try {
       stance = served_.stance(served_.database().contents(), header->layout_from);
     } catch (const Error& error) {  // its motion is damaged, or was removed
-      out_.send_text(error_text(error.code(), error.what(), {}));
+      out_.send_text(error_text(error, {}));
       return stop();
     }
     RetargetOptions options = options_for(stance->frames, stance->signer, character_->character);

@@ -43,6 +43,7 @@ class FrameSender final : public Paced {
   Clock::time_point send_due(Clock::time_point now) noexcept;
   void start_clock(Clock::time_point now) noexcept;
   void passed(std::size_t frames) noexcept;
+  Utterance found(const ControlMessage& message);
   void prepare(std::size_t frames);
   void announce();
   void tell_events();

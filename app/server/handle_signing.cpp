@@ -56,6 +56,7 @@ void fields(Visit& visit, AnnotationCall& call) {
   visit(calls::Field{.name = "recording", .help = "name of the recording", .required = true}, call.call.recording);
   visit(calls::Field{.name = "from", .help = "annotation time in ms to begin at"}, call.call.from);
   visit(calls::Field{.name = "to", .help = "annotation time in ms to end at"}, call.call.to);
+  visit(calls::tiers_field(), call.call.tiers);
 }
 
 /// The format that a request asks for: by its field, else by the first type that it accepts; empty for the report.

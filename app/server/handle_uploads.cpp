@@ -1,57 +1,12 @@
-#include <fmt/format.h>
-
-#include <cassert>
-#include <type_traits>
-
-#include <algorithm>
-
 #include "app/calls/import_call.h"
 #include "app/calls/inspect_call.h"
 #include "app/server/routes.h"
+#include "app/server/upload_files.h"
 
 namespace signweave::server {
 namespace {
 
 using nlohmann::json;
-
-/// A call's file is named by its plain name in the upload.
-void resolve(std::string& file, const std::filesystem::path& folder, std::string_view field) {
-  if (file.empty()) return;
-  Uploads::require_plain(file);
-  const std::filesystem::path path = folder / file;
-  if (!std::filesystem::is_regular_file(path)) {
-    throw Error(ErrorCode::not_found, fmt::format("{}: the upload has no file '{}'; put it first", field, file));
-  }
-  file = path.string();
-}
-
-/// Does so with every field of a call that names a file, whatever fields it has.
-struct ResolveFiles {
-  const std::filesystem::path& folder;
-
-  template <class Member>
-  void operator()(const calls::Field& field, Member& member) const {
-    if constexpr (std::is_same_v<Member, std::string>) {
-      if (field.is_file) resolve(member, folder, field.name);
-    } else {
-      assert(!field.is_file);
-    }
-  }
-};
-
-/// Takes the server's folder out of every text: nobody needs to know of it.
-json without_folder(json value, const std::string& folder) {
-  if (value.is_string()) {
-    auto text = value.get<std::string>();
-    // From the start each time: what is left on both sides may make the folder anew.
-    for (std::size_t at = text.find(folder); at != text.npos; at = text.find(folder)) text.erase(at, folder.size());
-    return text;
-  }
-  if (value.is_structured()) {
-    for (json& one : value) one = without_folder(std::move(one), folder);
-  }
-  return value;
-}
 
 /// How far a job is.
 struct JobCall {

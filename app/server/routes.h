@@ -127,6 +127,7 @@ ApiResponse import_upload(Call& call);
 ApiResponse list_jobs(Call& call);
 ApiResponse show_job(Call& call);
 ApiResponse cancel_job(Call& call);
+ApiResponse preview_upload(Call& call);  // handle_previews.cpp
 
 /// The fields of each call that has some, for the table and the document.
 calls::SchemaWriter label_fields();
@@ -141,6 +142,7 @@ calls::SchemaWriter motion_fields();
 calls::SchemaWriter annotation_fields();
 calls::SchemaWriter relayout_fields();
 calls::SchemaWriter import_fields();
+calls::SchemaWriter preview_fields();
 calls::SchemaWriter job_fields();
 
 }  // namespace signweave::server

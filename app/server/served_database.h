@@ -26,6 +26,8 @@ class ServedDatabase {
   const Database& database() const noexcept { return database_; }
   SigningBase& signing() noexcept { return signing_; }
   bool writable() const noexcept { return writable_; }
+  /// See Database::announce; to be called before anything is served.
+  void announce(std::string_view who) noexcept { database_.announce(who); }
 
   /// Runs one change at a time, beside all readers. Throws Error{unsupported} where it is not writable, and what
   /// `change` throws.

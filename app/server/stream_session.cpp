@@ -162,7 +162,8 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
     } catch (const ControlError& error) {
       refuse(error.code(), error.what(), error.id);
     } catch (const Error& error) {
-      refuse(error.code(), error.what(), id);
+      thread_.metrics.control_errors.add();
+      say(error_text(error, id));
     } catch (const std::exception& error) {  // no memory, for one: this stream has no future, the others have
       refuse(ErrorCode::io, error.what(), id);
       if (sender_) sender_->stop();

@@ -88,6 +88,11 @@ TEST(Stream, ErrorsAreAnsweredAndTheStreamGoesOn) {
   says("no JSON", "bad_input", "not JSON");
   says(R"({"type":"sing"})", "bad_input", "did you mean ping or sign?");
   EXPECT_EQ(says(R"({"type":"sign","utterance":"DEMAINN","id":5})", "not_found", "DEMAIN")["id"], 5);
+  const nlohmann::json missing = says(R"({"type":"append","utterance":"demain"})", "not_found", "DEMAIN");
+  EXPECT_EQ(missing["missing"], nlohmann::json::parse(R"([{"gloss":"demain","matches":["DEMAIN"],"folds":true}])"));
+  EXPECT_EQ(missing["suggestion"], "DEMAIN");
+  says(R"({"type":"sign","utterance":"DEMAINN","missing":"fold"})", "not_found", "DEMAIN");
+  says(R"({"type":"sign","utterance":"DEMAIN","missing":"guess"})", "bad_input", "must be one of explain, fold");
   says(R"({"type":"open"})", "conflict", "comes first");
   client.client.send(StreamClient::frame(2, "bytes"));
   EXPECT_EQ(client.next("error")["code"], "bad_input");
@@ -95,6 +100,15 @@ TEST(Stream, ErrorsAreAnsweredAndTheStreamGoesOn) {
   EXPECT_EQ(client.next("ok")["id"], "still there");
   client.say(R"({"type":"sign","utterance":"DEMAIN"})");
   EXPECT_TRUE(client.next_frames());
+}
+
+TEST(Stream, SpellingIsFoldedWhereThatIsAskedFor) {
+  const TestServer server;
+  StreamClient client(server.port());
+  client.say(kFastOpen);
+  client.say(R"({"type":"sign","utterance":"demain","missing":"fold","id":1})");
+  EXPECT_THAT(client.next("notice")["text"].get<std::string>(), HasSubstr("'demain'"));
+  EXPECT_EQ(client.next("place")["gloss"], "DEMAIN");
 }
 
 TEST(Stream, PausesAndGoesOn) {

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -74,6 +78,23 @@ inline Path at(Path rest) {
 
 inline nlohmann::json json_in(const ApiResponse& response) {
   return nlohmann::json::parse(response.body);
+}
+
+/// An upload with these files, name and bytes.
+inline std::string upload_of(TestApi& api, const std::vector<std::pair<std::string, std::string>>& files) {
+  std::string id = json_in(api.send("POST", at({"uploads"})))["upload"];
+  for (const auto& [name, body] : files) EXPECT_EQ(api.put(at({"uploads", id, "files", name}), body).status, 200);
+  return id;
+}
+
+/// Waits until a job is over.
+inline nlohmann::json wait_for(TestApi& api, const std::string& job) {
+  for (int i = 0; i < 6'000; ++i) {
+    nlohmann::json state = json_in(api.get({"jobs", job}));
+    if (state["state"] != "waiting" && state["state"] != "running") return state;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return "a job that does not end";
 }
 
 /// The fault of an answer, "404 not_found: …".

@@ -9,6 +9,7 @@
 #include "app/server/answer.h"
 #include "signweave/core/error.h"
 #include "signweave/core/text.h"
+#include "signweave/formats/file_format.h"
 
 namespace signweave::server {
 namespace {
@@ -23,11 +24,15 @@ std::string random_id() {
   return id;
 }
 
+[[noreturn]] void refuse_file() {
+  throw Error(ErrorCode::io, "the file could not be kept (is the server's disk full?)");
+}
+
 void write_file(const fs::path& path, std::string_view body) {
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   out.write(body.data(), static_cast<std::streamsize>(body.size()));
   out.close();
-  if (!out) throw Error(ErrorCode::io, "the file could not be kept (is the server's disk full?)");
+  if (!out) refuse_file();
 }
 
 void move_file(const fs::path& from, const fs::path& to) {
@@ -37,7 +42,21 @@ void move_file(const fs::path& from, const fs::path& to) {
   fs::copy_file(from, to, fs::copy_options::overwrite_existing, fault);  // another file system
   std::error_code ignored;
   fs::remove(from, ignored);
-  if (fault) throw Error(ErrorCode::io, "the file could not be kept (is the server's disk full?)");
+  if (fault) refuse_file();
+}
+
+/// Whole or not at all: who reads the file of this name goes on reading what it was. The name on the way is none that a
+/// client can give.
+void keep_file(const fs::path& from, std::string_view body, const fs::path& to) {
+  const fs::path coming = to.parent_path() / ".coming";
+  if (from.empty()) {
+    write_file(coming, body);
+  } else {
+    move_file(from, coming);
+  }
+  std::error_code fault;
+  fs::rename(coming, to, fault);
+  if (fault) refuse_file();
 }
 
 }  // namespace
@@ -84,8 +103,24 @@ const Uploads::Upload& Uploads::at_open(const std::string& database, const std::
   return upload;
 }
 
+void Uploads::require_readable(const std::string& name) {
+  // Beside the formats: tables of pairs and labels, mapping files, buffers of glTF, specifications of ANVIL.
+  constexpr std::string_view kBeside[] = {"", ".csv", ".tsv", ".txt", ".rig", ".bin", ".xml"};
+  const FileFormat* format = file_format(name);
+  if (format != nullptr && format->reads) return;
+  const std::string ending = fold_case(fs::path(name).extension().string());
+  if (std::ranges::find(kBeside, ending) != std::end(kBeside)) return;
+  throw Error(
+      ErrorCode::unsupported,
+      fmt::format("{}: no import reads files ending in '{}'; send motion {}, annotation {}, faces {}, tables and "
+                  "mappings (.csv, .txt, .rig)",
+                  printable(name), printable(ending), readable_endings(FileKind::motion),
+                  readable_endings(FileKind::annotation), readable_endings(FileKind::face)));
+}
+
 void Uploads::require_open(const std::string& database, const std::string& id, const std::string& name) const {
   require_plain(name);
+  require_readable(name);
   const std::lock_guard lock(mutex_);
   at_open(database, id);
 }
@@ -109,6 +144,7 @@ std::string Uploads::open(const std::string& database) {
 nlohmann::json Uploads::put(const std::string& database, const std::string& id, const std::string& name,
                             const fs::path& from, std::string_view body) {
   require_plain(name);
+  require_readable(name);
   const std::lock_guard lock(mutex_);
   at_open(database, id);
   Upload& upload = at(database, id);
@@ -119,11 +155,7 @@ nlohmann::json Uploads::put(const std::string& database, const std::string& id, 
     throw too_large(fmt::format("the upload would have {} bytes, and may have {}", all, most_bytes_));
   }
   if (upload.files.size() >= 10'000) throw too_large("the upload has 10000 files already; open another one");
-  if (from.empty()) {
-    write_file(upload.folder / name, body);
-  } else {
-    move_file(from, upload.folder / name);
-  }
+  keep_file(from, body, upload.folder / name);
   upload.files[name] = bytes;
   upload.touched = std::chrono::steady_clock::now();
   return {{"file", name}, {"bytes", bytes}, {"upload_bytes", all}};
@@ -167,6 +199,13 @@ fs::path Uploads::hold(const std::string& database, const std::string& id) {
   if (upload.held) throw Error(ErrorCode::conflict, "the upload is being imported already");
   if (upload.files.empty()) throw Error(ErrorCode::bad_input, "the upload has no files yet; put some first");
   upload.held = true;
+  return upload.folder;
+}
+
+fs::path Uploads::look(const std::string& database, const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  Upload& upload = at(database, id);
+  upload.touched = std::chrono::steady_clock::now();
   return upload.folder;
 }
 

@@ -40,6 +40,9 @@ class Uploads {
   void discard(const std::string& database, const std::string& id);
   /// The folder, for an import: until `release` nobody changes it. Throws Error{not_found}, Error{conflict}.
   std::filesystem::path hold(const std::string& database, const std::string& id);
+  /// The folder, for a look at its files, which may be changed and removed meanwhile; of a file that another takes the
+  /// place of whoever has it open reads the old one. Throws Error{not_found}.
+  std::filesystem::path look(const std::string& database, const std::string& id);
   /// After an import; with `remove` its files go.
   void release(const std::string& id, bool remove);
   /// Removes uploads that nobody touched for the idle time.
@@ -47,6 +50,8 @@ class Uploads {
 
   /// Throws Error{bad_input} where `name` is no plain file name: parts, controls, a leading dot, no UTF-8, 200 bytes.
   static void require_plain(std::string_view name);
+  /// Throws Error{unsupported} for a file of which no import has any use, such as a picture, by its name's ending.
+  static void require_readable(const std::string& name);
 
  private:
   struct Upload {

@@ -163,15 +163,18 @@ std::vector<std::string> near_matches(std::string_view wanted, std::span<const s
   return result;
 }
 
+std::string either_of(std::span<const std::string> names) {
+  std::string result;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) result += i + 1 == names.size() ? " or " : ", ";
+    result += names[i];
+  }
+  return result;
+}
+
 std::string did_you_mean(std::string_view wanted, std::span<const std::string> known) {
   const std::vector<std::string> near = near_matches(wanted, known);
-  if (near.empty()) return {};
-  std::string result = "; did you mean ";
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    if (i > 0) result += i + 1 == near.size() ? " or " : ", ";
-    result += near[i];
-  }
-  return result + "?";
+  return near.empty() ? std::string() : fmt::format("; did you mean {}?", either_of(near));
 }
 
 std::string printable(std::string_view text) {

@@ -27,6 +27,9 @@ std::string loose_form(std::string_view label);
 std::vector<std::string> near_matches(std::string_view wanted, std::span<const std::string> known,
                                       std::size_t most = 3);
 
+/// "A, B or C"
+std::string either_of(std::span<const std::string> names);
+
 /// "; did you mean A, B or C?", or nothing where there is no near match. For the end of an error's text.
 std::string did_you_mean(std::string_view wanted, std::span<const std::string> known);
 

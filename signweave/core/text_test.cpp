@@ -71,6 +71,13 @@ TEST(NearMatches, AtMostThatManyAreGivenAndNoneTwice) {
   EXPECT_THAT(near_matches("aaaa", known, 3), ElementsAre("aaaa1", "aaaa2", "aaaa3"));
 }
 
+TEST(EitherOf, JoinsNamesAsASentenceDoes) {
+  EXPECT_EQ(either_of({}), "");
+  EXPECT_EQ(either_of(std::vector<std::string>{"A"}), "A");
+  EXPECT_EQ(either_of(std::vector<std::string>{"A", "B"}), "A or B");
+  EXPECT_EQ(either_of(std::vector<std::string>{"A", "B", "C"}), "A, B or C");
+}
+
 TEST(DidYouMean, IsTheEndOfASentenceOrNothing) {
   EXPECT_EQ(did_you_mean("stroek", std::vector<std::string>{"stroke"}), "; did you mean stroke?");
   EXPECT_EQ(did_you_mean("aaaa", std::vector<std::string>{"aaa1", "aaa2", "aaa3"}),

@@ -18,13 +18,6 @@ Bytes key_of(char what) {
   return key.take();
 }
 
-Bytes slot_key(std::uint32_t slot) {
-  ByteWriter key;
-  key.number('R');
-  key.number(slot);
-  return key.take();
-}
-
 struct OpenRecord {
   std::uint8_t version = 0;
   ByteReader in;
@@ -166,6 +159,17 @@ std::vector<Defect> decode_defects(ByteReader& in) {
 bool is_key(ByteSpan key) noexcept {
   const char what = key.empty() ? '\0' : static_cast<char>(key[0]);
   return what == 'C' || what == 'R' || what == 'P';
+}
+
+Bytes head_key() {
+  return key_of('C');
+}
+
+Bytes slot_key(std::uint32_t slot) {
+  ByteWriter key;
+  key.number('R');
+  key.number(slot);
+  return key.take();
 }
 
 Head read_head(const kv::ReadTransaction& snapshot) {

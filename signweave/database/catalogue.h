@@ -9,7 +9,7 @@
 #include "signweave/database/recording.h"
 #include "signweave/kv/kv_store.h"
 
-/// The records that say what is in a database. Internal to `database`.
+/// The records that say what is in a database. Internal to `database` and `backup`.
 ///
 /// Keys: 'C' the head; 'R' + u32 slot one recording; 'P' the sweep list. Each is sealed with its checksum and begins
 /// with a version byte. Recordings fill slots 0 … count − 1; a removed one is replaced by the last, so listing needs no
@@ -34,6 +34,10 @@ struct Head {
 
 /// What a crash may have left behind, or what is to be erased once nothing names it.
 using SweepList = std::vector<motion_db::StoredMotion>;
+
+/// The key of the head, and of the recording in a slot.
+Bytes head_key();
+Bytes slot_key(std::uint32_t slot);
 
 Head read_head(const kv::ReadTransaction& snapshot);
 void write_head(kv::WriteTransaction& transaction, const Head& head);

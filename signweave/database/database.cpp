@@ -1,47 +1,17 @@
 #include "signweave/database/database.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
 #include "signweave/core/text.h"
 #include "signweave/database/catalogue.h"
 #include "signweave/database/tables.h"
+#include "signweave/database/writer_lock.h"
 #include "signweave/formats/annotation_file.h"
 #include "signweave/semantic_db/semantic_db.h"
 
 namespace signweave {
-
-/// Held while a process has the database open for writing. The system lets go of it when the process ends, however it
-/// ends, so a crash leaves no lock behind.
-class Database::WriterLock {
- public:
-  explicit WriterLock(const std::filesystem::path& folder) {
-    const std::filesystem::path path = folder / "writer.lock";
-    file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) {
-      throw Error(ErrorCode::io,
-                  fmt::format("{}: cannot be opened for writing: {}", folder.string(), std::strerror(errno)));
-    }
-    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
-      ::close(file_);
-      throw Error(ErrorCode::conflict, folder.string() +
-                                           ": is being changed by another process; try again when that one "
-                                           "has ended");
-    }
-  }
-  ~WriterLock() { ::close(file_); }
-  WriterLock(const WriterLock&) = delete;
-  WriterLock& operator=(const WriterLock&) = delete;
-
- private:
-  int file_ = -1;
-};
 
 const RecordingInfo* Contents::find(std::string_view name) const noexcept {
   const auto at =
@@ -58,17 +28,37 @@ const RecordingInfo& Contents::at(std::string_view name) const {
               fmt::format("no recording '{}' in this database{}", printable(name), did_you_mean(name, names)));
 }
 
+namespace {
+
+/// An engine that serves one process alone does not know which that is.
+std::unique_ptr<kv::KvStore> open_store(const std::filesystem::path& folder, kv::Access access) {
+  try {
+    return kv::open(folder, access);
+  } catch (const Error& error) {
+    const std::string who = error.code() == ErrorCode::conflict ? writer_of(folder) : "";
+    if (who.empty()) throw;
+    throw Error(ErrorCode::conflict, fmt::format("{} (it is {})", error.what(), who));
+  }
+}
+
+}  // namespace
+
 Database::Database(const std::filesystem::path& folder, kv::Access access) : folder_(folder), access_(access) {
   // The store first: it tells whether there is a database at all, before a lock file is made.
-  store_ = kv::open(folder, access);
+  store_ = open_store(folder, access);
   catalogue::read_head(*store_->read());
   if (access == kv::Access::read_write) {
     lock_ = std::make_unique<WriterLock>(folder);
+    kv::drop_unfinished(folder);
     sweep();
   }
 }
 
 Database::~Database() = default;
+
+void Database::announce(std::string_view who) noexcept {
+  if (lock_) lock_->announce(who);
+}
 
 std::shared_ptr<const Contents> Database::contents() const {
   return contents_of(store_->read());

@@ -33,6 +33,7 @@ namespace signweave {
 class CheckListener;
 class Database;
 class MovementCache;
+class WriterLock;
 
 /// What an XPath expression says of one recording's document: a node that it selects, or its value.
 struct XPathAnswer {
@@ -138,6 +139,10 @@ class Database {
 
   const std::filesystem::path& folder() const noexcept { return folder_; }
 
+  /// Where it is open for changing: the name that errors in other processes give to this one, such as "signweave serve
+  /// at http://…".
+  void announce(std::string_view who) noexcept;
+
   /// What is in it now; made anew only after a change.
   std::shared_ptr<const Contents> contents() const;
 
@@ -228,6 +233,9 @@ class Database {
   /// order. Measured now where nothing of this version is stored.
   RecordingFeatures features(std::string_view name) const;
 
+  /// The records themselves, as they are now: for code that copies them, such as a backup.
+  std::unique_ptr<kv::ReadTransaction> records() const { return store_->read(); }
+
   kv::EngineInfo engine() const;
   /// What takes how much space: packets, documents, …, the largest first. Looks at every entry.
   std::vector<Usage> usage() const;
@@ -241,7 +249,6 @@ class Database {
   friend class Snapshot;
   friend class StoredMovement;
   friend void check_slots(const Database& database, std::uint32_t first, CheckListener& listener);
-  class WriterLock;
 
   std::shared_ptr<const Contents> contents_of(const std::shared_ptr<const kv::ReadTransaction>& transaction) const;
   std::shared_ptr<const Segments> stored_segments(const std::shared_ptr<const kv::ReadTransaction>& snapshot) const;

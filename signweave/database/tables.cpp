@@ -77,6 +77,15 @@ void remove(kv::WriteTransaction& transaction, const std::string& name) {
   });
 }
 
+void remake(kv::WriteTransaction& transaction) {
+  catalogue::Head head = catalogue::read_head(transaction);
+  std::vector<std::string> faults;
+  const SegmentTable table = table_of_all(transaction, faults);
+  if (!faults.empty()) throw Error(ErrorCode::corrupt, faults.front());
+  semantic_db::replace_tables(transaction, table, [&] { return head.next_generation++; });
+  catalogue::write_head(transaction, head);
+}
+
 bool merge(kv::WriteTransaction& transaction) {
   return change_tables(transaction, [&](const semantic_db::NextGeneration& next) {
     return semantic_db::merge_tables(transaction, next);

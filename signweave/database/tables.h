@@ -6,7 +6,7 @@
 #include "signweave/kv/kv_store.h"
 #include "signweave/semantic_db/segments.h"
 
-/// The segment tables as part of a change of a database. Internal to `database`.
+/// The segment tables as part of a change of a database. Internal to `database` and `backup`.
 namespace signweave::tables {
 
 /// The table of one recording.
@@ -19,6 +19,8 @@ SegmentTable table_of_all(const kv::ReadTransaction& snapshot, std::vector<std::
 void put(kv::WriteTransaction& transaction, const RecordingInfo& info, const SegmentChunk& segments, bool was_there);
 /// A recording is gone; one without a name, and all are looked at again.
 void remove(kv::WriteTransaction& transaction, const std::string& name);
+/// One table of all, whatever is there; throws Error{corrupt} where a recording's own segments are damaged.
+void remake(kv::WriteTransaction& transaction);
 /// Few tables again; false where there are few.
 bool merge(kv::WriteTransaction& transaction);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <random>
 
 namespace signweave {
@@ -14,10 +16,29 @@ struct Sums {
   double weight = 0;
 };
 
-double figure_of(const Sums& sums, Pooling pooling) {
-  const double mean = sums.weight > 0 ? sums.value / sums.weight : kNoEstimate;
-  return pooling == Pooling::geometric ? std::exp(mean) : mean;
-}
+/// The scores of one collection.
+struct Collection {
+  std::vector<std::vector<Sums>> clusters;  ///< [cluster][part]
+
+  /// Pooled over some clusters and then over parts; not a number where nothing was measured.
+  double figure(std::span<const std::uint32_t> drawn, std::vector<Sums>& scratch) const {
+    scratch.assign(clusters.front().size(), Sums{});
+    for (const std::size_t cluster : drawn) {
+      for (std::size_t part = 0; part < scratch.size(); ++part) {
+        scratch[part].value += clusters[cluster][part].value;
+        scratch[part].weight += clusters[cluster][part].weight;
+      }
+    }
+    double sum = 0;
+    double parts = 0;
+    for (const Sums& sums : scratch) {
+      if (!(sums.weight > 0)) continue;
+      sum += sums.value / sums.weight;
+      parts += 1;
+    }
+    return parts > 0 ? sum / parts : kNoEstimate;
+  }
+};
 
 /// Of ascending numbers, between two of them where it must be.
 double percentile(const std::vector<double>& sorted, double share) {
@@ -29,10 +50,10 @@ double percentile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
-const std::vector<std::uint32_t>& Bootstrap::draws_of(std::size_t clusters) {
-  std::vector<std::uint32_t>& draws = draws_[clusters];
+const std::vector<std::uint32_t>& Bootstrap::draws_of(std::size_t collection, std::size_t clusters) {
+  std::vector<std::uint32_t>& draws = draws_[{collection, clusters}];
   if (!draws.empty()) return draws;
-  std::mt19937_64 random(seed_);
+  std::mt19937_64 random(seed_ + collection * 0x9E3779B97F4A7C15u);
   draws.resize(resamples_ * clusters);
   // The standard's distributions differ from library to library; the top bits times the count do not.
   for (std::uint32_t& draw : draws) draw = static_cast<std::uint32_t>(((random() >> 32) * clusters) >> 32);
@@ -40,33 +61,51 @@ const std::vector<std::uint32_t>& Bootstrap::draws_of(std::size_t clusters) {
 }
 
 Estimate Bootstrap::estimate(std::span<const ClusteredScore> scores, Pooling pooling) {
-  std::map<std::size_t, Sums> by_cluster;
-  Sums all;
   Estimate estimate{.value = kNoEstimate, .low = kNoEstimate, .high = kNoEstimate};
+  std::map<std::size_t, std::map<std::size_t, std::size_t>> places;  // [collection][cluster]
+  std::map<std::size_t, std::size_t> parts;
   for (const ClusteredScore& one : scores) {
     if (!one.score.known()) continue;
-    Sums& sums = by_cluster[one.cluster];
-    for (Sums* to : {&sums, &all}) {
-      to->value += one.score.value;
-      to->weight += one.score.weight;
-    }
+    places[one.collection].try_emplace(one.cluster, places[one.collection].size());
+    parts.try_emplace(one.part, parts.size());
     ++estimate.scores;
   }
-  estimate.clusters = by_cluster.size();
-  estimate.value = figure_of(all, pooling);
-  if (by_cluster.size() < 2) return estimate;
-  std::vector<Sums> clusters;
-  for (const auto& [cluster, sums] : by_cluster) clusters.push_back(sums);
-  const std::vector<std::uint32_t>& draws = draws_of(clusters.size());
+  std::vector<Collection> collections;
+  std::map<std::size_t, std::size_t> place_of_collection;
+  bool resampled = false;
+  for (const auto& [collection, clusters] : places) {
+    place_of_collection[collection] = collections.size();
+    collections.push_back({.clusters = {clusters.size(), std::vector<Sums>(parts.size())}});
+    estimate.clusters += clusters.size();
+    resampled = resampled || clusters.size() > 1;
+  }
+  estimate.collections = collections.size();
+  for (const ClusteredScore& one : scores) {
+    if (!one.score.known()) continue;
+    Sums& sums =
+        collections[place_of_collection[one.collection]].clusters[places[one.collection][one.cluster]][parts[one.part]];
+    sums.value += one.score.value;
+    sums.weight += one.score.weight;
+  }
+  std::vector<Sums> scratch;
+  const auto pooled = [&](auto drawn_of) {
+    double sum = 0;
+    for (std::size_t i = 0; i < collections.size(); ++i) sum += collections[i].figure(drawn_of(i), scratch);
+    const double mean = collections.empty() ? kNoEstimate : sum / static_cast<double>(collections.size());
+    return pooling == Pooling::geometric ? std::exp(mean) : mean;
+  };
+  std::vector<std::uint32_t> each(estimate.clusters);  // once
+  std::iota(each.begin(), each.end(), 0u);
+  estimate.value =
+      pooled([&](std::size_t i) { return std::span<const std::uint32_t>(each).first(collections[i].clusters.size()); });
+  if (!resampled) return estimate;
   std::vector<double> figures;
   figures.reserve(resamples_);
-  for (std::size_t i = 0; i < resamples_; ++i) {
-    Sums sums;
-    for (std::size_t draw = i * clusters.size(); draw < (i + 1) * clusters.size(); ++draw) {
-      sums.value += clusters[draws[draw]].value;
-      sums.weight += clusters[draws[draw]].weight;
-    }
-    const double figure = figure_of(sums, pooling);
+  for (std::size_t resample = 0; resample < resamples_; ++resample) {
+    const double figure = pooled([&](std::size_t i) {
+      const std::size_t count = collections[i].clusters.size();
+      return std::span<const std::uint32_t>(draws_of(i, count)).subspan(resample * count, count);
+    });
     if (std::isfinite(figure)) figures.push_back(figure);
   }
   if (figures.empty()) return estimate;

@@ -4,16 +4,19 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "signweave/evaluation/measure.h"
 
 namespace signweave {
 
-/// A score with the cluster that it belongs to.
+/// A score with what it belongs to.
 struct ClusteredScore {
-  std::size_t cluster = 0;
+  std::size_t cluster = 0;  ///< scores of one are alike: a recording
   Score score;
+  std::size_t collection = 0;  ///< of clusters
+  std::size_t part = 0;        ///< within every cluster: what is pooled by itself first, such as a gap length
 };
 
 /// A figure, how sure it is and what it is from.
@@ -23,11 +26,13 @@ struct Estimate {
   double high = 0;
   std::size_t scores = 0;
   std::size_t clusters = 0;
+  std::size_t collections = 0;
 };
 
-/// Intervals by the percentiles of figures from resampled clusters: whole clusters are drawn with replacement, as many
-/// as there are (Efron and Tibshirani 1993, An Introduction to the Bootstrap; for clusters Davison and Hinkley 1997).
-/// The same seed gives the same intervals.
+/// A figure is pooled within each part of each collection; then parts weigh alike in a collection, and collections in
+/// the figure, however many scores they have. Intervals by the percentiles of figures from resampled clusters: within
+/// each collection whole clusters are drawn with replacement, as many as there are (Efron and Tibshirani 1993, An
+/// Introduction to the Bootstrap; for clusters Davison and Hinkley 1997). The same seed gives the same intervals.
 class Bootstrap {
  public:
   explicit Bootstrap(std::uint64_t seed, std::size_t resamples = 1000) : seed_(seed), resamples_(resamples) {}
@@ -36,11 +41,12 @@ class Bootstrap {
   Estimate estimate(std::span<const ClusteredScore> scores, Pooling pooling);
 
  private:
-  const std::vector<std::uint32_t>& draws_of(std::size_t clusters);
+  const std::vector<std::uint32_t>& draws_of(std::size_t collection, std::size_t clusters);
 
   std::uint64_t seed_;
   std::size_t resamples_;
-  std::map<std::size_t, std::vector<std::uint32_t>> draws_;  ///< [clusters][resample][draw]
+  /// [place of the collection, clusters][resample][draw]
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::uint32_t>> draws_;
 };
 inline constexpr double kConfidence = 0.95;
 

@@ -76,5 +76,23 @@ TEST(Bootstrap, IntervalsHoldTheTruthAboutAsOftenAsTheySayThoughScoresOfACluster
   EXPECT_LT(held_by_scores, 75);
 }
 
+TEST(Bootstrap, CollectionsWeighAlikeAndPartsWithinThem) {
+  Bootstrap bootstrap(1);
+  // A collection of many scores of 1, and one of a single 3.
+  std::vector<ClusteredScore> scores;
+  for (std::size_t i = 0; i < 50; ++i) scores.push_back({.cluster = i, .score = {1}, .collection = 0});
+  scores.push_back({.cluster = 50, .score = {3}, .collection = 1});
+  Estimate estimate = bootstrap.estimate(scores, Pooling::mean);
+  EXPECT_DOUBLE_EQ(estimate.value, 2);
+  EXPECT_EQ(estimate.clusters, 51u);
+  EXPECT_EQ(estimate.collections, 2u);
+  EXPECT_DOUBLE_EQ(estimate.low, 2) << "resampled within collections, which here tell nothing apart";
+  // Ratios of two parts, 1/2 and 4/2, however much more of one there is.
+  const std::vector<ClusteredScore> parts = {{.cluster = 0, .score = {1, 2}, .part = 0},
+                                             {.cluster = 0, .score = {4, 2}, .part = 1},
+                                             {.cluster = 1, .score = {40, 20}, .part = 1}};
+  EXPECT_DOUBLE_EQ(bootstrap.estimate(parts, Pooling::ratio).value, 1.25);
+}
+
 }  // namespace
 }  // namespace signweave

@@ -38,7 +38,8 @@ template <class CountOf>
 std::vector<MethodScores> make_all(std::span<const EvaluatedMotion> recordings, std::span<const EvaluatedSpan> spans,
                                    std::span<const GapMethod* const> methods, const EvaluationProgress& progress,
                                    CountOf count_of) {
-  const TransitionTrainer trainer = train(recordings, spans);
+  const Folds folds = folds_of(recordings);
+  const TransitionTrainer trainer = train(recordings, spans, folds);
   std::vector<MethodScores> scores(methods.size());
   for (std::size_t m = 0; m < methods.size(); ++m) {
     scores[m].name = methods[m]->name;
@@ -47,7 +48,7 @@ std::vector<MethodScores> make_all(std::span<const EvaluatedMotion> recordings, 
   Regenerator regenerator;
   std::size_t done = 0;
   for (const auto& [index, of_recording] : by_recording(spans)) {
-    const std::shared_ptr<const TransitionModel> model = trainer.model_without(index);
+    const std::shared_ptr<const TransitionModel> model = trainer.model_without(folds.of[index]);
     Comparison comparison(recordings[index]);
     BodyGuard guard(recordings[index].motion.skeleton(), recordings[index].signer, recordings[index].groups);
     for (const std::size_t i : of_recording) {
@@ -66,10 +67,11 @@ std::vector<MethodScores> make_all(std::span<const EvaluatedMotion> recordings, 
 
 }  // namespace
 
-TransitionTrainer train(std::span<const EvaluatedMotion> recordings, std::span<const EvaluatedSpan> spans) {
+TransitionTrainer train(std::span<const EvaluatedMotion> recordings, std::span<const EvaluatedSpan> spans,
+                        const Folds& folds) {
   TransitionTrainer trainer;
   for (const EvaluatedSpan& span : spans) {
-    trainer.add(span.recording, gap_of(recordings, span, span.frames.size()),
+    trainer.add(folds.of[span.recording], gap_of(recordings, span, span.frames.size()),
                 view_of(recordings[span.recording].motion, span.frames));
   }
   return trainer;
@@ -86,21 +88,22 @@ std::vector<MethodScores> evaluate_predicted(std::span<const EvaluatedMotion> re
                                              std::span<const EvaluatedSpan> spans,
                                              std::span<const GapMethod* const> methods,
                                              const EvaluationProgress& progress) {
+  const Folds folds = folds_of(recordings);
   std::vector<TimedTransition> timed;  // [span]
   for (const EvaluatedSpan& span : spans) {
     const Gap gap = gap_of(recordings, span, span.frames.size());
-    timed.push_back({task_of(gap, recordings[span.recording].signer), gap.duration(), span.recording});
+    timed.push_back({task_of(gap, recordings[span.recording].signer), gap.duration(), folds.of[span.recording]});
   }
   std::vector<std::int64_t> counts(spans.size());
   std::vector<double> errors(spans.size());
   std::vector<double> mean_errors(spans.size());
-  std::map<std::pair<std::size_t, std::size_t>, DurationFit> fits;  // [group, recording left out]
+  std::map<std::pair<std::size_t, std::size_t>, DurationFit> fits;  // [group, fold left out]
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    const auto [fit, is_new] = fits.try_emplace({spans[i].group, spans[i].recording});
+    const auto [fit, is_new] = fits.try_emplace({spans[i].group, timed[i].recording});
     if (is_new) {
       std::vector<TimedTransition> others;
       for (std::size_t j = 0; j < spans.size(); ++j) {
-        if (spans[j].group == spans[i].group && spans[j].recording != spans[i].recording) others.push_back(timed[j]);
+        if (spans[j].group == spans[i].group && timed[j].recording != timed[i].recording) others.push_back(timed[j]);
       }
       fit->second = fit_durations(others);
     }

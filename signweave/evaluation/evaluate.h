@@ -23,14 +23,14 @@ struct MethodScores {
 using EvaluationProgress = std::function<void(double fraction)>;
 
 /// Cuts each span out of its recording and makes it again by each method, with a model that was trained on every span
-/// of every other recording (leave one recording out).
+/// of the other folds: nothing is learned from the collection, signer or recording that is judged (Folds).
 std::vector<MethodScores> evaluate_given(std::span<const EvaluatedMotion> recordings,
                                          std::span<const EvaluatedSpan> spans,
                                          std::span<const GapMethod* const> methods,
                                          const EvaluationProgress& progress = {});
 
 /// The same with a duration that is told from the borders alone (DurationFit), fitted on the captured spans of the same
-/// group in the other recordings. Of Measure::duration and mean_duration each method has the same scores.
+/// group in the other folds. Of Measure::duration and mean_duration each method has the same scores.
 std::vector<MethodScores> evaluate_predicted(std::span<const EvaluatedMotion> recordings,
                                              std::span<const EvaluatedSpan> spans,
                                              std::span<const GapMethod* const> methods,
@@ -52,7 +52,7 @@ std::vector<ReplacedSpan> choose_replaced(std::span<const EvaluatedMotion> recor
 
 /// Makes the transitions to and from the tokens, each in the time of the captured one. Poses cannot be compared then,
 /// so known are peak speed (over the mean speed), path length (over the straight way), smoothness, jumps and depth,
-/// each beside the captured transition's. The model is trained on the spans of `training` that are of other recordings
+/// each beside the captured transition's. The model is trained on the spans of `training` that are of other folds
 /// than the captured transition.
 std::vector<MethodScores> evaluate_replaced(std::span<const EvaluatedMotion> recordings,
                                             std::span<const ReplacedSpan> spans,

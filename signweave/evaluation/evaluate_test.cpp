@@ -159,12 +159,12 @@ TEST(Purging, AModelWithoutARecordingKnowsNothingOfIt) {
   const std::vector<EvaluatedSpan> spans = choose_spans(recordings).spans;
   const FrameRange frames{200, 240};
   const EvaluatedMotion& asked = recordings[3];
-  const TransitionTrainer trainer = train(recordings, spans);
+  const TransitionTrainer trainer = train(recordings, spans, folds_of(recordings));
   const std::vector<float> without_a = made_by_all(asked, frames, *trainer.model_without(0));
 
   std::vector<EvaluatedMotion> changed = recordings;
   changed[0] = lively("a", 9.0);
-  const TransitionTrainer other = train(changed, spans);
+  const TransitionTrainer other = train(changed, spans, folds_of(changed));
   EXPECT_EQ(made_by_all(asked, frames, *other.model_without(0)), without_a);
   // It can tell: with it, what the learning methods make is another.
   EXPECT_NE(made_by_all(asked, frames, *trainer.model()), without_a);
@@ -175,7 +175,7 @@ TEST(Purging, EverySpanIsMadeWithTheModelWithoutItsRecording) {
   const std::vector<EvaluatedMotion> recordings = {lively("a", 0.1), lively("b", 2.0), lively("c", 4.0)};
   const std::vector<EvaluatedSpan> spans = choose_spans(recordings).spans;
   const std::vector<MethodScores> scores = evaluate_given(recordings, spans, all_methods());
-  const TransitionTrainer trainer = train(recordings, spans);
+  const TransitionTrainer trainer = train(recordings, spans, folds_of(recordings));
   const auto all = trainer.model();
   Regenerator regenerator;
   bool tells = false;

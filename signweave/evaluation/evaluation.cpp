@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "signweave/features/defects.h"
 
@@ -11,6 +12,16 @@ namespace {
 
 bool spoils_frames(DefectKind kind) {
   return kind == DefectKind::t_pose || kind == DefectKind::jump || kind == DefectKind::not_finite;
+}
+
+/// Who makes most of the signs, the first by name of those who make as many; empty where no sign says.
+std::string performer_of(const std::vector<Sign>& signs) {
+  std::map<std::string, std::size_t> counts;
+  for (const Sign& sign : signs) {
+    if (!sign.signer.empty()) ++counts[sign.signer];
+  }
+  const auto most = std::ranges::max_element(counts, [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? std::string() : most->first;
 }
 
 }  // namespace
@@ -28,6 +39,7 @@ EvaluatedMotion evaluated_motion(std::string name, Motion motion, const RigMap& 
                             name));
   }
   EvaluatedMotion one{.name = std::move(name), .motion = std::move(motion), .signs = std::move(signs), .clock = clock};
+  one.performer = performer_of(one.signs);
   one.unusable.assign(static_cast<std::size_t>(one.motion.frame_count()), false);
   for (const Defect& defect : find_defects(one.motion, rig)) {
     if (!spoils_frames(defect.kind)) continue;

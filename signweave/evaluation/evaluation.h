@@ -27,10 +27,13 @@ struct EvaluatedMotion {
   FrameClock clock;
   HandTracks tracks;           ///< over the whole motion
   std::vector<bool> unusable;  ///< [frame] T-pose, jump, no number: no span and no context may hold it
+  std::string collection;      ///< recordings made together: a folder, a database; see Folds
+  std::string performer;       ///< who signs; empty: not known
 };
 
-/// A recording for the evaluation. `signs` may be empty. Throws Error{unsupported, "NAME: …"} where there is no wrist
-/// to look at, or fewer frames than kLeastFrames: nothing is wrong with such a motion, but nothing can be told of it.
+/// A recording for the evaluation. `signs` may be empty; most of them tell who performs. Throws Error{unsupported,
+/// "NAME: …"} where there is no wrist to look at, or fewer frames than kLeastFrames: nothing is wrong with such a
+/// motion, but nothing can be told of it.
 EvaluatedMotion evaluated_motion(std::string name, Motion motion, const RigMap& rig, std::vector<Sign> signs,
                                  const FrameClock& clock);
 inline constexpr std::int64_t kLeastFrames = 8;

@@ -170,7 +170,8 @@ std::vector<MethodScores> evaluate_replaced(std::span<const EvaluatedMotion> rec
                                             std::span<const EvaluatedSpan> training,
                                             std::span<const GapMethod* const> methods,
                                             const EvaluationProgress& progress) {
-  const TransitionTrainer trainer = train(recordings, training);
+  const Folds folds = folds_of(recordings);
+  const TransitionTrainer trainer = train(recordings, training, folds);
   std::vector<MethodScores> scores(methods.size());
   for (std::size_t m = 0; m < methods.size(); ++m) {
     scores[m].name = methods[m]->name;
@@ -182,7 +183,7 @@ std::vector<MethodScores> evaluate_replaced(std::span<const EvaluatedMotion> rec
     const ReplacedSpan& replaced = spans[i];
     const EvaluatedMotion& recording = recordings[replaced.span.recording];
     if (i == 0 || spans[i - 1].span.recording != replaced.span.recording) {
-      model = trainer.model_without(replaced.span.recording);
+      model = trainer.model_without(folds.of[replaced.span.recording]);
     }
     const FrameRate rate = recording.motion.rate();
     const std::int64_t context = std::llround(std::ceil(kContext.count() * rate.hertz())) + 1;

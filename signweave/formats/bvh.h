@@ -80,7 +80,8 @@ bool fits(const Layout& layout, const Skeleton& skeleton) noexcept;
 
 /// Writes a motion as its layout says, whole or not at all. Euler angles are unwrapped towards the frame before; at
 /// gimbal lock the free angle keeps still. Throws Error{io}; Error{bad_input} where the layout does not fit.
-void write(const std::filesystem::path& path, const Motion& motion, const Layout& layout);
+void write(const std::filesystem::path& path, const Motion& motion, const Layout& layout,
+           const std::function<void(double fraction)>& progress = {});
 /// The same as text.
 std::string write_text(const Motion& motion, const Layout& layout);
 

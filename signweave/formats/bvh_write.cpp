@@ -70,10 +70,16 @@ class Writer {
     }
   }
 
-  void write() {
+  void write(const std::function<void(double fraction)>& progress = {}) {
+    constexpr std::int64_t kEvery = 256;
     write_hierarchy();
     write_header();
-    for (std::int64_t frame = 0; frame < motion_.frame_count(); ++frame) write_frame(frame);
+    for (std::int64_t frame = 0; frame < motion_.frame_count(); ++frame) {
+      if (progress && frame % kEvery == 0) {
+        progress(static_cast<double>(frame) / static_cast<double>(motion_.frame_count()));
+      }
+      write_frame(frame);
+    }
     sink_(text_);
   }
 
@@ -223,10 +229,11 @@ class Writer {
 
 }  // namespace
 
-void write(const std::filesystem::path& path, const Motion& motion, const Layout& layout) {
+void write(const std::filesystem::path& path, const Motion& motion, const Layout& layout,
+           const std::function<void(double fraction)>& progress) {
   AtomicFile file(path);
   const Sink sink = [&](std::string_view text) { file.write(text); };
-  Writer(motion, layout, sink).write();
+  Writer(motion, layout, sink).write(progress);
   file.commit();
 }
 

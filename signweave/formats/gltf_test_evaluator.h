@@ -9,7 +9,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace signweave::testing_gltf {
@@ -27,6 +29,9 @@ class Evaluator {
   }
 
   const tinygltf::Model& model() const { return model_; }
+
+  /// From now on `moved` says at which second a key stands, given the second that the file says.
+  void move_keys(std::function<double(double)> moved) { moved_ = std::move(moved); }
 
   /// model_from_node of every node, the first animation being at `time` seconds.
   std::vector<Eigen::Matrix4d> globals(double time) const {
@@ -101,15 +106,16 @@ class Evaluator {
   std::vector<double> value(const tinygltf::AnimationSampler& sampler, double time, bool turns) const {
     const std::size_t count = model_.accessors.at(static_cast<std::size_t>(sampler.input)).count;
     std::size_t next = 0;
-    while (next < count && element(sampler.input, next)[0] <= time) ++next;
+    const auto second_of = [&](std::size_t index) { return moved_(element(sampler.input, index)[0]); };
+    while (next < count && second_of(next) <= time) ++next;
     const bool cubic = sampler.interpolation == "CUBICSPLINE";
     const auto key = [&](std::size_t index, std::size_t which) {
       return element(sampler.output, cubic ? 3 * index + which : index);
     };
     if (next == 0) return key(0, 1);
     if (next == count || sampler.interpolation == "STEP") return key(next - 1, 1);
-    const double before = element(sampler.input, next - 1)[0];
-    const double distance = element(sampler.input, next)[0] - before;
+    const double before = second_of(next - 1);
+    const double distance = second_of(next) - before;
     const double u = (time - before) / distance;
     std::vector<double> a = key(next - 1, 1);
     std::vector<double> b = key(next, 1);
@@ -147,6 +153,7 @@ class Evaluator {
   }
 
   tinygltf::Model model_;
+  std::function<double(double)> moved_ = [](double second) { return second; };
 };
 
 }  // namespace signweave::testing_gltf

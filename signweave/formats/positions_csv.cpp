@@ -30,10 +30,16 @@ std::string positions_csv_row(const Motion& motion, std::int64_t frame) {
   return text + '\n';
 }
 
-void write_positions_csv(const std::filesystem::path& path, const Motion& motion) {
+void write_positions_csv(const std::filesystem::path& path, const Motion& motion,
+                         const std::function<void(double fraction)>& progress) {
   AtomicFile file(path);
   file.write(positions_csv_heading(motion.skeleton()));
-  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) file.write(positions_csv_row(motion, frame));
+  constexpr std::int64_t kEvery = 256;
+  for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+    if (progress && frame % kEvery == 0)
+      progress(static_cast<double>(frame) / static_cast<double>(motion.frame_count()));
+    file.write(positions_csv_row(motion, frame));
+  }
   file.commit();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "signweave/motion/motion.h"
@@ -9,7 +10,8 @@ namespace signweave {
 
 /// Writes where every joint and tip is: one row a frame, columns frame, time_s, then NAME.x, NAME.y, NAME.z in metres,
 /// model space, Y up. Names are quoted where they hold a comma or a quote. Whole or not at all; throws Error{io}.
-void write_positions_csv(const std::filesystem::path& path, const Motion& motion);
+void write_positions_csv(const std::filesystem::path& path, const Motion& motion,
+                         const std::function<void(double fraction)>& progress = {});
 
 /// The heading, and one row: for other writers of the same table.
 std::string positions_csv_heading(const Skeleton& skeleton);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "signweave/motion/motion.h"
@@ -11,7 +12,8 @@ namespace signweave {
 /// NAME.tz in metres where it has a translation per frame, and NAME.qx, NAME.qy, NAME.qz, NAME.qw, a unit quaternion
 /// relative to the parent, in the hemisphere of the frame before. Y up, right-handed. Numbers have as many digits as a
 /// float needs to come back. Whole or not at all; throws Error{io}.
-void write_rotations_csv(const std::filesystem::path& path, const Motion& motion);
+void write_rotations_csv(const std::filesystem::path& path, const Motion& motion,
+                         const std::function<void(double fraction)>& progress = {});
 
 /// The heading, and one row: for other writers of the same table.
 std::string rotations_csv_heading(const Skeleton& skeleton);

@@ -366,6 +366,7 @@ std::string version() {
 constexpr PlainEngine kBerkeley = {
     .name = "berkeley",
     .file = kFile,
+    .logs = "log.",
     .version = version,
     .longest_key = 511,
     .largest_value = 0xF0000000,  // sizes have 32 bits, and a buffer is a little larger than its value
@@ -386,6 +387,11 @@ void berkeley_create(const fs::path& folder) {
 
 std::unique_ptr<KvStore> berkeley_open(const fs::path& folder, Access access) {
   return open_versioned(folder, access, kBerkeley);
+}
+
+void berkeley_compact(const fs::path& folder, const fs::path& compacting,
+                      const std::function<void(double fraction)>& progress) {
+  compact_versioned(folder, compacting, kBerkeley, progress);
 }
 
 }  // namespace signweave::kv

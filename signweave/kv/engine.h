@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string_view>
 
@@ -17,15 +18,24 @@ struct Engine {
   void (*create)(const std::filesystem::path& folder);
   /// Opens a store whose file is there.
   std::unique_ptr<KvStore> (*open)(const std::filesystem::path& folder, Access access);
+  /// Writes its main file anew without free space: `compacting`, an empty folder inside it, is for the new one.
+  void (*compact)(const std::filesystem::path& folder, const std::filesystem::path& compacting,
+                  const std::function<void(double fraction)>& progress);
 };
 
 void lmdb_create(const std::filesystem::path& folder);
 std::unique_ptr<KvStore> lmdb_open(const std::filesystem::path& folder, Access access);
+void lmdb_compact(const std::filesystem::path& folder, const std::filesystem::path& compacting,
+                  const std::function<void(double fraction)>& progress);
 
 void berkeley_create(const std::filesystem::path& folder);
 std::unique_ptr<KvStore> berkeley_open(const std::filesystem::path& folder, Access access);
+void berkeley_compact(const std::filesystem::path& folder, const std::filesystem::path& compacting,
+                      const std::function<void(double fraction)>& progress);
 
 void tokyo_create(const std::filesystem::path& folder);
 std::unique_ptr<KvStore> tokyo_open(const std::filesystem::path& folder, Access access);
+void tokyo_compact(const std::filesystem::path& folder, const std::filesystem::path& compacting,
+                   const std::function<void(double fraction)>& progress);
 
 }  // namespace signweave::kv

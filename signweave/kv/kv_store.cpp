@@ -1,14 +1,12 @@
 #include "signweave/kv/kv_store.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <system_error>
 
 #include "signweave/core/text.h"
 #include "signweave/kv/engine.h"
+#include "signweave/kv/files.h"
 
 namespace signweave::kv {
 
@@ -19,16 +17,20 @@ namespace fs = std::filesystem;
 /// A new engine is one row here, the default first; the tests run over every row by themselves. An engine that this
 /// build lacks keeps its name and its file, so that we can say so.
 constexpr std::array kEngines = {
-    Engine{.name = "lmdb", .file = "data.mdb", .create = lmdb_create, .open = lmdb_open},
+    Engine{.name = "lmdb", .file = "data.mdb", .create = lmdb_create, .open = lmdb_open, .compact = lmdb_compact},
 #if SIGNWEAVE_BERKELEY
-    Engine{.name = "berkeley", .file = "data.bdb", .create = berkeley_create, .open = berkeley_open},
+    Engine{.name = "berkeley",
+           .file = "data.bdb",
+           .create = berkeley_create,
+           .open = berkeley_open,
+           .compact = berkeley_compact},
 #else
-    Engine{.name = "berkeley", .file = "data.bdb", .create = nullptr, .open = nullptr},
+    Engine{.name = "berkeley", .file = "data.bdb", .create = nullptr, .open = nullptr, .compact = nullptr},
 #endif
 #if SIGNWEAVE_TOKYO
-    Engine{.name = "tokyo", .file = "data.tch", .create = tokyo_create, .open = tokyo_open},
+    Engine{.name = "tokyo", .file = "data.tch", .create = tokyo_create, .open = tokyo_open, .compact = tokyo_compact},
 #else
-    Engine{.name = "tokyo", .file = "data.tch", .create = nullptr, .open = nullptr},
+    Engine{.name = "tokyo", .file = "data.tch", .create = nullptr, .open = nullptr, .compact = nullptr},
 #endif
 };
 
@@ -42,14 +44,6 @@ std::string known_engines() {
   throw Error(ErrorCode::unsupported, folder.string() + ": its storage engine '" + std::string(engine) +
                                           "' was left out of this build, which has " + known_engines() +
                                           "; use a build that has it");
-}
-
-/// Makes the names in a folder survive a power cut.
-void sync_folder(const fs::path& folder) {
-  const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (handle < 0) return;
-  ::fsync(handle);
-  ::close(handle);
 }
 
 [[noreturn]] void fail_io(const fs::path& folder, const std::error_code& error) {
@@ -93,12 +87,17 @@ void create(const fs::path& folder, std::string_view engine) {
   }
 }
 
-std::unique_ptr<KvStore> open(const fs::path& folder, Access access) {
+namespace {
+
+constexpr const char* kCompacting = "compacting";
+
+/// The engine whose main file is in the folder. Throws Error{not_found, corrupt, unsupported}.
+const Engine& engine_of(const fs::path& folder) {
   for (const Engine& engine : kEngines) {
     std::error_code error;
     if (!fs::is_regular_file(folder / engine.file, error)) continue;
     if (!engine.open) fail_lacking(folder, engine.name);
-    return engine.open(folder, access);
+    return engine;
   }
   for (const char* const left : {"writer.lock", "engine.lock", "lock.mdb"}) {
     if (!fs::exists(folder / left)) continue;
@@ -107,6 +106,35 @@ std::unique_ptr<KvStore> open(const fs::path& folder, Access access) {
                                         "data.bdb or data.tch); restore it from a copy");
   }
   throw Error(ErrorCode::not_found, folder.string() + ": no signweave database (make one with 'signweave create')");
+}
+
+}  // namespace
+
+std::unique_ptr<KvStore> open(const fs::path& folder, Access access) {
+  return engine_of(folder).open(folder, access);
+}
+
+Compacted compact(const fs::path& folder, const std::function<void(double fraction)>& progress) {
+  const Engine& engine = engine_of(folder);
+  const std::uint64_t before = bytes_in(folder);
+  drop_unfinished(folder);
+  std::error_code error;
+  fs::create_directory(folder / kCompacting, error);
+  if (error) fail_io(folder / kCompacting, error);
+  try {
+    engine.compact(folder, folder / kCompacting, progress);
+  } catch (...) {
+    drop_unfinished(folder);
+    throw;
+  }
+  drop_unfinished(folder);
+  sync_folder(folder);
+  return {before, bytes_in(folder)};
+}
+
+void drop_unfinished(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder / kCompacting, ignored);
 }
 
 }  // namespace signweave::kv

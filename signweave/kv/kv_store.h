@@ -46,6 +46,7 @@ struct EngineInfo {
   std::string version;
   std::uint64_t entries = 0;
   std::uint64_t bytes_on_disk = 0;
+  std::optional<std::uint64_t> bytes_free = {};  ///< of those: what `compact` would give back; none: not known
 };
 
 /// One key-value database in one folder. Several threads may read at once while one writes. With LMDB several
@@ -72,6 +73,19 @@ std::vector<std::string> engines();
 /// Makes an empty store of the named engine in `folder`, which must not exist or be empty.
 /// Throws Error{already_exists}, Error{unsupported} for an engine that is unknown or left out of this build, Error{io}.
 void create(const std::filesystem::path& folder, std::string_view engine);
+
+/// Writes the store's file anew without the space that is free in it, so that the disk has it back. The file is
+/// replaced whole: whatever happens, it is the old one or the new. Needs as much room on the disk as the new one takes.
+/// Throws Error{conflict} where anybody, in this process too, has the store open; Error{not_found}, Error{unsupported},
+/// Error{corrupt} and Error{io} as `open`; Error{cancelled} or whatever `progress` throws, which is given what part is
+/// done. Returns the bytes of the folder's files before and after.
+struct Compacted {
+  std::uint64_t before = 0, after = 0;
+};
+Compacted compact(const std::filesystem::path& folder, const std::function<void(double fraction)>& progress = {});
+
+/// Removes what a process left that was killed while it compacted; for who holds the store for writing.
+void drop_unfinished(const std::filesystem::path& folder);
 
 /// Opens a store; the engine is recognised by its files. Throws Error{not_found} where there is none,
 /// Error{unsupported} where this build lacks its engine, Error{conflict} where another process has it open and the

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "signweave/kv/test_folder.h"
+#include "signweave/kv/test_refusal.h"
 
 namespace signweave::kv {
 namespace {
@@ -27,17 +28,6 @@ void put(KvStore& store, std::string_view key, std::string_view value) {
   const auto change = store.write();
   change->put(bytes_of(key), bytes_of(value));
   change->commit();
-}
-
-ErrorCode code_of(const std::function<void()>& action, std::string* text = nullptr) {
-  try {
-    action();
-  } catch (const Error& error) {
-    if (text) *text = error.what();
-    return error.code();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return ErrorCode::cancelled;
 }
 
 /// Every rule of kv_store.h, for every engine of this build.
@@ -253,7 +243,7 @@ TEST_P(KvStoreTest, ASecondWriterWaitsForTheFirst) {
 
 TEST_P(KvStoreTest, OneThreadThatWritesTwiceIsToldSoInsteadOfHanging) {
   const auto change = store_->write();
-  EXPECT_EQ(code_of([&] { store_->write(); }), ErrorCode::conflict);
+  EXPECT_EQ(refusal_of([&] { store_->write(); }), ErrorCode::conflict);
 }
 
 TEST_P(KvStoreTest, AnotherThreadMayWriteAfterAnError) {
@@ -297,13 +287,13 @@ TEST_P(KvStoreTest, KeysHaveALongestLength) {
   put(*store_, longest, "v");
   EXPECT_THAT(text_at(*store_->read(), longest), Optional(std::string("v")));
   std::string text;
-  EXPECT_EQ(code_of([&] { put(*store_, longest + "k", "v"); }, &text), ErrorCode::bad_input);
+  EXPECT_EQ(refusal_of([&] { put(*store_, longest + "k", "v"); }, &text), ErrorCode::bad_input);
   EXPECT_THAT(text, HasSubstr("shorter name"));
-  EXPECT_EQ(code_of([&] { store_->read()->get({}); }), ErrorCode::bad_input);
+  EXPECT_EQ(refusal_of([&] { store_->read()->get({}); }), ErrorCode::bad_input);
 }
 
 TEST_P(KvStoreTest, AReadOnlyStoreRefusesToWrite) {
-  EXPECT_EQ(code_of([&] { open(path(), Access::read_only)->write(); }), ErrorCode::unsupported);
+  EXPECT_EQ(refusal_of([&] { open(path(), Access::read_only)->write(); }), ErrorCode::unsupported);
 }
 
 TEST_P(KvStoreTest, InfoTellsEngineEntriesAndSize) {
@@ -316,11 +306,11 @@ TEST_P(KvStoreTest, InfoTellsEngineEntriesAndSize) {
 }
 
 TEST_P(KvStoreTest, AFolderThatIsNotEmptyIsLeftAlone) {
-  EXPECT_EQ(code_of([&] { create(path(), GetParam()); }), ErrorCode::already_exists);
+  EXPECT_EQ(refusal_of([&] { create(path(), GetParam()); }), ErrorCode::already_exists);
   const auto other = folder_.path() / "notes";
   std::filesystem::create_directory(other);
   std::ofstream(other / "letter.txt") << "mine";
-  EXPECT_EQ(code_of([&] { create(other, GetParam()); }), ErrorCode::already_exists);
+  EXPECT_EQ(refusal_of([&] { create(other, GetParam()); }), ErrorCode::already_exists);
   EXPECT_TRUE(std::filesystem::exists(other / "letter.txt"));
 }
 
@@ -337,7 +327,7 @@ TEST(KvStore, ThereIsAnEngineAndAnUnknownOneIsNamedWithTheKnown) {
   ASSERT_FALSE(engines().empty());
   TestFolder folder;
   std::string text;
-  EXPECT_EQ(code_of([&] { create(folder.path() / "db", "oracle"); }, &text), ErrorCode::unsupported);
+  EXPECT_EQ(refusal_of([&] { create(folder.path() / "db", "oracle"); }, &text), ErrorCode::unsupported);
   EXPECT_THAT(text, HasSubstr("no storage engine 'oracle'"));
   for (const std::string& name : engines()) EXPECT_THAT(text, HasSubstr(name));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "db"));
@@ -351,14 +341,14 @@ TEST(KvStore, AnEngineThatTheBuildLacksIsNamedAsSuch) {
     TestFolder folder;
     std::ofstream(folder / file) << "a store of that engine";
     std::string text;
-    const ErrorCode code = code_of([&] { open(folder.path(), Access::read_only); }, &text);
+    const ErrorCode code = refusal_of([&] { open(folder.path(), Access::read_only); }, &text);
     if (testing::Value(engines(), testing::Contains(name))) {
       EXPECT_EQ(code, ErrorCode::corrupt) << text;
       continue;
     }
     EXPECT_EQ(code, ErrorCode::unsupported);
     EXPECT_THAT(text, HasSubstr("its storage engine '" + std::string(name) + "' was left out of this build"));
-    EXPECT_EQ(code_of([&] { create(folder.path() / "db", engine); }, &text), ErrorCode::unsupported);
+    EXPECT_EQ(refusal_of([&] { create(folder.path() / "db", engine); }, &text), ErrorCode::unsupported);
     EXPECT_THAT(text, HasSubstr("left out of this build"));
   }
 }
@@ -367,7 +357,7 @@ TEST(KvStore, AFolderWithoutStoreSaysHowToMakeOne) {
   TestFolder folder;
   for (const auto& path : {folder.path(), folder.path() / "nowhere"}) {
     std::string text;
-    EXPECT_EQ(code_of([&] { open(path, Access::read_write); }, &text), ErrorCode::not_found);
+    EXPECT_EQ(refusal_of([&] { open(path, Access::read_write); }, &text), ErrorCode::not_found);
     EXPECT_EQ(text, path.string() + ": no signweave database (make one with 'signweave create')");
   }
 }
@@ -376,9 +366,9 @@ TEST(KvStore, AFileInTheWayIsAnErrorThatNamesIt) {
   TestFolder folder;
   std::ofstream(folder.path() / "file") << "x";
   std::string text;
-  EXPECT_EQ(code_of([&] { create(folder.path() / "file" / "db", engines().front()); }, &text), ErrorCode::io);
+  EXPECT_EQ(refusal_of([&] { create(folder.path() / "file" / "db", engines().front()); }, &text), ErrorCode::io);
   EXPECT_THAT(text, HasSubstr("file"));
-  EXPECT_EQ(code_of([&] { create(folder.path() / "file", engines().front()); }, &text), ErrorCode::io);
+  EXPECT_EQ(refusal_of([&] { create(folder.path() / "file", engines().front()); }, &text), ErrorCode::io);
 }
 
 }  // namespace

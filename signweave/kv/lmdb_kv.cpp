@@ -1,5 +1,6 @@
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <deque>
@@ -176,12 +177,14 @@ class LmdbStore final : public KvStore {
     ::mdb_env_get_fd(environment_->get(), &file);
     struct stat status {};
     if (::fstat(file, &status) != 0) environment_->fail("reading", errno);
+    const auto bytes = static_cast<std::uint64_t>(status.st_size);
     int major = 0, minor = 0, patch = 0;
     ::mdb_version(&major, &minor, &patch);
     return {.name = "lmdb",
             .version = std::to_string(major) + '.' + std::to_string(minor) + '.' + std::to_string(patch),
             .entries = tree.ms_entries,
-            .bytes_on_disk = static_cast<std::uint64_t>(status.st_size)};
+            .bytes_on_disk = bytes,
+            .bytes_free = bytes - std::min(bytes, bytes_used())};
   }
 
   void visit(const std::function<void(ByteSpan key, std::size_t value_size)>& see) const override {
@@ -194,6 +197,14 @@ class LmdbStore final : public KvStore {
   }
 
  private:
+  /// What the pages take that hold entries, and the two at the head of the file.
+  std::uint64_t bytes_used() const {
+    MDB_stat tree{};
+    const int code = ::mdb_env_stat(environment_->get(), &tree);
+    if (code != MDB_SUCCESS) environment_->fail("reading", code);
+    return (2 + tree.ms_branch_pages + tree.ms_leaf_pages + tree.ms_overflow_pages) * std::uint64_t{tree.ms_psize};
+  }
+
   Environment environment_;
   Access access_;
 };

@@ -42,6 +42,21 @@ class OpenStores {
     return {entry->store.get(), release};
   }
 
+  /// Runs what may run only while this process does not have the store open, and keeps it from being opened meanwhile
+  /// (so that all stores of this kind wait); false where it is open.
+  template <typename Act>
+  static bool while_closed(const std::filesystem::path& file, Act act) {
+    const std::lock_guard lock(instance().mutex_);
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0) fail_system(file.parent_path(), "opening the store", errno);
+    for (const Entry& entry : instance().entries_) {
+      const bool same = entry.device == status.st_dev && entry.inode == status.st_ino;
+      if (same && entry.process == ::getpid()) return false;
+    }
+    act();
+    return true;
+  }
+
  private:
   struct Entry {
     dev_t device = 0;

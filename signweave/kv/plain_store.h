@@ -54,6 +54,7 @@ inline void make_room(Bytes& buffer, std::size_t size) {
 struct PlainEngine {
   const char* name;
   const char* file;  ///< the main file
+  const char* logs;  ///< how the names of the files begin that are of no use once the store was closed in order
   std::string (*version)();
   std::size_t longest_key;
   std::uint64_t largest_value;

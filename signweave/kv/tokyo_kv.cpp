@@ -247,6 +247,7 @@ void TokyoStore::open(Access access, bool make) {
 constexpr PlainEngine kTokyo = {
     .name = "tokyo",
     .file = kTokyoFile,
+    .logs = kLogFile,
     .version = [] { return std::string(::tcversion); },
     .longest_key = 511,
     .largest_value = kLargestValue,
@@ -266,6 +267,11 @@ void tokyo_create(const fs::path& folder) {
 
 std::unique_ptr<KvStore> tokyo_open(const fs::path& folder, Access access) {
   return open_versioned(folder, access, kTokyo);
+}
+
+void tokyo_compact(const fs::path& folder, const fs::path& compacting,
+                   const std::function<void(double fraction)>& progress) {
+  compact_versioned(folder, compacting, kTokyo, progress);
 }
 
 }  // namespace signweave::kv

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "signweave/kv/fault.h"
+#include "signweave/kv/files.h"
 #include "signweave/kv/open_stores.h"
 
 namespace signweave::kv {
@@ -52,16 +53,6 @@ void recover(const fs::path& folder, const PlainEngine& engine, StoreLock& lock)
         {ErrorCode::io, std::string("the last writer did not close the store; open it once with the right to write (") +
                             error.what() + ")"});
   }
-}
-
-std::uint64_t bytes_in(const fs::path& folder) {
-  std::uint64_t sum = 0;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const std::uintmax_t size = entry.is_regular_file(error) ? entry.file_size(error) : 0;
-    if (!error) sum += size;  // a log may just have gone
-  }
-  return sum;
 }
 
 }  // namespace

@@ -96,6 +96,10 @@ class VersionedStore {
 /// Makes an empty store of a hash engine in a folder that exists and is empty.
 void create_versioned(const std::filesystem::path& folder, const PlainEngine& engine);
 
+/// Writes the main file of a store of a hash engine anew, see Engine::compact.
+void compact_versioned(const std::filesystem::path& folder, const std::filesystem::path& compacting,
+                       const PlainEngine& engine, const std::function<void(double fraction)>& progress);
+
 /// Opens a store of a hash engine.
 std::unique_ptr<KvStore> open_versioned(const std::filesystem::path& folder, Access access, const PlainEngine& engine);
 

@@ -79,13 +79,17 @@ void put(kv::KvStore& store, const StoredMotion& stored, const Motion& motion,
   change.flush();
 }
 
-void erase(kv::KvStore& store, const StoredMotion& stored) {
+void for_each_key(const StoredMotion& stored, const std::function<void(ByteSpan key)>& see) {
   const FrameRange all{0, stored.frames};
+  const auto see_record = [&](const Record& record) { see(key_of(stored.generation, record)); };
+  see_record(Record{});
+  for_each_packet(stored, all, {}, see_record);
+  for_each_track_record(stored, all, see_record);
+}
+
+void erase(kv::KvStore& store, const StoredMotion& stored) {
   BoundedChange change(store, record_count(stored), {});
-  const auto erase_record = [&](const Record& record) { change.erase(key_of(stored.generation, record)); };
-  erase_record(Record{});
-  for_each_packet(stored, all, {}, erase_record);
-  for_each_track_record(stored, all, erase_record);
+  for_each_key(stored, [&](ByteSpan key) { change.erase(key); });
   change.flush();
 }
 

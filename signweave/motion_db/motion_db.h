@@ -64,6 +64,9 @@ void put(kv::KvStore& store, const StoredMotion& stored, const Motion& motion,
 /// Erases everything that `put` wrote or began to write under this descriptor. Doing it twice is harmless.
 void erase(kv::KvStore& store, const StoredMotion& stored);
 
+/// Calls see(key) for the key of each record of a stored motion, in the order in which they are written.
+void for_each_key(const StoredMotion& stored, const std::function<void(ByteSpan key)>& see);
+
 /// What a read cost. `packets` counts packets only, `bytes` the records of scalar tracks too.
 struct ReadCost {
   std::uint64_t packets = 0;

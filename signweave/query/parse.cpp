@@ -9,6 +9,7 @@
 
 #include "signweave/core/text.h"
 #include "signweave/query/lexer.h"
+#include "signweave/query/parse_example.h"
 #include "signweave/query/parse_movement.h"
 #include "signweave/query/parse_time.h"
 #include "signweave/query/regex.h"

@@ -13,7 +13,4 @@ std::vector<std::string> movement_words();
 /// The rest of a condition on movement, of which `name` is taken and "(" is next. Throws QueryError.
 Condition parse_movement(QueryLexer& in, const QueryToken& name);
 
-/// The rest of like(…), of which `name` is taken. Throws QueryError.
-Condition parse_example(QueryLexer& in, const QueryToken& name);
-
 }  // namespace signweave

@@ -273,6 +273,20 @@ void erase_document(kv::WriteTransaction& transaction, std::uint64_t generation)
   }
 }
 
+void for_each_document_key(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where,
+                           const std::function<void(ByteSpan key)>& see) {
+  if (snapshot.get(key_of(kSpecification, generation))) see(key_of(kSpecification, generation));
+  if (storage_of(snapshot, generation) == DocumentStorage::document) {
+    see(key_of(kWhole, generation));
+    return;
+  }
+  const Directory directory = Nodes(snapshot, generation, where).directory();
+  see(key_of(kDirectory, generation));
+  for (std::size_t i = 0; i <= directory.tiers.size(); ++i) see(key_of(kFrame, generation, i));
+  for (std::size_t i = 0; i < directory.pieces; ++i) see(key_of(kPiece, generation, i));
+  for (std::size_t i = 0; i < directory.buckets; ++i) see(key_of(kBucket, generation, i));
+}
+
 DocumentStorage storage_of(const kv::ReadTransaction& snapshot, std::uint64_t generation) {
   return snapshot.get(key_of(kDirectory, generation)) ? DocumentStorage::node : DocumentStorage::document;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,6 +44,11 @@ void put_document(kv::WriteTransaction& transaction, std::uint64_t generation, s
 
 /// Erases a document, stored in either way or in both. Doing it twice is harmless.
 void erase_document(kv::WriteTransaction& transaction, std::uint64_t generation);
+
+/// Calls see(key) for the key of each record of a document, in whichever way it is stored. Throws Error{corrupt} where
+/// the record that tells how many there are is damaged; `where` names the recording in that error.
+void for_each_document_key(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where,
+                           const std::function<void(ByteSpan key)>& see);
 
 /// How a document is stored; `document` where there is none.
 DocumentStorage storage_of(const kv::ReadTransaction& snapshot, std::uint64_t generation);

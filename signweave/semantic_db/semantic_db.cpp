@@ -34,6 +34,19 @@ void erase(kv::WriteTransaction& transaction, std::uint64_t generation) {
   transaction.erase(key_of('S', generation));
 }
 
+void for_each_key(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where,
+                  const std::function<void(ByteSpan key)>& see) {
+  for_each_document_key(snapshot, generation, where, see);
+  see(key_of('S', generation));
+  for (const char what : {'F', 'T'}) {  // a database of an older layout has none
+    if (snapshot.get(key_of(what, generation))) see(key_of(what, generation));
+  }
+}
+
+Bytes weights_key() {
+  return key_of('W');
+}
+
 void put_weights(kv::WriteTransaction& transaction, const StoredWeights& weights) {
   ByteWriter writer;
   writer.number(kWeightsVersion);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,11 +28,18 @@ void put_features(kv::WriteTransaction& transaction, std::uint64_t generation, c
 /// Erases a document and everything beside it. Doing it twice is harmless.
 void erase(kv::WriteTransaction& transaction, std::uint64_t generation);
 
+/// Calls see(key) for the key of each record of a document and of what lies beside it. Throws Error{corrupt} where the
+/// record that tells how many there are is damaged; `where` names the recording in that error.
+void for_each_key(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where,
+                  const std::function<void(ByteSpan key)>& see);
+
 /// The weights that were learned from all recordings together, and of which state of the database they are.
 struct StoredWeights {
   std::uint64_t changes = 0;  ///< the caller's count of changes when they were learned
   JoinWeights weights;
 };
+/// The key of their record.
+Bytes weights_key();
 /// Stores them instead of what was.
 void put_weights(kv::WriteTransaction& transaction, const StoredWeights& weights);
 /// As they were put; none where there are none, or another version learned. Throws Error{corrupt}.

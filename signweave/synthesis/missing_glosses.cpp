@@ -90,16 +90,6 @@ Utterance mended(const Utterance& utterance, const std::vector<MissingGloss>& mi
   return result;
 }
 
-/// "A, B or C"
-std::string listed(const std::vector<std::string>& glosses) {
-  std::string result;
-  for (std::size_t i = 0; i < glosses.size(); ++i) {
-    if (i > 0) result += i + 1 == glosses.size() ? " or " : ", ";
-    result += glosses[i];
-  }
-  return result;
-}
-
 MissingGlosses error_of(const Utterance& utterance, std::vector<MissingGloss> missing) {
   std::string names;
   for (std::size_t i = 0; i < std::min(missing.size(), kMostNamed); ++i) {
@@ -112,7 +102,7 @@ MissingGlosses error_of(const Utterance& utterance, std::vector<MissingGloss> mi
   std::string suggestion = all ? to_string(mended(utterance, missing)) : std::string();
   std::string meant;
   if (missing.size() == 1 && missing.front().places == 1) {
-    meant = listed(missing.front().matches);
+    meant = either_of(missing.front().matches);
   } else if (all) {
     meant = printable(suggestion);
   } else {

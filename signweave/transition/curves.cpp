@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "signweave/motion/blend.h"
+#include "signweave/transition/curve_loops.h"
 
 namespace signweave {
 namespace {
@@ -99,33 +100,11 @@ Eigen::Vector3f rotation_vector(const Eigen::Quaternionf& q) noexcept {
 
 Eigen::Quaternionf rotation_of(const Eigen::Vector3f& vector) noexcept {
   const float square = 0.25f * vector.squaredNorm();  // of the half angle
-  if (square > 2.5f || !(square >= 0)) {
-    const float half = std::sqrt(square);
-    const Eigen::Vector3f axis = vector * (0.5f * std::sin(half) / half);
-    return {std::cos(half), axis.x(), axis.y(), axis.z()};
-  }
-  // The series of sine (over the angle) and cosine, off by less than 1e-7.
-  const float y = square;
-  const float sine =
-      1 - y * (1.0f / 6) *
-              (1 - y * (1.0f / 20) *
-                       (1 - y * (1.0f / 42) * (1 - y * (1.0f / 72) * (1 - y * (1.0f / 110) * (1 - y * (1.0f / 156))))));
-  const float cosine =
-      1 - y * (1.0f / 2) *
-              (1 - y * (1.0f / 12) *
-                       (1 - y * (1.0f / 30) *
-                                (1 - y * (1.0f / 56) *
-                                         (1 - y * (1.0f / 90) * (1 - y * (1.0f / 132) * (1 - y * (1.0f / 182)))))));
-  const Eigen::Vector3f axis = vector * (0.5f * sine);
-  return {cosine, axis.x(), axis.y(), axis.z()};
-}
-
-Eigen::Vector3f JointReach::operator()(const Eigen::Vector3f& vector) const noexcept {
-  if (margin <= 0) return vector;
-  const float square = vector.squaredNorm();
-  if (!(square > seen * seen)) return vector;
-  const float length = std::sqrt(square);
-  return vector * ((seen + margin * std::tanh((length - seen) / margin)) / length);
+  const float half = std::sqrt(square);
+  // Near nothing the sine is the angle, and its quotient 1.
+  const float factor = half > 1e-4f || !(half >= 0) ? std::sin(half) / half : 1 - square / 6;
+  const Eigen::Vector3f axis = vector * (0.5f * factor);
+  return {std::cos(half), axis.x(), axis.y(), axis.z()};
 }
 
 JointReach reach_of(const Sides& sides) noexcept {
@@ -189,6 +168,104 @@ Eigen::Vector3f see_translation(const Gap& gap, std::size_t translation, GapScra
   see(gap.before, gap.before.frames - 1, -1, scratch.before);
   see(gap.after, 0, 1, scratch.after);
   return middle;
+}
+
+namespace {
+
+void see_side(const Gap& gap, const PosesView& side, std::int64_t border, int step, GapScratch& scratch,
+              std::vector<float>& seen) {
+  const std::size_t taken = scratch.taken.size();
+  const std::size_t turned = scratch.turned;
+  const auto count = static_cast<std::size_t>(context_frames(side, gap.rate));
+  seen.resize(count * 3 * taken);
+  scratch.last = scratch.middles;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto frame = static_cast<std::size_t>(border + static_cast<std::int64_t>(k) * step);
+    float* const out = seen.data() + k * 3 * taken;
+    curve_loops::follow(side.rotations.data() + frame * side.joints(), scratch.taken.data(), turned,
+                        scratch.last.data());
+    curve_loops::see_rotations(scratch.last.data(), scratch.middles.data(), turned, taken, out);
+    for (std::size_t i = turned; i < taken; ++i) {
+      const std::size_t at = scratch.taken[i];
+      const Eigen::Vector3f middle = 0.5f * (gap.left().translations[at] + gap.right().translations[at]);
+      const Eigen::Vector3f off = side.translations[frame * side.moved() + at] - middle;
+      for (Eigen::Index axis = 0; axis < 3; ++axis) out[static_cast<std::size_t>(axis) * taken + i] = off[axis];
+    }
+  }
+}
+
+}  // namespace
+
+void see_all(const GapJob& job) {
+  const Gap& gap = job.gap;
+  GapScratch& scratch = job.scratch;
+  scratch.taken.clear();
+  for (std::size_t joint = 0; joint < gap.before.joints(); ++joint) {
+    if (job.groups.has(gap.groups->of[joint])) scratch.taken.push_back(joint);
+  }
+  scratch.turned = scratch.taken.size();
+  for (std::size_t i = 0; i < gap.before.moved(); ++i) {
+    if (job.groups.has(gap.groups->of_translation[i])) scratch.taken.push_back(i);
+  }
+  scratch.middles.resize(4 * scratch.turned);
+  for (std::size_t i = 0; i < scratch.turned; ++i) {
+    const Eigen::Quaternionf middle =
+        middle_of(gap.left().rotations[scratch.taken[i]], gap.right().rotations[scratch.taken[i]]);
+    for (Eigen::Index axis = 0; axis < 4; ++axis) {
+      scratch.middles[static_cast<std::size_t>(axis) * scratch.turned + i] = middle.coeffs()[axis];
+    }
+  }
+  // Neighbours keep one hemisphere, so one sign a side lets a way go on beyond half a turn from the middle.
+  see_side(gap, gap.before, gap.before.frames - 1, -1, scratch, scratch.seen[0]);
+  see_side(gap, gap.after, 0, 1, scratch, scratch.seen[1]);
+}
+
+Sides sides_of(const GapJob& job, std::size_t taken, double seconds) {
+  GapScratch& scratch = job.scratch;
+  const std::size_t width = scratch.taken.size();
+  const auto copy = [&](const std::vector<float>& seen, std::vector<Eigen::Vector3f>& out) {
+    out.resize(seen.size() / (3 * width));
+    const float* at = seen.data() + taken;
+    for (Eigen::Vector3f& vector : out) {
+      vector = {at[0], at[width], at[2 * width]};
+      at += 3 * width;
+    }
+  };
+  copy(scratch.seen[0], scratch.before);
+  copy(scratch.seen[1], scratch.after);
+  const std::size_t at = scratch.taken[taken];
+  const bool rotation = taken < scratch.turned;
+  return {.before = scratch.before,
+          .after = scratch.after,
+          .hertz = job.gap.rate.hertz(),
+          .seconds = seconds,
+          .role = rotation ? job.gap.groups->roles[at] : JointRole::other,
+          .group = rotation ? job.gap.groups->of[at] : job.gap.groups->of_translation[at],
+          .joint = at,
+          .rotation = rotation};
+}
+
+void make_frame(const GapJob& job, std::int64_t frame, MutablePoses out) noexcept {
+  const Gap& gap = job.gap;
+  GapScratch& scratch = job.scratch;
+  const std::size_t taken = scratch.taken.size();
+  const std::size_t turned = scratch.turned;
+  scratch.made.resize(3 * taken + 4 * turned);
+  float* const vectors = scratch.made.data();
+  float* const turns = vectors + 3 * taken;
+  curve_loops::add_up(scratch.row, scratch.ways.data(), 3 * taken, vectors);
+  curve_loops::keep_within(scratch.reaches.data(), turned, taken, vectors);
+  curve_loops::turn_by(vectors, scratch.middles.data(), turned, taken, turns);
+  Eigen::Quaternionf* const rotations = out.rotations.data() + static_cast<std::size_t>(frame) * gap.before.joints();
+  for (std::size_t i = 0; i < turned; ++i) {
+    rotations[scratch.taken[i]].coeffs() = {turns[i], turns[turned + i], turns[2 * turned + i], turns[3 * turned + i]};
+  }
+  for (std::size_t i = turned; i < taken; ++i) {
+    const std::size_t at = scratch.taken[i];
+    const Eigen::Vector3f middle = 0.5f * (gap.left().translations[at] + gap.right().translations[at]);
+    out.translations[static_cast<std::size_t>(frame) * gap.before.moved() + at] =
+        middle + Eigen::Vector3f(vectors[i], vectors[taken + i], vectors[2 * taken + i]);
+  }
 }
 
 }  // namespace signweave

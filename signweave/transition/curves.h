@@ -86,6 +86,15 @@ Eigen::Vector3f see_translation(const Gap& gap, std::size_t translation, GapScra
 /// Of a joint whose sides are seen.
 JointReach reach_of(const Sides& sides) noexcept;
 
+/// Sees all joints and translations of a job at once: fills `taken`, `turned`, `middles` and `seen` of its scratch. Of
+/// each joint it sees what see_joint does, up to rounding.
+void see_all(const GapJob& job);
+/// The sides of one of them, in `scratch.before` and `scratch.after`, after see_all.
+Sides sides_of(const GapJob& job, std::size_t taken, double seconds);
+/// Makes one frame: of each way the terms' vectors in `scratch.ways`, each times its number in `scratch.row`, kept
+/// within `scratch.reaches` and turned by `scratch.middles`.
+void make_frame(const GapJob& job, std::int64_t frame, MutablePoses out) noexcept;
+
 /// Fills a job from a family of curves, which has
 ///   std::size_t terms() const                                  how many functions of time
 ///   void row(double t, std::int64_t frame, float* out) const   their values at a frame, at t in (0, 1) of the curve
@@ -97,69 +106,27 @@ void fill_curves(const GapJob& job, MutablePoses out, Family&& family, const Gap
   constexpr bool kBeyondSides = requires {
     std::remove_cvref_t<Family>::kBeyondSides;
   };
-  const Gap& gap = job.gap;
   GapScratch& scratch = job.scratch;
-  const std::size_t joints = gap.before.joints();
-  const std::size_t moved = gap.before.moved();
+  see_all(job);
   const std::size_t terms = family.terms();
-  scratch.taken.clear();
-  for (std::size_t joint = 0; joint < joints; ++joint) {
-    if (job.groups.has(gap.groups->of[joint])) scratch.taken.push_back(joint);
-  }
-  const std::size_t turned = scratch.taken.size();
-  for (std::size_t i = 0; i < moved; ++i) {
-    if (job.groups.has(gap.groups->of_translation[i])) scratch.taken.push_back(i);
-  }
   const std::size_t taken = scratch.taken.size();
-  // One number after the other over all that is made, so that a frame is a few vector additions.
-  const std::size_t width = 3 * taken;
-  scratch.ways.resize((terms + 1) * width);
   scratch.coefficients.resize(terms);
-  scratch.middles.resize(turned);
   scratch.row.resize(terms);
-  scratch.reaches.resize(turned);
-  Sides sides;
-  sides.hertz = gap.rate.hertz();
-  sides.seconds = time.seconds();
+  scratch.ways.resize(terms * 3 * taken);
+  scratch.reaches.resize(scratch.turned);
   for (std::size_t i = 0; i < taken; ++i) {
-    sides.joint = scratch.taken[i];
-    sides.rotation = i < turned;
-    if (sides.rotation) {
-      scratch.middles[i] = see_joint(gap, sides.joint, scratch);
-      sides.role = gap.groups->roles[sides.joint];
-      sides.group = gap.groups->of[sides.joint];
-    } else {
-      see_translation(gap, sides.joint, scratch);
-      sides.role = JointRole::other;
-      sides.group = gap.groups->of_translation[sides.joint];
-    }
-    sides.before = scratch.before;
-    sides.after = scratch.after;
+    const Sides sides = sides_of(job, i, time.seconds());
     if (sides.rotation) scratch.reaches[i] = kBeyondSides ? JointReach{} : reach_of(sides);
     family.coefficients(sides, scratch.coefficients.data());
     for (std::size_t term = 0; term < terms; ++term) {
-      Eigen::Map<Eigen::Vector3f>(scratch.ways.data() + term * width + 3 * i) = scratch.coefficients[term];
+      float* const way = scratch.ways.data() + term * 3 * taken + i;
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        way[static_cast<std::size_t>(axis) * taken] = scratch.coefficients[term][axis];
     }
   }
-  using Numbers = Eigen::Map<Eigen::ArrayXf>;
-  const auto size = static_cast<Eigen::Index>(width);
-  Numbers sum(scratch.ways.data() + terms * width, size);
-  for (std::int64_t frame = 0; frame < gap.count; ++frame) {
-    const auto base = static_cast<std::size_t>(frame);
+  for (std::int64_t frame = 0; frame < job.gap.count; ++frame) {
     family.row(time.at(frame), frame, scratch.row.data());
-    sum.setZero();
-    for (std::size_t term = 0; term < terms; ++term) {
-      sum += scratch.row[term] * Numbers(scratch.ways.data() + term * width, size);
-    }
-    for (std::size_t i = 0; i < turned; ++i) {
-      const Eigen::Vector3f way = Eigen::Map<const Eigen::Vector3f>(sum.data() + 3 * i);
-      out.rotations[base * joints + scratch.taken[i]] = scratch.middles[i] * rotation_of(scratch.reaches[i](way));
-    }
-    for (std::size_t i = turned; i < taken; ++i) {
-      const std::size_t at = scratch.taken[i];
-      const Eigen::Vector3f middle = 0.5f * (gap.left().translations[at] + gap.right().translations[at]);
-      out.translations[base * moved + at] = middle + Eigen::Map<const Eigen::Vector3f>(sum.data() + 3 * i);
-    }
+    make_frame(job, frame, out);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "signweave/transition/curve_loops.h"
 #include "signweave/transition/kriging.h"
 #include "signweave/transition/test_way.h"
 
@@ -99,7 +100,7 @@ TEST(Kriging, WeightsSumToOneAndAreThoseOfTheBordersThere) {
     for (const std::int64_t count : {1, 5, 60, 500}) {
       for (const std::int64_t context : {1, 2, 1000}) {
         const Gap gap = cut(motion, of, {200, 200 + count}, context);
-        const Kriging kriging(gap, GapTime(gap), memory);
+        const Kriging kriging(gap, GapTime(gap), memory, Kriging::Weights::anew);
         ASSERT_LE(kriging.terms(), 20u);
         std::size_t left = 0;  // how many of the samples are of the left side: its border's is the first
         for (const double t : {0.0, 0.1, 0.5, 0.77, 1.0}) {
@@ -121,13 +122,90 @@ TEST(Kriging, WeightsSumToOneAndAreThoseOfTheBordersThere) {
   }
 }
 
+TEST(Kriging, WeightsThatAreKeptAreThoseThatAreSolved) {
+  const JointGroups of = groups();
+  std::vector<double> memory;
+  for (const FrameRate rate : {FrameRate{30, 1}, FrameRate{97, 1}}) {
+    const Motion motion = lively(1, rate, 900);
+    for (const std::int64_t count : {1, 7, 128, 129, 400}) {
+      Gap gap = cut(motion, of, {200, 200 + count});
+      for (const double pause : {0.0, 0.4}) {
+        gap.pause = Seconds(pause);
+        const GapTime time(gap);
+        const Kriging solved(gap, time, memory, Kriging::Weights::anew);
+        std::vector<float> expected;
+        for (std::int64_t frame = 0; frame < count; ++frame) {
+          expected.resize(expected.size() + solved.terms());
+          solved.row(time.at(frame), frame, &expected[expected.size() - solved.terms()]);
+        }
+        for (int time_asked = 0; time_asked < 2; ++time_asked) {  // written, then read
+          std::vector<double> own;
+          const Kriging kept(gap, time, own);
+          std::vector<float> row(kept.terms());
+          for (std::int64_t frame = 0; frame < count; ++frame) {
+            kept.row(time.at(frame), frame, row.data());
+            ASSERT_TRUE(std::equal(row.begin(), row.end(), expected.begin() + frame * std::ssize(row)))
+                << count << ' ' << frame << ' ' << pause;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Curves, JointsSeenTogetherAreSeenAsEachAlone) {
+  const JointGroups of = groups();
+  const Motion motion = lively(3.7, {100, 1}, 400);
+  for (const std::int64_t count : {5, 60, 200}) {
+    const Gap gap = cut(motion, of, {100, 100 + count});
+    GapScratch scratch;
+    GapScratch alone;
+    const GapJob job{.gap = gap, .model = default_transition_model(), .scratch = scratch};
+    see_all(job);
+    for (std::size_t i = 0; i < scratch.turned; ++i) {
+      const Sides sides = sides_of(job, i, 1);
+      see_joint(gap, sides.joint, alone);
+      ASSERT_EQ(sides.before.size(), alone.before.size());
+      for (std::size_t k = 0; k < alone.before.size(); ++k) {
+        EXPECT_LT((sides.before[k] - alone.before[k]).norm(), 2e-6f) << count << ' ' << sides.joint << ' ' << k;
+        EXPECT_LT((sides.after[k] - alone.after[k]).norm(), 2e-6f) << count << ' ' << sides.joint << ' ' << k;
+      }
+    }
+  }
+}
+
+TEST(Curves, VectorsOfAnyLengthBecomeTheirRotations) {
+  std::vector<float> vectors;  // [x y z][joint]
+  constexpr std::size_t kCount = 37;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < kCount; ++i) {
+      vectors.push_back(0.17f * static_cast<float>(i) * std::array{0.6f, -0.64f, 0.48f}[axis]);
+    }
+  }
+  std::vector<float> middles(4 * kCount);
+  const Eigen::Quaternionf middle(Eigen::AngleAxisf(0.8f, Eigen::Vector3f(1, 2, -1).normalized()));
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    std::fill_n(middles.begin() + static_cast<std::ptrdiff_t>(axis * kCount), kCount,
+                middle.coeffs()[static_cast<Eigen::Index>(axis)]);
+  }
+  std::vector<float> turned(4 * kCount);
+  curve_loops::turn_by(vectors.data(), middles.data(), kCount, kCount, turned.data());
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const Eigen::Quaternionf expected =
+        middle * rotation_of({vectors[i], vectors[kCount + i], vectors[2 * kCount + i]});
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+      EXPECT_NEAR(turned[axis * kCount + i], expected.coeffs()[static_cast<Eigen::Index>(axis)], 1e-6) << i;
+    }
+  }
+}
+
 TEST(Kriging, AtABorderIsWhatIsThere) {
   const JointGroups of = groups();
   std::vector<double> memory;
   for (const FrameRate rate : {FrameRate{1, 1}, FrameRate{24, 1}, FrameRate{120, 1}, FrameRate{2000, 1}}) {
     const Motion motion = lively(1, rate, 900);
     const Gap gap = cut(motion, of, {200, 240});
-    Kriging kriging(gap, GapTime(gap), memory);
+    Kriging kriging(gap, GapTime(gap), memory, Kriging::Weights::anew);
     GapScratch scratch;
     see_joint(gap, kUpper, scratch);
     Sides sides;

@@ -99,7 +99,7 @@ void fill_coast(const GapJob& job, MutablePoses out) noexcept {
 
   const Chosen chosen(job);
   const std::size_t joints = from.border.rotations.size();
-  std::vector<Eigen::Quaternionf>& rotations = job.scratch.middles;  // the left border's, then the right's
+  std::vector<Eigen::Quaternionf>& rotations = job.scratch.turns;  // the left border's, then the right's
   std::vector<Eigen::Vector3f>& turns = job.scratch.coefficients;
   rotations.resize(3 * joints);
   turns.resize(2 * joints);

@@ -2,6 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
 
 #include "signweave/transition/fill.h"
@@ -25,9 +28,60 @@ double length_for(double seconds, double frame_time) noexcept {
 constexpr double kNoise = 1e-5;
 constexpr double kBorderNoise = 1e-9;
 
+/// All that weights depend on.
+struct Kind {
+  double hertz = 0;
+  double pause = 0;  ///< seconds
+  std::int64_t frames = 0;
+  std::size_t left = 0;
+  std::size_t right = 0;
+  friend bool operator==(const Kind&, const Kind&) = default;
+
+  std::size_t hash() const noexcept {
+    std::uint64_t mixed = std::bit_cast<std::uint64_t>(hertz) ^ std::rotl(std::bit_cast<std::uint64_t>(pause), 21);
+    for (const std::uint64_t number : {static_cast<std::uint64_t>(frames), std::uint64_t{left}, std::uint64_t{right}}) {
+      mixed = (mixed ^ number) * 0x9E3779B97F4A7C15u;
+      mixed ^= mixed >> 29;
+    }
+    return static_cast<std::size_t>(mixed);
+  }
+};
+
+/// The weights of one kind of gap. Written once, by the thread that takes it, and then only read.
+struct KeptWeights {
+  enum State : int { free, written, ready };
+  std::atomic<int> state{free};
+  Kind kind;
+  std::array<float, static_cast<std::size_t>(kMostKeptFrames) * 2 * Kriging::kMostSamples> rows;  ///< [frame][sample]
+};
+std::array<KeptWeights, kMostKept> kept_weights;  // all zero, so that its pages are taken when it is written
+
+/// The place of a kind: where its weights are, or one to write them into, which is then taken. Neither where all that
+/// it may have are taken.
+struct Place {
+  const KeptWeights* known = nullptr;
+  KeptWeights* taken = nullptr;
+};
+Place place_of(const Kind& kind) noexcept {
+  constexpr std::size_t kLookedAt = 8;
+  if (kind.frames > kMostKeptFrames) return {};
+  const std::size_t first = kind.hash();
+  for (std::size_t i = 0; i < kLookedAt; ++i) {
+    KeptWeights& one = kept_weights[(first + i) % kMostKept];
+    int state = one.state.load(std::memory_order_acquire);
+    if (state == KeptWeights::ready && one.kind == kind) return {.known = &one};
+    if (state == KeptWeights::free &&
+        one.state.compare_exchange_strong(state, KeptWeights::written, std::memory_order_acquire)) {
+      one.kind = kind;
+      return {.taken = &one};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
-Kriging::Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memory)
+Kriging::Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memory, Weights weights)
     : hertz_(gap.rate.hertz()), seconds_(time.seconds()), length_(length_for(seconds_, 1.0 / hertz_)) {
   const auto wanted = std::max<std::size_t>(3, static_cast<std::size_t>(std::llround(kKrigingContext * hertz_)) + 1);
   stride_ = (wanted + kMostSamples - 1) / kMostSamples;
@@ -37,8 +91,28 @@ Kriging::Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memor
   };
   left_ = count(gap.before);
   right_ = count(gap.after);
+  memory.resize(2 * samples() * samples() + 2 * samples());
+  Place place;
+  if (weights == Weights::kept) {
+    place =
+        place_of({.hertz = hertz_, .pause = gap.pause.count(), .frames = gap.count, .left = left_, .right = right_});
+  }
+  if (place.known != nullptr) {
+    rows_ = place.known->rows.data();
+    return;
+  }
+  solve(memory);
+  if (place.taken == nullptr) return;
+  float* const rows = place.taken->rows.data();
+  for (std::int64_t frame = 0; frame < gap.count; ++frame) {
+    row(time.at(frame), frame, rows + static_cast<std::size_t>(frame) * samples());
+  }
+  place.taken->state.store(KeptWeights::ready, std::memory_order_release);
+  rows_ = rows;
+}
+
+void Kriging::solve(std::vector<double>& memory) {
   const std::size_t n = samples();
-  memory.resize(2 * n * n + 2 * n);
   const auto size = static_cast<Eigen::Index>(n);
   Eigen::Map<Eigen::MatrixXd> covariance(memory.data(), size, size);
   Eigen::Map<Eigen::MatrixXd> inverse(memory.data() + n * n, size, size);
@@ -64,7 +138,11 @@ Kriging::Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memor
   near_ = sums + n;
 }
 
-void Kriging::row(double t, std::int64_t, float* out) const noexcept {
+void Kriging::row(double t, std::int64_t frame, float* out) const noexcept {
+  if (rows_ != nullptr) {
+    std::copy_n(rows_ + static_cast<std::size_t>(frame) * samples(), samples(), out);
+    return;
+  }
   const double time = t * seconds_;
   const std::size_t n = samples();
   double told = 0;  // how much the samples tell: what is left is made up for by the unknown mean

@@ -13,16 +13,24 @@ namespace signweave {
 /// Spatial Data, 1999): it has place, velocity and acceleration at the borders as far as the samples can be trusted.
 class Kriging {
  public:
-  /// Solves for a gap; O(samples³), once for all joints. `memory` is used for it and must outlive this.
-  Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memory);
+  static constexpr std::size_t kMostSamples = 10;  ///< a side
+
+  enum class Weights {
+    kept,  ///< `row` must be asked for the frames of the gap, each at its time
+    anew,  ///< solved in any case: `row` may be asked for any moment
+  };
+
+  /// Solves for a gap; O(samples³), once for all joints, and not again for gaps of the same length, rate and context:
+  /// the weights of the first kMostKept kinds of gaps are kept by the program (in 2.6 MB, which it never allocates).
+  /// `memory` is used for it and must outlive this. Threads may construct them at the same time.
+  Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memory, Weights weights = Weights::kept);
 
   std::size_t terms() const noexcept { return samples(); }
   void row(double t, std::int64_t frame, float* out) const noexcept;
   void coefficients(const Sides& sides, Eigen::Vector3f* out) const noexcept;
 
  private:
-  static constexpr std::size_t kMostSamples = 10;  ///< a side
-
+  void solve(std::vector<double>& memory);
   std::size_t samples() const noexcept { return left_ + right_; }
   double time_of(std::size_t sample) const noexcept {
     return sample < left_ ? -static_cast<double>(sample * stride_) / hertz_
@@ -39,8 +47,11 @@ class Kriging {
   const double* sums_ = nullptr;     ///< [sample] row sums of it
   double* near_ = nullptr;           ///< [sample] covariance with the moment looked at
   double total_ = 1;
+  const float* rows_ = nullptr;  ///< [frame][sample] of weights that are kept; null: they are not
 };
 
 inline constexpr double kKrigingContext = 0.1;  ///< seconds
+inline constexpr std::size_t kMostKept = 256;
+inline constexpr std::int64_t kMostKeptFrames = 128;  ///< of one gap; of longer ones nothing is kept
 
 }  // namespace signweave

@@ -6,8 +6,8 @@ namespace signweave {
 namespace {
 
 constexpr GapMethod kMethods[] = {
-    {"learned", "the likeliest way, and what captured transitions bend from it", Offered::signing, false, fill_learned},
     {"kriging", "the likeliest way from a tenth of a second on either side", Offered::signing, false, fill_kriging},
+    {"learned", "the likeliest way, and what captured transitions bend from it", Offered::signing, false, fill_learned},
     {"recorded", "bent as the captured spans are that begin and end most alike", Offered::signing, true, fill_recorded},
     {"quintic", "place, velocity and acceleration at both borders", Offered::signing, false, fill_quintic},
     {"hermite", "place and velocity at both borders", Offered::signing, false, fill_hermite},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -18,7 +19,13 @@ struct JointReach {
   float seen = 0;
   float margin = 0;  ///< 0: no limit
 
-  Eigen::Vector3f operator()(const Eigen::Vector3f& vector) const noexcept;
+  /// What a vector is to be taken times, by its squared length: 1 within `seen`, and level there.
+  [[gnu::always_inline]] float scale(float square) const noexcept {
+    const float length = std::sqrt(square);
+    const float over = (length - seen) / margin;
+    const float kept = seen + margin * over / std::sqrt(1 + over * over);
+    return margin > 0 && length > seen ? kept / length : 1.0f;
+  }
 };
 
 /// Memory that methods use; kept from gap to gap, so that nothing is allocated once it has grown. How far it grows
@@ -28,8 +35,13 @@ struct GapScratch {
   std::vector<Eigen::Vector3f> after;         ///< and from the right border on
   std::vector<Eigen::Vector3f> coefficients;  ///< [term] of one joint or translation
   std::vector<std::size_t> taken;             ///< the joints and then the translations that are made
-  std::vector<float> ways;                    ///< [term][taken][x y z], and a row of sums
-  std::vector<Eigen::Quaternionf> middles;    ///< [taken joint]
+  std::size_t turned = 0;                     ///< how many of them are joints
+  std::array<std::vector<float>, 2> seen;     ///< before, after: [frame from the border][x y z][taken]
+  std::vector<float> last;                    ///< [x y z w][taken joint], while they are seen
+  std::vector<float> ways;                    ///< [term][x y z][taken]
+  std::vector<float> middles;                 ///< [x y z w][taken joint]
+  std::vector<float> made;                    ///< [x y z][taken] of one frame, then [x y z w][taken joint]
+  std::vector<Eigen::Quaternionf> turns;      ///< what `gap` has of both borders
   std::vector<float> row;                     ///< [term]
   std::vector<JointReach> reaches;            ///< [taken joint]
   std::vector<double> numbers;

@@ -16,7 +16,7 @@ import type {
   TransitionRow,
   Vocabulary,
 } from './answers'
-import { ApiError, StudioFault } from './fault'
+import { ApiError, errorOf, StudioFault, type Refusal } from './fault'
 
 /** How long a server may be silent while a job is under way there, in ms. */
 const kPatience = 30_000
@@ -294,10 +294,7 @@ function databaseOf(where: string): string | undefined {
 /** What an answer that is no success says: the server's own line, or that there was none. */
 export function faultOf(body: string, status: number): ApiError | StudioFault {
   try {
-    const { message, code, line, column, suggestion } = (
-      JSON.parse(body) as { error: { message: string; code: string; line?: number; column?: number; suggestion?: string } }
-    ).error
-    return new ApiError(message, status, code, line && column ? { line, column } : undefined, suggestion)
+    return errorOf((JSON.parse(body) as { error: Refusal }).error, status)
   } catch {
     return new StudioFault('badAnswer', String(status))
   }

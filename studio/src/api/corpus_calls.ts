@@ -1,3 +1,4 @@
+import { readFrames, type FrameTaker } from '../motion/frames_body'
 import type { JobBegun } from './answers'
 import { faultOf, path, type Api } from './client'
 import type { DatabaseInfo, FormatRow, Proposals, StoredRecording } from './corpus_answers'
@@ -29,6 +30,11 @@ export async function removeUploaded(api: Api, database: string, upload: string,
 /** Begins a job on an upload: `body` has the parameters of an import. */
 export async function beginUpload(api: Api, database: string, upload: string, call: 'inspect' | 'import', body: object): Promise<JobBegun> {
   return (await api.post(path('databases', database, 'uploads', upload, call), body)).json() as Promise<JobBegun>
+}
+/** A piece of a file's motion as an import would store it: `body` has the parameters of an import, and `file`. */
+export async function previewUpload(api: Api, database: string, upload: string, body: object, taker: FrameTaker, signal?: AbortSignal): Promise<void> {
+  const response = await api.post(path('databases', database, 'uploads', upload, 'preview'), body, signal)
+  await readFrames(response.body!, taker)
 }
 export async function relayout(api: Api, database: string, body: object): Promise<JobBegun> {
   return (await api.post(path('databases', database, 'relayout'), body)).json() as Promise<JobBegun>

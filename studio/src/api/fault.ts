@@ -19,6 +19,28 @@ export interface FaultPlace {
   readonly column: number
 }
 
+/** A gloss of an utterance that no sign has. */
+export interface MissingGloss {
+  readonly gloss: string
+  /** Those that were probably meant, the likeliest first. */ readonly matches: readonly string[]
+  /** Whether the matches differ in spelling only: case, accents, width. */ readonly folds: boolean
+}
+
+/** What a refusal says, as the server sends it over HTTP and over a stream. */
+export interface Refusal {
+  readonly message: string
+  readonly code: string
+  readonly line?: number
+  readonly column?: number
+  readonly missing?: readonly MissingGloss[]
+  readonly suggestion?: string
+}
+
+/** The error of a refusal. `status` is that of HTTP, or 0 where a stream refused. */
+export function errorOf({ message, code, line, column, missing, suggestion }: Refusal, status: number): ApiError {
+  return new ApiError(message, status, code, line && column ? { line, column } : undefined, suggestion, missing)
+}
+
 /** A call that was refused, with the server's own line; of a query also where. */
 export class ApiError extends Error {
   constructor(
@@ -28,6 +50,8 @@ export class ApiError extends Error {
     readonly place?: FaultPlace,
     /** Of an utterance: what was meant, as the server thinks. */
     readonly suggestion?: string,
+    /** Of an utterance: the glosses that are not there. */
+    readonly missing: readonly MissingGloss[] = [],
   ) {
     super(message)
   }

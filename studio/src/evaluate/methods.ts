@@ -7,8 +7,8 @@ export interface Method {
 
 /** In the order of the command line, the default first. */
 export const kMethods: readonly Method[] = [
-  { method: 'learned', kind: 'signing' },
   { method: 'kriging', kind: 'signing' },
+  { method: 'learned', kind: 'signing' },
   { method: 'recorded', kind: 'signing' },
   { method: 'quintic', kind: 'signing' },
   { method: 'hermite', kind: 'signing' },

@@ -10,9 +10,9 @@ export interface MotionHeader extends FramesHeader {
   /** Annotation time of frame 0, ms. */
   readonly origin_ms: number
   /** Which joint plays which part; none where the rig map could not tell. */
-  readonly rig?: { readonly parts: Readonly<Record<string, PartRow>> }
-  /** Of motion that was made. */
-  readonly report?: Report
+  readonly rig?: { readonly parts: Readonly<Record<string, PartRow>>; readonly sides_swapped?: boolean }
+  /** Of motion that was made; of a piece of a file that is to be imported, which piece it is. */
+  readonly report?: Report & { readonly piece?: { /** Of the file. */ readonly frames_per_second: number } }
 }
 
 /** Is told what stands before the frames, then given the frames as they come; their bytes are the taker's only until it returns. */

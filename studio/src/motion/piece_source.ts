@@ -1,9 +1,6 @@
 import type { Api, PieceWishes } from '../api/client'
-import { StudioFault } from '../api/fault'
-import { declarationsOf, skeletonOf } from './frames'
-import { rigOf } from './frames_body'
-import { FrameStore } from './frame_store'
 import type { MotionSource, OpenedMotion } from './source'
+import { wholeMotion } from './whole_motion'
 
 /** A short piece of a recording, fetched at once; its frame 0 is the first of the piece. */
 export class PieceSource implements MotionSource {
@@ -23,27 +20,8 @@ export class PieceSource implements MotionSource {
   ) {}
 
   async open(): Promise<OpenedMotion> {
-    let opened: OpenedMotion | undefined
-    await this.api.piece(
-      this.database,
-      this.recording,
-      this.wishes,
-      {
-        begin: (header) => {
-          const rig = rigOf(header)
-          opened = {
-            store: new FrameStore(skeletonOf(header), header.rate, rig, header.frames),
-            rig,
-            character: header.character,
-            originMs: header.origin_ms,
-            declarations: declarationsOf(header),
-          }
-        },
-        take: (block) => opened!.store.put(block),
-      },
-      this.abort.signal,
-    )
-    if (!opened) throw new StudioFault('framesMissing')
+    const { api, database, recording, wishes, abort } = this
+    const opened = await wholeMotion((taker) => api.piece(database, recording, wishes, taker, abort.signal))
     this.complete = true
     return opened
   }

@@ -27,6 +27,10 @@ export interface MotionSource {
 export interface OpenedMotion {
   readonly store: FrameStore
   readonly rig: Rig
+  /** The joints' names say left where the body has right: the rig follows the body. */
+  readonly swapped?: boolean
+  /** Frames a second of the file that these frames are of, where they are not all of them. */
+  readonly fileRate?: number
   /** The character whose joints the poses are for; none where they are the recording's own. */
   readonly character?: string
   /** Annotation time of frame 0, in ms. */

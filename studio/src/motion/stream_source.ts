@@ -1,5 +1,5 @@
 import type { Api } from '../api/client'
-import { ApiError, StudioFault } from '../api/fault'
+import { errorOf, StudioFault, type Refusal } from '../api/fault'
 import { FrameStore } from './frame_store'
 import { declarationsOf, decodeMessage, skeletonOf, type FrameBlock, type FramesHeader } from './frames'
 import { rigOf } from './frames_body'
@@ -129,12 +129,12 @@ export class StreamSource implements MotionSource {
     const asked = this.asked.get(String(message.id))
     if (asked) {
       this.asked.delete(String(message.id))
-      return type === 'error' ? asked.reject(new ApiError(String(message.message), 0, String(message.code))) : asked.resolve()
+      return type === 'error' ? asked.reject(errorOf(message as unknown as Refusal, 0)) : asked.resolve()
     }
     if (type === 'header') {
       this.header = message as unknown as FramesHeader
     } else if (type === 'error') {
-      const fault = new ApiError(String(message.message), 0, String(message.code))
+      const fault = errorOf(message as unknown as Refusal, 0)
       // Before the first frame there is nothing else to come; later the stream goes on.
       if (this.header) this.onNotice?.(fault)
       else fail(fault)

@@ -33,7 +33,7 @@ export function examplesFor(words: Pick<Words, 'glosses' | 'recordings' | 'track
     { text: 'phase = stroke & duration > 500ms', en: 'Long strokes', fr: 'Strokes longs' },
     { text: 'gloss = $X ->[..20s] gloss = $X', en: 'A sign that comes again within 20 s', fr: 'Un signe qui revient avant 20 s' },
     { text: 'phase = stroke & speed(hand) > 70 cm/s', en: 'The hand moves fast', fr: 'La main va vite' },
-    { text: 'phase = stroke & end(hand).height > shoulder', en: 'The hand ends above the shoulders', fr: 'La main finit au-dessus des épaules' },
+    { text: 'phase = stroke & max(hand).height > shoulder', en: 'The hand goes above the shoulders', fr: 'La main passe au-dessus des épaules' },
     ...(track === undefined
       ? []
       : [{ text: `phase = stroke & track(${track}) > 0.4`, en: 'The face: a track of it is high', fr: 'Le visage\u202f: une de ses pistes est haute' }]),

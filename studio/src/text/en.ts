@@ -1,6 +1,7 @@
 /** Every word on the screen, in English. `{…}` is filled in. */
 export const en = {
   title: 'signweave studio',
+  home: 'Start',
   recordings: 'Recordings',
   page_compose: 'Compose',
   page_search: 'Search',
@@ -26,6 +27,15 @@ export const en = {
   none: 'Nothing here yet',
   placeholder: 'Placeholder shapes, not LSF',
   declared: 'The source says',
+  drop: 'Drop recordings and annotation to import them into {name}',
+  dropHint: 'They are looked at first: nothing is stored yet',
+  drop_locked: 'Sign in first: files are not taken before',
+  drop_unknown: 'The server has not told its databases: files cannot be imported now',
+  drop_noDatabase: 'There is no database here that files could be imported into',
+  drop_readOnly: 'Files cannot be imported into {name}: the server may only read it',
+  drop_allReadOnly: 'Files cannot be imported: the server may only read its databases',
+  drop_dialog: 'Close the window that is open, then drop the files again',
+  drop_busy: 'An import into {name} is under way: drop the files again when it is over',
   filter: 'Filter by name',
   name: 'Name',
   signer: 'Signer',

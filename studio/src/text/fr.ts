@@ -4,6 +4,7 @@ import { typeset } from './typeset'
 /** Every word on the screen, in French. */
 export const fr: Text = typeset({
   title: 'studio signweave',
+  home: 'Accueil',
   recordings: 'Enregistrements',
   page_compose: 'Composer',
   page_search: 'Chercher',
@@ -29,6 +30,15 @@ export const fr: Text = typeset({
   none: 'Rien ici pour l’instant',
   placeholder: 'Formes provisoires, pas de la LSF',
   declared: 'La source déclare',
+  drop: 'Déposez enregistrements et annotations pour les importer dans {name}',
+  dropHint: 'Ils sont d’abord examinés : rien n’est encore stocké',
+  drop_locked: 'Connectez-vous d’abord : aucun fichier n’est pris avant',
+  drop_unknown: 'Le serveur n’a pas dit quelles bases il a : rien ne peut être importé pour l’instant',
+  drop_noDatabase: 'Il n’y a ici aucune base où importer des fichiers',
+  drop_readOnly: 'Impossible d’importer dans {name} : le serveur peut seulement la lire',
+  drop_allReadOnly: 'Impossible d’importer : le serveur peut seulement lire ses bases',
+  drop_dialog: 'Fermez la fenêtre ouverte, puis déposez de nouveau les fichiers',
+  drop_busy: 'Une importation dans {name} est en cours : déposez de nouveau les fichiers quand elle sera finie',
   filter: 'Filtrer par nom',
   name: 'Nom',
   signer: 'Signeur',

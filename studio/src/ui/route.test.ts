@@ -3,6 +3,7 @@ import { addressOf, parseRoute, wayBack, withRecording, type Route } from './rou
 
 it('says in the address what is shown, and reads it back', () => {
   const routes: Route[] = [
+    { page: 'home' },
     { page: 'recordings', database: 'demo' },
     { page: 'compose', database: 'demo', recording: undefined, state: { utterance: 'VANNES "LE MANS"' } },
     { page: 'phases', database: 'demo', recording: 'a/b', state: {} },
@@ -15,8 +16,9 @@ it('says in the address what is shown, and reads it back', () => {
   for (const route of routes) expect(parseRoute(addressOf(route))).toEqual(route)
 })
 
-it('shows the recordings where the address says nothing that it knows', () => {
-  for (const hash of ['', '#', '#/', '#/%E0%A4%A', '#/demo/nothing/x']) expect(parseRoute(hash).page).toBe('recordings')
+it('shows the start where the address says nothing, and the recordings of a database where it says nothing else that it knows', () => {
+  for (const hash of ['', '#', '#/', '#/%E0%A4%A']) expect(parseRoute(hash)).toEqual({ page: 'home' })
+  for (const hash of ['#/demo', '#/demo/nothing/x']) expect(parseRoute(hash)).toEqual({ page: 'recordings', database: 'demo' })
 })
 
 it('selects nothing where the span is none', () => {

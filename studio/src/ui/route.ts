@@ -1,6 +1,7 @@
 /** What is shown, as the address says it behind `#`, so that every view can be linked and the back key works. */
 export type Route =
-  | { readonly page: 'recordings'; readonly database?: string }
+  | { readonly page: 'home' }
+  | { readonly page: 'recordings'; readonly database: string }
   | {
       readonly page: 'recording'
       readonly database: string
@@ -24,7 +25,7 @@ export type WorkState = Readonly<Record<string, string>>
 export type WorkPage = (typeof kWorkPages)[number]
 export const kWorkPages = ['compose', 'search', 'import', 'phases', 'evaluate', 'compare', 'guide'] as const
 
-/** From what is not there, a recording or a database, the way back: to the database's recordings, else to the first database's. */
+/** From what is not there, a recording or a database, the way back: to the database's recordings, else to the start. */
 export function wayBack(hash: string): string {
   const [, database, , name] = hash.split('?')[0].split('/')
   return database && name ? `#/${database}` : '#/'
@@ -64,15 +65,17 @@ export function parseRoute(hash: string): Route {
   }
   const work = kWorkPages.find((one) => one === page)
   if (database && work) return { page: work, database, recording: name, state: Object.fromEntries(parameters) }
-  return { page: 'recordings', database }
+  return database ? { page: 'recordings', database } : { page: 'home' }
 }
 
 export function addressOf(route: Route): string {
   const parts = (...names: string[]) => '#/' + names.map(encodeURIComponent).join('/')
   const query = new URLSearchParams()
   switch (route.page) {
+    case 'home':
+      return '#/'
     case 'recordings':
-      return parts(...(route.database ? [route.database] : []))
+      return parts(route.database)
     case 'compose':
     case 'search':
     case 'import':

@@ -1,6 +1,7 @@
 // Where one composes nothing is lost: not what is typed with a fault, not a word where a stream breaks, not what is known beside what is not.
 import assert from 'node:assert/strict'
 import { button, cards, compose, field, pick, shown } from './compose_tools.mjs'
+import { axeFaults } from './page_tools.mjs'
 import { page, test, visit } from './suite.mjs'
 import { signedLive, until } from './waits.mjs'
 
@@ -110,6 +111,25 @@ test('signs live: each word at once, and tells what cannot be', async () => {
   await page.locator('.card').first().click() // what is chosen ends it, and has its panel
   await page.locator('aside .token').first().waitFor()
   await shown('VANNES MATIN MATIN MATIN')
+})
+
+test('signs live what was meant by a gloss that is not there, at a click', async () => {
+  await compose('VANNES')
+  await button('Live').click()
+  const live = page.getByRole('combobox', { name: 'Type and it signs' })
+  await live.waitFor()
+  await page.waitForFunction(() => window.signweaveStage?.panes[0]?.store.arrived > 0)
+  await live.pressSequentially('PLUIEE MATIN VANES XQZZ ')
+  await until(async () => assert.match(await page.getByRole('alert').textContent(), /'PLUIEE'[^]*'VANES'[^]*'XQZZ'/))
+  const offered = () => page.getByRole('alert').getByRole('button').allTextContents()
+  await until(async () => assert.deepEqual(await offered(), ['PLUIE', 'VANNES', 'NANTES']))
+  assert.deepEqual(await axeFaults(page), [])
+  await button('Sign NANTES').click()
+  // It is signed after what was typed since, its line goes, and one types on.
+  await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'NANTES']))
+  await until(async () => assert.deepEqual(await offered(), ['PLUIE']))
+  await until(async () => assert.ok(await live.evaluate((field) => field === document.activeElement)))
+  await signedLive(page, 'NANTES')
 })
 
 test('loses no word where the stream breaks', async () => {

@@ -521,6 +521,8 @@ for (const { name, size, set } of kWays) {
     await page.locator('article').waitFor()
     await page.locator('.report .name').first().click()
     await page.locator('.report > details > summary').click()
+    await page.locator('#preview-title').scrollIntoViewIfNeeded()
+    await page.locator('article canvas[data-seconds]').waitFor()
     found.push(...(await faultsOf('report')))
     await visit('#/mine', { size })
     await page.locator('tbody button').first().click()

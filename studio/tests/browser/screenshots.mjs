@@ -11,7 +11,9 @@ const kCompose = '#/demo/compose?' + new URLSearchParams({ utterance: 'VANNES MA
 const kDesk = { width: 1280, height: 720 },
   kPhone = { width: 390, height: 844 }
 const kViews = [
+  { name: 'start', hash: '#/' },
   { name: 'recordings', hash: '#/demo' },
+  { name: 'recordings_empty', hash: '#/mine' },
   { name: 'recordings_statistics', hash: '#/demo', then: (page) => page.locator('tbody button').first().click(), tall: true },
   { name: 'front', hash: '#/demo/recording/meteo?at=2.2' },
   { name: 'left', hash: '#/demo/recording/meteo?at=2.2', keys: ['2'] },

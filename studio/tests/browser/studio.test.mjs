@@ -10,7 +10,7 @@ const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wan
 const button = (name) => page.getByRole('button', { name, exact: true })
 
 mainTest('lists recordings, with their statistics and the plot', async () => {
-  await visit('')
+  await visit('#/demo')
   await page.getByRole('searchbox').fill('vil')
   await until(async () => assert.deepEqual(await page.locator('tbody th a').allTextContents(), ['villes']))
   await page.getByRole('button', { name: 'Transitions of villes' }).click()
@@ -20,7 +20,7 @@ mainTest('lists recordings, with their statistics and the plot', async () => {
 })
 
 test('opens a recording by keyboard alone, and shows it before the whole motion is there', async () => {
-  await visit('')
+  await visit('#/demo')
   let free
   const held = new Promise((resolve) => (free = resolve))
   let pieces = 0

@@ -3,6 +3,6 @@
  * database and a browser of its own.
  */
 export const kHalves = [
-  ['studio', 'search', 'search_kept', 'evaluate', 'guide', 'verb', 'import_choices', 'sizes'],
-  ['compose', 'compose_keeps', 'compare', 'corpus', 'phases', 'render', 'doors'],
+  ['studio', 'search', 'search_kept', 'evaluate', 'guide', 'verb', 'import_choices', 'import_preview', 'sizes', 'drop', 'home'],
+  ['compose', 'compose_keeps', 'compare', 'corpus', 'phases', 'render', 'doors', 'names'],
 ]

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest'
-import { fits, grouped, isRight, kNone, kSettings, mendOf, parametersOf, readRig, rigText, type Corrections } from './corrections'
+import { fits, grouped, isRight, kNone, kSettings, mendOf, parametersOf, readingOf, readRig, rigText, type Corrections } from './corrections'
 
 const setting = (name: string) => kSettings.find((one) => one.name === name)!
 
@@ -9,6 +9,13 @@ it('tells what was corrected, and only what says something about the file', () =
   expect(parametersOf(all, one, 'a.bvh')).toEqual({ up: 'z', unit: '0.5', mirror: true, offset_ms: -12.5, sync: ['0@10', '100@1010'] })
   expect(parametersOf(all, undefined, 'a.glb')).toEqual({ unit: 'cm', take: '2' })
   expect(parametersOf(all, one, null)).toEqual({ unit: '0.5', offset_ms: -12.5, sync: ['0@10', '100@1010'] })
+})
+
+it('knows which parameters say how motion is read', () => {
+  const all: Corrections = { settings: { up: 'z', unit: 'cm', root_order: 'rotation_first', mirror: 'yes', offset_ms: '10', replace_motion: 'yes' } }
+  expect(readingOf(parametersOf(all, { settings: {}, signer: 'Zoé' }, 'a.bvh'))).toEqual({ up: 'z', unit: 'cm', root_order: 'rotation_first', mirror: true })
+  expect(readingOf(parametersOf({ settings: { source_rate: '60', take: '2' } }, undefined, 'a.glb'))).toEqual({ source_rate: '60', take: '2' })
+  expect(readingOf(parametersOf(kNone, undefined, 'a.bvh'))).toEqual({})
 })
 
 it('leaves out what is typed wrong', () => {

@@ -98,6 +98,11 @@ export function parametersOf(all: Corrections, one: Corrections | undefined, mot
   return body
 }
 
+const kReading: ReadonlySet<string> = new Set<SettingName>(['up', 'unit', 'mirror', 'root_unit', 'root_order', 'source_rate', 'take'])
+/** Of parameters of an import those that say how a motion file is to be read. */
+export const readingOf = (parameters: Readonly<Record<string, unknown>>): Readonly<Record<string, unknown>> =>
+  Object.fromEntries(Object.entries(parameters).filter(([name]) => kReading.has(name)))
+
 /** As `--sign-tier` takes it: a name that holds a colon is written with all three parts. */
 function signTier({ tier, hand }: TierRole): string {
   if (tier.includes(':')) return `${tier}:${hand}:`

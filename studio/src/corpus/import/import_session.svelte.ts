@@ -1,6 +1,8 @@
 import type { Api } from '../../api/client'
 import type { FilePart, FormatRow, Imported, ImportResult, Inspected, Inspection, Notice } from '../../api/corpus_answers'
-import { formats, isWritable } from '../../api/corpus_calls'
+import { formats, isWritable, previewUpload } from '../../api/corpus_calls'
+import type { OpenedMotion } from '../../motion/source'
+import { wholeMotion } from '../../motion/whole_motion'
 import { grouped, kNone, readRig, type Corrections, type Group } from './corrections'
 import { endingOf, isRefusal, stemOf } from './file_kinds'
 import { added, kNoFiles, sendable, withFolderNames, without, type FileList, type Picked } from './file_list'
@@ -43,6 +45,8 @@ export class ImportSession {
   left = $state.raw<ReadonlySet<string>>(new Set())
   outcomes = $state.raw<ReadonlyMap<string, Imported>>(new Map())
   onimported?: () => void
+  /** Files that came before it was known what the server can read. */
+  private early: readonly Picked[] = []
   private readonly jobs: UploadJobs
   private settling = $state.raw<ReturnType<typeof setTimeout>>()
   private readonly revisions = new Revisions()
@@ -61,6 +65,9 @@ export class ImportSession {
     this.fault = undefined
     try {
       ;[this.formats, this.writable] = await Promise.all([formats(this.api), isWritable(this.api, this.database)])
+      const { early } = this
+      this.early = []
+      if (this.writable && early.length > 0) await this.add(early)
     } catch (fault) {
       this.fail(fault, () => void this.begin())
     }
@@ -103,6 +110,10 @@ export class ImportSession {
   }
 
   async add(more: readonly Picked[]): Promise<void> {
+    if (this.writable === undefined) {
+      this.early = [...this.early, ...more]
+      return
+    }
     if (this.isTurnedAway()) return
     // What was stored is over: more files are another import.
     if (this.outcomes.size > 0 && this.wanted.length === 0) this.clear()
@@ -295,6 +306,12 @@ export class ImportSession {
       }
     }
     this.onimported?.()
+  }
+
+  /** A piece of a file's motion as an import would store it; `reading` says how the file is to be read. Only while there is an upload. */
+  preview(file: string, reading: Readonly<Record<string, unknown>>, signal: AbortSignal): Promise<OpenedMotion> {
+    const { api, database, sender } = this
+    return wholeMotion((taker) => previewUpload(api, database, sender.upload!, { ...reading, file }, taker, signal))
   }
 
   private readonly names = $derived(new Map(this.reports.map(({ files, name }) => [keyOf(files), name])))

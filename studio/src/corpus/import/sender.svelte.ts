@@ -18,7 +18,7 @@ export class Sender {
   /** By the file's number; those that wait are not there. */
   told = $state.raw<ReadonlyMap<number, Sending>>(new Map())
   busy = $state(false)
-  upload?: string
+  upload = $state<string | undefined>()
   private abort?: AbortController
 
   constructor(

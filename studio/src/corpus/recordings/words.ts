@@ -2,6 +2,9 @@ import { typeset } from '../../text/typeset'
 
 const en = {
   import: 'Import',
+  emptyDrop: 'Drop recordings and annotation on this page, files or folders, or choose them:',
+  emptyLine: 'Or by program, while no server may change the database:',
+  emptyReadOnly: 'The server may only read {name}. Put recordings in by program:',
   storage: 'Stored as',
   details: 'Details',
   detailsOf: 'Details of {name}',
@@ -66,6 +69,9 @@ const en = {
 export type RecordingsWords = { readonly [key in keyof typeof en]: string }
 const fr: RecordingsWords = {
   import: 'Importer',
+  emptyDrop: 'Déposez enregistrements et annotations sur cette page, fichiers ou dossiers, ou choisissez-les :',
+  emptyLine: 'Ou par programme, quand aucun serveur ne peut changer la base :',
+  emptyReadOnly: 'Le serveur peut seulement lire {name}. Mettez-y des enregistrements par programme :',
   storage: 'Stockage',
   details: 'Détails',
   detailsOf: 'Détails de {name}',

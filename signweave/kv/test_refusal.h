@@ -1,0 +1,24 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "signweave/core/error.h"
+
+namespace signweave::kv {
+
+/// For tests: the code of the Error that an action throws, and its text; a failure of the test where it throws none.
+inline ErrorCode refusal_of(const std::function<void()>& action, std::string* text = nullptr) {
+  try {
+    action();
+  } catch (const Error& error) {
+    if (text) *text = error.what();
+    return error.code();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return ErrorCode::cancelled;
+}
+
+}  // namespace signweave::kv

@@ -1,0 +1,28 @@
+import { describe, expect, it } from 'vitest'
+import type { DatabaseRow } from '../../api/answers'
+import { dropTarget } from './drop_target'
+
+const row = (name: string, writable: boolean, placeholder = false): DatabaseRow => ({
+  name,
+  writable,
+  recordings: 1,
+  declarations: placeholder ? { 'signweave:placeholder': 'no signs' } : {},
+})
+
+describe('files that are dropped', () => {
+  it('go to the database of the page', () => {
+    expect(dropTarget(false, [row('a', true), row('b', true)], 'b')).toEqual({ database: 'b' })
+  })
+  it('go, where no database is chosen, to one that is no demo if there is one', () => {
+    expect(dropTarget(false, [row('demo', true, true), row('read', false), row('mine', true)], undefined)).toEqual({ database: 'mine' })
+    expect(dropTarget(false, [row('read', false), row('demo', true, true)], undefined)).toEqual({ database: 'demo' })
+  })
+  it('are not taken where nothing can be stored, and it is said why', () => {
+    expect(dropTarget(true, [row('a', true)], 'a')).toEqual({ why: 'locked' })
+    expect(dropTarget(false, undefined, 'a')).toEqual({ why: 'unknown' })
+    expect(dropTarget(false, [], undefined)).toEqual({ why: 'noDatabase' })
+    expect(dropTarget(false, [row('a', true)], 'gone')).toEqual({ why: 'noDatabase' })
+    expect(dropTarget(false, [row('a', false), row('b', true)], 'a')).toEqual({ why: 'readOnly', database: 'a' })
+    expect(dropTarget(false, [row('a', false)], undefined)).toEqual({ why: 'allReadOnly' })
+  })
+})

@@ -1,0 +1,81 @@
+import type { FrameStore } from '../../../motion/frame_store'
+import type { OpenedMotion } from '../../../motion/source'
+import { Figure } from './figure'
+import { measured, type Measures } from './measures'
+
+/** How a file is to be read: parameters of an import. */
+export type Reading = Readonly<Record<string, unknown>>
+/** A motion that can be drawn. */
+export interface Drawn {
+  readonly store: FrameStore
+  readonly figure: Figure
+  readonly measures: Measures
+  /** Frames a second of the file. */
+  readonly rate: number
+}
+/** A preview that has come, or why it did not. */
+export type Come = { readonly drawn: Drawn; readonly fault?: undefined } | { readonly fault: unknown; readonly drawn?: undefined }
+
+export const keyOf = (reading: Reading): string => JSON.stringify(Object.entries(reading).sort(([a], [b]) => (a < b ? -1 : 1)))
+
+/**
+ * Previews of one file by how it is read, fetched one after the other: what is wanted no more is given up, what has come stays. A fault stays as long as
+ * it is wanted.
+ */
+export class Previews {
+  private come = $state.raw<ReadonlyMap<string, Come>>(new Map())
+  private wanted: readonly Reading[] = []
+  private going?: { readonly key: string; readonly abort: AbortController }
+
+  constructor(private readonly ask: (reading: Reading, signal: AbortSignal) => Promise<OpenedMotion>) {}
+
+  get(reading: Reading): Come | undefined {
+    return this.come.get(keyOf(reading))
+  }
+  /** What is wanted now, in the order in which it should come. */
+  want(readings: readonly Reading[]): void {
+    this.wanted = readings
+    const keys = new Set(readings.map(keyOf))
+    if (this.going && !keys.has(this.going.key)) this.stop()
+    const faults = [...this.come].filter(([key, { fault }]) => fault !== undefined && !keys.has(key))
+    if (faults.length > 0) this.forget(faults.map(([key]) => key))
+    this.next()
+  }
+  /** Asks once more for what did not come. */
+  retry(reading: Reading): void {
+    this.forget([keyOf(reading)])
+    this.next()
+  }
+  close(): void {
+    this.wanted = []
+    this.stop()
+  }
+
+  private stop(): void {
+    this.going?.abort.abort()
+    this.going = undefined
+  }
+  private forget(keys: readonly string[]): void {
+    this.come = new Map([...this.come].filter(([key]) => !keys.includes(key)))
+  }
+  private next(): void {
+    if (this.going) return
+    const reading = this.wanted.find((one) => !this.come.has(keyOf(one)))
+    if (!reading) return
+    const going = (this.going = { key: keyOf(reading), abort: new AbortController() })
+    void this.ask(reading, going.abort.signal)
+      .then(drawnOf)
+      .catch((fault: unknown): Come => ({ fault }))
+      .then((come) => {
+        if (this.going !== going) return
+        this.going = undefined
+        this.come = new Map(this.come).set(going.key, come)
+        this.next()
+      })
+  }
+}
+
+function drawnOf({ store, rig, swapped, fileRate }: OpenedMotion): Come {
+  const figure = new Figure(store.skeleton, rig, swapped)
+  return { drawn: { store, figure, measures: measured(figure, store), rate: fileRate ?? store.rate } }
+}

@@ -31,6 +31,21 @@ test('loses no text that has a fault: not by moving signs, not by undo, not of a
   await until(async () => assert.equal(await field().inputValue(), 'VANNES "LE MANS'))
 })
 
+test('does not take an address back that was followed a moment ago', async () => {
+  await compose('VANNES')
+  const later = await page.evaluate(async () => {
+    const field = document.querySelector('.compose [role=combobox]')
+    const after = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds))
+    field.value = 'VANNES MATIN'
+    field.dispatchEvent(new Event('input', { bubbles: true }))
+    await after(0)
+    history.replaceState(null, '', '#/demo') // as a link does before the page is given the event
+    await after(300) // Timers end in order: the one that writes the address has ended.
+    return location.hash
+  })
+  assert.equal(later, '#/demo')
+})
+
 test('keeps what was done last: where the page is left at once, and where something slow comes after it', async () => {
   await compose('VANNES')
   await page.locator('.card').click()

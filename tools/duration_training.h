@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "signweave/transition/duration.h"
+#include "signweave/features/duration_fit.h"
 #include "tools/gesture_phase.h"
 
 namespace signweave {

@@ -36,7 +36,7 @@ DatabaseInfo run_info(const Database& database, const std::function<std::vector<
   } catch (const Error& error) {
     listener.blame(error.what());
   }
-  info.weights = database.snapshot().join_weights();
+  info.weights = database.snapshot().learned()->weights;
   return info;
 }
 

@@ -12,7 +12,7 @@ void learn(Database& database, const Listener& listener) {
     database.merge();
     database.learn();
   } catch (const Error& error) {
-    listener.blame(std::string("weights of the selection: ").append(error.what()));
+    listener.blame(std::string("what was learned: ").append(error.what()));
   }
 }
 

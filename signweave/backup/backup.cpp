@@ -249,7 +249,7 @@ BackupReport backup(const Database& database, const fs::path& folder, const Back
       [&](const auto& see) {
         see(catalogue::head_key());
         for (const std::uint32_t slot : sound) see(catalogue::slot_key(slot));
-        if (snapshot->get(semantic_db::weights_key())) see(semantic_db::weights_key());
+        if (snapshot->get(semantic_db::learned_key())) see(semantic_db::learned_key());
       },
       "catalogue");
   state.parts.emplace(catalogue, stamp);

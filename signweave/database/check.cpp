@@ -6,6 +6,7 @@
 
 #include "signweave/database/catalogue.h"
 #include "signweave/database/check_listener.h"
+#include "signweave/database/learn.h"
 #include "signweave/database/measure.h"
 #include "signweave/database/tables.h"
 #include "signweave/formats/annotation_file.h"
@@ -49,18 +50,18 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
   if (!fault.empty()) listener.fault(fault);
 }
 
-/// The weights that were learned are those that the corpus teaches; where recordings are damaged it cannot be told.
-void check_weights(const Database& database, const kv::ReadTransaction& snapshot, CheckListener& listener) {
-  const char* mend = "signing learns them anew; import any file again to store them";
+/// What was learned is what the corpus teaches; where recordings are damaged it cannot be told.
+void check_learned(const Database& database, const kv::ReadTransaction& snapshot, CheckListener& listener) {
+  const char* mend = "signing learns it anew; import any file again to store it";
   try {
-    const std::optional<semantic_db::StoredWeights> stored = semantic_db::read_weights(snapshot);
+    const std::optional<semantic_db::Learned> stored = semantic_db::read_learned(snapshot);
     if (!stored || stored->changes != catalogue::read_head(snapshot).changes) return;
     const Snapshot now = database.snapshot();
-    if (!now.contents().faults.empty() || nearly_same(stored->weights, learn_joins(now))) return;
-    listener.fault(fmt::format("weights of the selection: they are not what the recordings teach; {}", mend));
+    if (!now.contents().faults.empty() || nearly_same(*stored, learn_from(now))) return;
+    listener.fault(fmt::format("what was learned: it is not what the recordings teach; {}", mend));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::corrupt) throw;
-    listener.fault(fmt::format("weights of the selection: the stored record is damaged; {}", mend));
+    listener.fault(fmt::format("what was learned: the stored record is damaged; {}", mend));
   }
 }
 
@@ -129,7 +130,7 @@ void check_slots(const Database& database, std::uint32_t first, CheckListener& l
     }
   }
   check_tables(snapshot, listener);
-  check_weights(database, *snapshot, listener);
+  check_learned(database, *snapshot, listener);
   try {
     catalogue::read_sweep_list(*snapshot);
   } catch (const Error&) {

@@ -26,6 +26,7 @@
 #include "signweave/query/phase_query.h"
 #include "signweave/semantic_db/documents.h"
 #include "signweave/semantic_db/segments.h"
+#include "signweave/semantic_db/semantic_db.h"
 #include "signweave/xpath/expression.h"
 
 namespace signweave {
@@ -75,9 +76,13 @@ class Snapshot {
   /// long as nothing in the database changes. Nothing is known where the features are damaged.
   std::shared_ptr<const RecordingJoins> joins(std::size_t recording) const;
 
-  /// What weighs how much where signs are chosen by their joins: as learned and stored (see Database::learn); learned
-  /// now where what is stored is damaged, of another version or of another state of the database, or nothing is.
-  JoinWeights join_weights() const;
+  /// What was measured of the phases of `contents().recordings[recording]`, as Database::features; where the record is
+  /// damaged nothing, and why.
+  RecordingFeatures features(std::size_t recording) const;
+
+  /// What the corpus teaches (see Database::learn): as stored; learned now where what is stored is damaged, of another
+  /// version or of a state of the database that is long gone, or nothing is.
+  std::shared_ptr<const semantic_db::Learned> learned() const;
 
  private:
   friend class Database;
@@ -174,7 +179,8 @@ class Database {
   /// damaged, or nothing is; false where it is current. Whatever else changes a recording measures by itself.
   bool measure(std::string_view name);
 
-  /// Learns from the corpus as it is now what weighs how much where signs are chosen by their joins, and stores it;
+  /// Learns from the corpus as it is now what weighs how much where signs are chosen by their joins, and how long
+  /// transitions take, and stores it;
   /// false where what is stored still holds: no more than a sixteenth of all changes came after it. Call it once after
   /// some changes: without it, whoever signs learns again.
   bool learn();
@@ -286,7 +292,7 @@ class Database {
   mutable std::shared_ptr<MovementCache> movement_;  ///< of the newest state that was asked about
   mutable std::map<std::uint64_t, std::shared_ptr<const motion_db::KnownMotion>> known_;  ///< by generation
   mutable std::map<std::size_t, std::shared_ptr<const RecordingJoins>> joins_;  ///< of contents_, by recording
-  mutable std::optional<JoinWeights> join_weights_;                             ///< of contents_
+  mutable std::shared_ptr<const semantic_db::Learned> learned_;                 ///< of contents_
 };
 
 }  // namespace signweave

@@ -178,11 +178,6 @@ class Learner {
   Seconds mean_{0.5};                   ///< the time that a transition is given
 };
 
-/// Learning reads as many recordings as it may; what a few more say of joins is little beside that.
-bool still_hold(const semantic_db::StoredWeights& stored, std::uint64_t changes) noexcept {
-  return stored.changes <= changes && changes - stored.changes <= changes / 16;
-}
-
 }  // namespace
 
 JoinWeights learn_joins(const Snapshot& snapshot) {
@@ -218,13 +213,7 @@ RowId neighbour_after(const Segments& segments, RowId sign) noexcept {
   return kNoRow;
 }
 
-std::shared_ptr<const RecordingJoins> Snapshot::joins(std::size_t recording) const {
-  const Database& database = *database_;
-  {
-    const std::lock_guard guard(database.mutex_);
-    const auto at = database.joins_.find(recording);
-    if (database.contents_ == contents_ && at != database.joins_.end()) return at->second;
-  }
+RecordingFeatures Snapshot::features(std::size_t recording) const {
   const RecordingInfo& info = contents_->recordings[recording];
   RecordingFeatures features;
   try {
@@ -238,48 +227,21 @@ std::shared_ptr<const RecordingJoins> Snapshot::joins(std::size_t recording) con
     if (error.code() != ErrorCode::corrupt) throw;
     features.why_not = error.what();
   }
-  auto made = std::make_shared<const RecordingJoins>(
-      joins_of(contents_->segments, static_cast<std::uint32_t>(recording), features));
-  const std::lock_guard guard(database.mutex_);
-  if (database.contents_ == contents_) database.joins_[recording] = made;
-  return made;
+  return features;
 }
 
-JoinWeights Snapshot::join_weights() const {
+std::shared_ptr<const RecordingJoins> Snapshot::joins(std::size_t recording) const {
   const Database& database = *database_;
   {
     const std::lock_guard guard(database.mutex_);
-    if (database.contents_ == contents_ && database.join_weights_) return *database.join_weights_;
+    const auto at = database.joins_.find(recording);
+    if (database.contents_ == contents_ && at != database.joins_.end()) return at->second;
   }
-  std::optional<semantic_db::StoredWeights> stored;
-  try {
-    stored = semantic_db::read_weights(*transaction_);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::corrupt) throw;
-  }
-  const bool hold = stored && still_hold(*stored, catalogue::read_head(*transaction_).changes);
-  const JoinWeights weights = hold ? stored->weights : learn_joins(*this);
+  auto made = std::make_shared<const RecordingJoins>(
+      joins_of(contents_->segments, static_cast<std::uint32_t>(recording), features(recording)));
   const std::lock_guard guard(database.mutex_);
-  if (database.contents_ == contents_) database.join_weights_ = weights;
-  return weights;
-}
-
-bool Database::learn() {
-  require_writable();
-  try {  // before the contents are read, which many a time are not needed
-    const std::unique_ptr<kv::ReadTransaction> before = store_->read();
-    const std::optional<semantic_db::StoredWeights> stored = semantic_db::read_weights(*before);
-    if (stored && still_hold(*stored, catalogue::read_head(*before).changes)) return false;
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::corrupt) throw;
-  }
-  const Snapshot now = snapshot();
-  const std::uint64_t changes = catalogue::read_head(*now.transaction_).changes;
-  const JoinWeights weights = learn_joins(now);
-  const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
-  semantic_db::put_weights(*transaction, {changes, weights});
-  transaction->commit();
-  return true;
+  if (database.contents_ == contents_) database.joins_[recording] = made;
+  return made;
 }
 
 }  // namespace signweave

@@ -87,7 +87,7 @@ TEST(Weights, LetRecordedNeighboursWin) {
     }
     database.put(recording);
   }
-  const JoinWeights weights = database.snapshot().join_weights();
+  const JoinWeights weights = database.snapshot().learned()->weights;
   EXPECT_EQ(weights.pairs, 6u * 6u);
   EXPECT_EQ(weights.folds, 5u);
   EXPECT_GT(weights.wins, 0.8f);
@@ -100,13 +100,13 @@ TEST(Weights, AreStoredOnceAndReadAgain) {
     JoinWeights learned;
     {
       Database database = corpus.open();
-      learned = database.snapshot().join_weights();
+      learned = database.snapshot().learned()->weights;
       EXPECT_TRUE(database.learn());
       EXPECT_FALSE(database.learn());
-      EXPECT_EQ(database.snapshot().join_weights(), learned);
+      EXPECT_EQ(database.snapshot().learned()->weights, learned);
     }
     const Database database = corpus.open(kv::Access::read_only);
-    EXPECT_EQ(database.snapshot().join_weights(), learned);
+    EXPECT_EQ(database.snapshot().learned()->weights, learned);
     const std::vector<Usage> usage = database.usage();
     EXPECT_EQ(std::ranges::count(usage, "weights", &Usage::kind), 1);
     EXPECT_EQ(std::ranges::count(usage, "other", &Usage::kind), 0);
@@ -118,17 +118,17 @@ TEST(Weights, AreThoseOfTheCorpusAsItIsNow) {
   const Corpus corpus(3);
   Database database = corpus.open();
   database.learn();
-  const JoinWeights three = database.snapshot().join_weights();
+  const JoinWeights three = database.snapshot().learned()->weights;
   database.put(recording_of("r3", 3, kGlosses));
-  EXPECT_EQ(database.snapshot().join_weights().pairs, 4u * 6u) << "those of three recordings are still used";
+  EXPECT_EQ(database.snapshot().learned()->weights.pairs, 4u * 6u) << "those of three recordings are still used";
   EXPECT_THAT(check(database).faults, IsEmpty());  // of an older state: nobody uses them
   EXPECT_TRUE(database.learn());
   database.remove("r3");
   EXPECT_TRUE(database.learn());
-  EXPECT_EQ(database.snapshot().join_weights(), three);
+  EXPECT_EQ(database.snapshot().learned()->weights, three);
   for (const char* name : {"r0", "r1", "r2"}) database.remove(name);
   EXPECT_TRUE(database.learn());
-  EXPECT_EQ(database.snapshot().join_weights(), JoinWeights{});
+  EXPECT_EQ(database.snapshot().learned()->weights, JoinWeights{});
 }
 
 TEST(Weights, HoldUntilASixteenthOfTheChangesCameAfterThem) {
@@ -139,14 +139,14 @@ TEST(Weights, HoldUntilASixteenthOfTheChangesCameAfterThem) {
     database.remove("r3");
   }
   EXPECT_TRUE(database.learn());  // after 39 changes
-  const JoinWeights three = database.snapshot().join_weights();
+  const JoinWeights three = database.snapshot().learned()->weights;
   database.put(recording_of("r3", 3, kGlosses));
-  EXPECT_EQ(database.snapshot().join_weights(), three);
+  EXPECT_EQ(database.snapshot().learned()->weights, three);
   EXPECT_FALSE(database.learn());
   database.remove("r3");
   EXPECT_FALSE(database.learn());
   database.put(recording_of("r3", 3, kGlosses));  // the third of 42
-  EXPECT_EQ(database.snapshot().join_weights().pairs, 4u * 6u);
+  EXPECT_EQ(database.snapshot().learned()->weights.pairs, 4u * 6u);
   EXPECT_TRUE(database.learn());
   EXPECT_FALSE(database.learn());
 }
@@ -158,8 +158,8 @@ TEST(Weights, ASnapshotKeepsThoseOfItsTime) {
   const Snapshot before = database.snapshot();
   database.remove("r2");
   database.learn();
-  EXPECT_EQ(before.join_weights().pairs, 3u * 6u);
-  EXPECT_EQ(database.snapshot().join_weights().pairs, 2u * 6u);
+  EXPECT_EQ(before.learned()->weights.pairs, 3u * 6u);
+  EXPECT_EQ(database.snapshot().learned()->weights.pairs, 2u * 6u);
 }
 
 TEST(Weights, DamagedOnesAreReportedAndDoneWithout) {
@@ -168,14 +168,13 @@ TEST(Weights, DamagedOnesAreReportedAndDoneWithout) {
   {
     Database database = corpus.open();
     database.learn();
-    learned = database.snapshot().join_weights();
+    learned = database.snapshot().learned()->weights;
   }
   corpus.change_weights([](Bytes& bytes) { bytes[30] ^= std::byte{1}; });
   {
     const Database database = corpus.open(kv::Access::read_only);
-    EXPECT_EQ(database.snapshot().join_weights(), learned);
-    EXPECT_THAT(check(database).faults,
-                ElementsAre(HasSubstr("weights of the selection: the stored record is damaged")));
+    EXPECT_EQ(database.snapshot().learned()->weights, learned);
+    EXPECT_THAT(check(database).faults, ElementsAre(HasSubstr("what was learned: the stored record is damaged")));
     EXPECT_THAT(check_in_child(corpus.folder / "db").faults, testing::SizeIs(1));
   }
   Database database = corpus.open();
@@ -192,9 +191,9 @@ TEST(Weights, OtherOnesThanTheCorpusTeachesAreReported) {
   {
     const auto store = kv::open(corpus.folder / "db", kv::Access::read_write);
     const auto transaction = store->write();
-    semantic_db::StoredWeights stored = *semantic_db::read_weights(*transaction);
+    semantic_db::Learned stored = *semantic_db::read_learned(*transaction);
     stored.weights.weights[0] += 1;
-    semantic_db::put_weights(*transaction, stored);
+    semantic_db::put_learned(*transaction, stored);
     transaction->commit();
   }
   EXPECT_THAT(check(corpus.open(kv::Access::read_only)).faults,
@@ -206,7 +205,7 @@ TEST(Weights, OfRecordingsWithoutRigAreTheDefaults) {
   Database::create(folder / "db", {});
   Database database(folder / "db", kv::Access::read_write);
   database.put(small_recording("r", 1, {"A", "B", "A"}));
-  EXPECT_EQ(database.snapshot().join_weights(), JoinWeights{});
+  EXPECT_EQ(database.snapshot().learned()->weights, JoinWeights{});
   const std::shared_ptr<const RecordingJoins> joins = database.snapshot().joins(0);
   EXPECT_FALSE(joins->why_not.empty());
   ASSERT_EQ(joins->signs.size(), 3u);

@@ -8,7 +8,7 @@
 namespace signweave::semantic_db {
 
 // One letter for what the record is, then the generation: 'D' document, 'S' segments, 'F' features, 'I' segment table.
-// What there is once in a database has a key of the letter alone: 'W' weights, 'L' list of the segment tables.
+// What there is once in a database has a key of the letter alone: 'W' what was learned, 'L' list of the segment tables.
 
 inline Bytes key_of(char what, std::uint64_t generation) {
   ByteWriter key;

@@ -43,29 +43,35 @@ void for_each_key(const kv::ReadTransaction& snapshot, std::uint64_t generation,
   }
 }
 
-Bytes weights_key() {
+Bytes learned_key() {
   return key_of('W');
 }
 
-void put_weights(kv::WriteTransaction& transaction, const StoredWeights& weights) {
+void put_learned(kv::WriteTransaction& transaction, const Learned& learned) {
   ByteWriter writer;
-  writer.number(kWeightsVersion);
-  writer.number(weights.changes);
-  encode(weights.weights, writer);
-  transaction.put(key_of('W'), kv::sealed(writer.bytes()));
+  writer.number(kLearnedVersion);
+  writer.number(learned.changes);
+  encode(learned.weights, writer);
+  encode(learned.durations, writer);
+  writer.number(learned.phased_signs);
+  writer.number(learned.unphased_signs);
+  transaction.put(learned_key(), kv::sealed(writer.bytes()));
 }
 
-std::optional<StoredWeights> read_weights(const kv::ReadTransaction& snapshot) {
-  const std::string where = "weights of the selection";
-  const auto record = snapshot.get(key_of('W'));
+std::optional<Learned> read_learned(const kv::ReadTransaction& snapshot) {
+  const std::string where = "what was learned";
+  const auto record = snapshot.get(learned_key());
   if (!record) return std::nullopt;
   ByteReader in(kv::unsealed(*record, where), where);
-  if (in.number<std::uint16_t>() != kWeightsVersion) return std::nullopt;
-  StoredWeights stored;
-  stored.changes = in.number<std::uint64_t>();
-  stored.weights = decode_join_weights(in);
+  if (in.number<std::uint16_t>() != kLearnedVersion) return std::nullopt;
+  Learned learned;
+  learned.changes = in.number<std::uint64_t>();
+  learned.weights = decode_join_weights(in);
+  learned.durations = decode_duration_fit(in);
+  learned.phased_signs = in.number<std::uint64_t>();
+  learned.unphased_signs = in.number<std::uint64_t>();
   in.finish();
-  return stored;
+  return learned;
 }
 
 std::string_view kind_of(ByteSpan key) noexcept {

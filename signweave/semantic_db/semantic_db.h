@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "signweave/features/duration_fit.h"
 #include "signweave/features/join.h"
 #include "signweave/features/phase_features.h"
 #include "signweave/kv/kv_store.h"
@@ -33,19 +34,24 @@ void erase(kv::WriteTransaction& transaction, std::uint64_t generation);
 void for_each_key(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where,
                   const std::function<void(ByteSpan key)>& see);
 
-/// The weights that were learned from all recordings together, and of which state of the database they are.
-struct StoredWeights {
-  std::uint64_t changes = 0;  ///< the caller's count of changes when they were learned
-  JoinWeights weights;
+/// What all recordings together taught, and in which state of the database.
+struct Learned {
+  std::uint64_t changes = 0;  ///< the caller's count of changes when it was learned
+  JoinWeights weights;        ///< of the selection
+  /// Fitted on what the hands had to do in annotated transitions; its count is of those that it looked at. `median` is
+  /// not used.
+  DurationFit durations;
+  std::uint64_t phased_signs = 0;    ///< that have annotated phases
+  std::uint64_t unphased_signs = 0;  ///< that have none
 };
-/// The key of their record.
-Bytes weights_key();
-/// Stores them instead of what was.
-void put_weights(kv::WriteTransaction& transaction, const StoredWeights& weights);
-/// As they were put; none where there are none, or another version learned. Throws Error{corrupt}.
-std::optional<StoredWeights> read_weights(const kv::ReadTransaction& snapshot);
-/// The number of the way of learning: count it up with any change that gives other weights.
-inline constexpr std::uint16_t kWeightsVersion = 1;
+/// The key of its record.
+Bytes learned_key();
+/// Stores it instead of what was.
+void put_learned(kv::WriteTransaction& transaction, const Learned& learned);
+/// As it was put; none where there is none, or another version learned. Throws Error{corrupt}.
+std::optional<Learned> read_learned(const kv::ReadTransaction& snapshot);
+/// The number of the method of learning: count it up with any change that gives other numbers.
+inline constexpr std::uint16_t kLearnedVersion = 2;
 
 /// What the record under a key is: "documents", "segments", "features", "segment tables" or "weights"; empty where it
 /// is none of this database's.

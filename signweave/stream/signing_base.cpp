@@ -67,7 +67,7 @@ void SigningBase::warm_up() {
   for (std::size_t i = 0; i < contents->recordings.size(); ++i) {
     if (contents->recordings[i].motion) snapshot.joins(i);
   }
-  snapshot.join_weights();
+  snapshot.learned();
   OpenRecordings open(database_);
   std::size_t looked_at = 0;
   for (const RecordingInfo& info : contents->recordings) {
@@ -92,7 +92,7 @@ std::shared_ptr<const DurationFit> SigningBase::durations(const std::shared_ptr<
   if (model.fixed) return std::make_shared<const DurationFit>(DurationFit{.mean = *model.fixed});
   return look_up<DurationFit>(
       contents, [&](Known & known) -> auto& { return known.durations[model.fitted]; },
-      [&] { return durations_of(database_, *contents, model); });
+      [&] { return durations_of(*contents, *database_.snapshot().learned(), model); });
 }
 
 void SigningBase::check(const std::shared_ptr<const Contents>& contents, const std::vector<Place>& places) {

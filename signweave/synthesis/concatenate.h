@@ -10,12 +10,12 @@
 #include "signweave/annotation/sign.h"
 #include "signweave/core/error.h"
 #include "signweave/core/time.h"
+#include "signweave/features/duration_fit.h"
 #include "signweave/features/hand_motion.h"
 #include "signweave/motion/motion.h"
 #include "signweave/motion/motion_source.h"
 #include "signweave/synthesis/junction_choice.h"
 #include "signweave/synthesis/transition.h"
-#include "signweave/transition/duration.h"
 #include "signweave/transition/joint_groups.h"
 
 namespace signweave {

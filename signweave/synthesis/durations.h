@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "signweave/core/time.h"
 #include "signweave/database/database.h"
-#include "signweave/transition/duration.h"
+#include "signweave/features/duration_fit.h"
+#include "signweave/semantic_db/semantic_db.h"
 
 namespace signweave {
 
@@ -25,16 +25,8 @@ inline constexpr Milliseconds kUnmeasuredTransition{500};
 /// short (206 ms on average in continuous DGS). (ours)
 inline constexpr Milliseconds kUnphasedTransition{200};
 
-/// A fit looks at no more of a corpus: evenly spread, so that it costs the same in a large one.
-inline constexpr std::size_t kMostFittedRecordings = 24;
-inline constexpr std::size_t kMostFittedTransitions = 400;
-
-/// The transitions of a corpus whose signs have annotated phases, with what the hands had to do in them. A recording
-/// whose features are damaged is left out.
-std::vector<TimedTransition> timed_transitions(const Database& database, const Contents& contents);
-
 /// What a model tells for a corpus. The mean is that of all its transitions (see TransitionStats); of inferred ones a
-/// model that may be fitted takes the median, for some of them are pauses.
-DurationFit durations_of(const Database& database, const Contents& contents, const DurationModel& model);
+/// model that may be fitted takes the median, for some of them are pauses. Costs the same in any corpus.
+DurationFit durations_of(const Contents& contents, const semantic_db::Learned& learned, const DurationModel& model);
 
 }  // namespace signweave

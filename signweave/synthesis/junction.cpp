@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "signweave/motion/blend.h"
+#include "signweave/transition/duration.h"
 
 namespace signweave {
 namespace {

@@ -179,7 +179,7 @@ struct Selector::State {
 
 Selector::Selector(const Snapshot& snapshot, const SelectOptions& options)
     : state_(new State{.snapshot = snapshot,
-                       .scale = {.weights = snapshot.join_weights(), .transition = options.transition},
+                       .scale = {.weights = snapshot.learned()->weights, .transition = options.transition},
                        .poses = PoseReader(snapshot),
                        .known = {},
                        .before = {},

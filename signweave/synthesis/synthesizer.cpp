@@ -105,8 +105,8 @@ const TransitionMethod* method_with_spans(const std::vector<Stretch>& stretches,
 }
 
 /// `edited` names the recording that an edit starts from; empty for an utterance.
-Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<Choice> choices,
-                std::string_view edited, const SynthesisOptions& options, Clock::time_point start, Synthesis used) {
+Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::string_view edited,
+                const SynthesisOptions& options, Clock::time_point start, Synthesis used) {
   const Contents& contents = snapshot.contents();
   check(options);
   check_numbers(options.junctions, choices.size());
@@ -114,7 +114,7 @@ Synthesized run(const Database& database, const Snapshot& snapshot, std::vector<
   made.contents = snapshot.shared_contents();
   made.choices = std::move(choices);
   const auto queried = Clock::now();
-  if (made.choices.size() > 1) made.durations = durations_of(database, contents, options.duration);
+  if (made.choices.size() > 1) made.durations = durations_of(contents, *snapshot.learned(), options.duration);
   made.selection = select(snapshot, made.choices, {.transition = made.durations.mean, .explain = options.explain});
   std::vector<Notice> notices;
   std::vector<Part> parts = merge_neighbours(contents, made.choices, made.selection, options.junctions, notices);
@@ -222,15 +222,14 @@ Synthesized synthesize(const Database& database, const Utterance& utterance, con
   for (const Place& place : utterance.places) {
     choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});
   }
-  return run(database, snapshot, std::move(choices), {}, options, start, std::move(used));
+  return run(snapshot, std::move(choices), {}, options, start, std::move(used));
 }
 
 Synthesized synthesize(const Database& database, std::string_view recording, const Edit& edit,
                        const SynthesisOptions& options, Synthesis used) {
   const auto start = Clock::now();
   const Snapshot snapshot = database.snapshot();
-  return run(database, snapshot, choices_for(snapshot.contents(), recording, edit), recording, options, start,
-             std::move(used));
+  return run(snapshot, choices_for(snapshot.contents(), recording, edit), recording, options, start, std::move(used));
 }
 
 }  // namespace signweave

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "signweave/features/duration_fit.h"
+#include "signweave/semantic_db/semantic_db.h"
+
+namespace signweave {
+
+class Snapshot;
+
+/// The transitions of a corpus whose signs have annotated phases, with what the hands had to do in them: at most 400,
+/// of 24 recordings, evenly from all. A recording whose features are damaged is left out.
+std::vector<TimedTransition> timed_transitions(const Snapshot& snapshot);
+
+/// What a corpus teaches as it is now: see learn_joins and timed_transitions. `changes` is left at 0.
+semantic_db::Learned learn_from(const Snapshot& snapshot);
+
+/// True where two say the same, give or take what another compiler rounds otherwise; `changes` is not compared.
+bool nearly_same(const semantic_db::Learned& a, const semantic_db::Learned& b) noexcept;
+
+}  // namespace signweave

@@ -184,6 +184,7 @@ void Database::put(const Recording& recording, const Progress& progress) {
     // Of the motion as it will be read: what is measured again then says the same.
     const SignerModel read_model = motion == &changed ? model_of(*motion, rig) : model;
     features = measure_phases(*motion, read_model, semantic_db::phase_spans(segments), recording.clock);
+    features->noise = capture_noise(*motion);
     if (recording.annotation || (before && before->document != 0)) trace = trace_hands(*motion, read_model);
     stored = write_motion(*motion, head.access_mode, tolerance, part_of(progress, rounds ? 0.5 : 0, 1));
   }

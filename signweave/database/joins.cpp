@@ -237,8 +237,12 @@ std::shared_ptr<const RecordingJoins> Snapshot::joins(std::size_t recording) con
     const auto at = database.joins_.find(recording);
     if (database.contents_ == contents_ && at != database.joins_.end()) return at->second;
   }
-  auto made = std::make_shared<const RecordingJoins>(
-      joins_of(contents_->segments, static_cast<std::uint32_t>(recording), features(recording)));
+  RecordingFeatures measured = features(recording);
+  auto made =
+      std::make_shared<RecordingJoins>(joins_of(contents_->segments, static_cast<std::uint32_t>(recording), measured));
+  if (!measured.noise.rotations.empty()) {
+    made->noise = std::make_shared<const CaptureNoise>(std::move(measured.noise));
+  }
   const std::lock_guard guard(database.mutex_);
   if (database.contents_ == contents_) database.joins_[recording] = made;
   return made;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "signweave/features/capture_noise.h"
 #include "signweave/features/join.h"
 #include "signweave/semantic_db/segments.h"
 
@@ -21,8 +23,9 @@ struct SignJoin {
 
 /// The same of every sign of a recording.
 struct RecordingJoins {
-  std::string why_not;          ///< empty, or why nothing is known
-  std::vector<SignJoin> signs;  ///< ascending by row
+  std::string why_not;                        ///< empty, or why nothing is known
+  std::vector<SignJoin> signs;                ///< ascending by row
+  std::shared_ptr<const CaptureNoise> noise;  ///< of its motion; null: not known
 
   /// Of one sign, or null where there is none of this row.
   const SignJoin* find(RowId row) const noexcept;

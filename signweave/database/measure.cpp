@@ -30,7 +30,10 @@ RecordingFeatures measure_stored(const kv::ReadTransaction& snapshot, const Reco
   if (!info.motion) return nothing(segments, "annotation without motion");
   try {
     const Motion motion = read_motion(snapshot, info);
-    return measure_phases(motion, model_of(motion, info.rig), semantic_db::phase_spans(segments), info.clock);
+    RecordingFeatures features =
+        measure_phases(motion, model_of(motion, info.rig), semantic_db::phase_spans(segments), info.clock);
+    features.noise = capture_noise(motion);
+    return features;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::corrupt) throw;
     return nothing(segments, error.what());

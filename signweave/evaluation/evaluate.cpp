@@ -22,7 +22,9 @@ SpansOf by_recording(std::span<const EvaluatedSpan> spans) {
 
 Gap gap_of(std::span<const EvaluatedMotion> recordings, const EvaluatedSpan& span, std::int64_t count) {
   const EvaluatedMotion& recording = recordings[span.recording];
-  return gap_at(recording.motion, recording.groups, span.frames, count);
+  Gap gap = gap_at(recording.shaken ? *recording.shaken : recording.motion, recording.groups, span.frames, count);
+  gap.noise_before = gap.noise_after = &recording.noise;
+  return gap;
 }
 
 /// What a method made of a span, beside what comparing tells.

@@ -49,6 +49,7 @@ EvaluatedMotion evaluated_motion(std::string name, Motion motion, const RigMap& 
     }
   }
   keep_hemisphere(one.motion);
+  one.noise = capture_noise(one.motion);
   one.signer = {rig, signer_body(one.motion, rig)};
   one.groups = joint_groups(one.motion.skeleton(), rig);
   HandTracker tracker(one.motion.skeleton(), one.signer);

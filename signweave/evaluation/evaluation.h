@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "signweave/core/error.h"
 #include "signweave/core/time.h"
 #include "signweave/evaluation/hand_tracks.h"
+#include "signweave/features/capture_noise.h"
 #include "signweave/features/hand_motion.h"
 #include "signweave/motion/motion.h"
 #include "signweave/transition/joint_groups.h"
@@ -21,6 +23,9 @@ namespace signweave {
 struct EvaluatedMotion {
   std::string name;
   Motion motion;  ///< neighbours in one hemisphere
+  /// What the frames beside spans are taken from where they are to shake, see shake; null: from `motion`.
+  std::shared_ptr<const Motion> shaken;
+  CaptureNoise noise;  ///< of what these frames are taken from
   SignerModel signer;
   JointGroups groups;
   std::vector<Sign> signs;  ///< none: not annotated

@@ -20,6 +20,7 @@
 //                              u8 height, across, reach, contact
 //         f32 path, displacement, mean speed, peak speed, peak time, mean acceleration, mean curvature
 //         f32 × 16 profile
+//     u32 joints, f32 noise of each, radians; u32 translated joints, f32 noise of each, metres (not in version 2)
 
 namespace signweave {
 namespace {
@@ -85,6 +86,10 @@ void encode(const RecordingFeatures& features, ByteWriter& out) {
           hand, [&](float value) { out.number(value); }, [&](auto value, auto) { out.number(value); });
     }
   }
+  for (const std::vector<float>* noise : {&features.noise.rotations, &features.noise.translations}) {
+    out.number(static_cast<std::uint32_t>(noise->size()));
+    for (const float one : *noise) out.number(one);
+  }
 }
 
 std::optional<RecordingFeatures> decode_features(ByteReader& in) {
@@ -92,7 +97,8 @@ std::optional<RecordingFeatures> decode_features(ByteReader& in) {
 }
 
 std::optional<RecordingFeatures> decode_features(ByteReader& in, const Pause& pause) {
-  if (in.number<std::uint16_t>() != kFeatureVersion) return std::nullopt;
+  const auto version = in.number<std::uint16_t>();
+  if (version != kFeatureVersion && version != kFeaturesWithoutNoise) return std::nullopt;
   RecordingFeatures features;
   features.why_not = in.text();
   const auto number = [&](float& value) {
@@ -120,6 +126,14 @@ std::optional<RecordingFeatures> decode_features(ByteReader& in, const Pause& pa
       HandOver& hand = phase.hands[side];
       hand.known = (bits & (side == 0 ? 2 : 4)) != 0;
       if (hand.known) each_of(hand, number, small);
+    }
+  }
+  for (std::vector<float>* noise : {&features.noise.rotations, &features.noise.translations}) {
+    if (version == kFeaturesWithoutNoise) break;
+    noise->resize(in.count(sizeof(float)));
+    for (float& one : *noise) {
+      number(one);
+      if (one < 0) in.fail("a noise below 0");
     }
   }
   in.finish();

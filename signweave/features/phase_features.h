@@ -10,6 +10,7 @@
 
 #include "signweave/core/bytes.h"
 #include "signweave/core/time.h"
+#include "signweave/features/capture_noise.h"
 #include "signweave/features/hand_motion.h"
 
 namespace signweave {
@@ -61,11 +62,14 @@ struct RecordingFeatures {
   std::string why_not;                ///< empty, or why nothing was measured: one line with its mend
   float shoulder_width = 0;           ///< metres; 0 where nothing was measured
   std::vector<PhaseFeatures> phases;  ///< one for each phase that was asked for
+  CaptureNoise noise;                 ///< of the motion; empty: not measured
 };
 
 /// The number of the way of measuring: features that were stored under another are measured anew. Count it up with any
 /// change that gives other numbers.
-inline constexpr std::uint16_t kFeatureVersion = 2;
+inline constexpr std::uint16_t kFeatureVersion = 3;
+/// The same numbers without the noise: read as they are.
+inline constexpr std::uint16_t kFeaturesWithoutNoise = 2;
 
 /// The rig of a motion and the body that it moves.
 SignerModel model_of(const Motion& motion, const RigNames& names = {});

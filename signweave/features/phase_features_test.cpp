@@ -101,6 +101,7 @@ RC_GTEST_PROP(FeatureRecord, ComesBackAsItWas, (const std::vector<std::vector<st
   RecordingFeatures features;
   features.why_not = speeds.empty() ? "nothing" : "";
   features.shoulder_width = 0.4f;
+  features.noise = {std::vector<float>(speeds.size(), 0.01f), std::vector<float>(speeds.size() / 2, 0.002f)};
   for (const std::vector<std::uint8_t>& phase : speeds) {
     std::vector<float> numbers(phase.begin(), phase.end());
     features.phases.emplace_back();
@@ -116,6 +117,7 @@ RC_GTEST_PROP(FeatureRecord, ComesBackAsItWas, (const std::vector<std::vector<st
   RC_ASSERT(read.why_not == features.why_not);
   RC_ASSERT(read.shoulder_width == features.shoulder_width);
   RC_ASSERT(read.phases.size() == features.phases.size());
+  RC_ASSERT(read.noise == features.noise);
   for (std::size_t i = 0; i < read.phases.size(); ++i) RC_ASSERT(nearly_same(read.phases[i], features.phases[i]));
   ByteWriter again;
   ByteWriter first;
@@ -134,6 +136,30 @@ TEST(FeatureRecord, EveryCutIsRefused) {
     ByteReader in(ByteSpan(out.bytes()).first(size), "test");
     EXPECT_THROW(decode_features(in), Error) << size;
   }
+}
+
+TEST(FeatureRecord, OfTheVersionBeforeIsReadWithoutNoise) {
+  RecordingFeatures features;
+  const HandMotion measured = moving({1, 2});
+  features.phases = {features_over(measured, measured.range, kFeatureRate, kBody)};
+  ByteWriter out;
+  encode(features, out);
+  Bytes before(out.bytes().begin(), out.bytes().end() - 8);  // without the two counts of noise
+  before[0] = std::byte{kFeaturesWithoutNoise};
+  ByteReader in(before, "test");
+  const RecordingFeatures read = decode_features(in).value();
+  ASSERT_EQ(read.phases.size(), 1u);
+  EXPECT_TRUE(nearly_same(read.phases[0], features.phases[0]));
+  EXPECT_TRUE(read.noise.rotations.empty());
+}
+
+TEST(FeatureRecord, NoiseBelowNothingIsRefused) {
+  RecordingFeatures features;
+  features.noise.rotations = {0.1f, -0.1f};
+  ByteWriter out;
+  encode(features, out);
+  ByteReader in(out.bytes(), "test");
+  EXPECT_THROW(decode_features(in), Error);
 }
 
 TEST(FeatureRecord, AnotherVersionIsNoneAndNumbersThatAreNoneAreRefused) {

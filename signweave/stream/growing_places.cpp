@@ -97,13 +97,16 @@ bool GrowingUtterance::goes_on(const Candidate& candidate, std::size_t place) {
 Stretch GrowingUtterance::stretch_of(const Decision& decision, Milliseconds pause) {
   const Candidate& candidate = decision.candidate;
   const RecordingInfo& info = decision.contents->recordings[candidate.recording];
+  const auto own = std::make_shared<RecordingSource>(open_, info);
+  const std::shared_ptr<const MotionSource> source = on_skeleton(info, own);
   return {.recording = info.name,
-          .source = on_skeleton(info, std::make_shared<RecordingSource>(open_, info)),
+          .source = source,
           .whole = candidate.whole,
           .core = candidate.core,
           .clock = info.clock,
           .signs = candidate.signs,
-          .pause_before = pause};
+          .pause_before = pause,
+          .noise = source == own ? open_.snapshot().joins(candidate.recording)->noise : nullptr};
 }
 
 /// A recording's motion on the stream's skeleton.

@@ -30,6 +30,8 @@ struct Stretch {
   std::vector<Sign> signs;  ///< in the recording's annotation time
   Milliseconds pause_before{0};
   JunctionChoice junction{};  ///< of the junction before it
+  /// Of its motion, in the joints of `source`; null: not known, or shown on another skeleton.
+  std::shared_ptr<const CaptureNoise> noise = nullptr;
 };
 
 /// Where an output frame comes from: of a recording where every part of the body is as captured.

@@ -214,7 +214,9 @@ Gap JunctionFiller::gap_at(const Laid& a, const Laid& b, FrameRange frames, Outp
           .rate = settings_.rate,
           .before = window.view({std::max(a.core, frames.begin - context()), frames.begin}),
           .after = window.view({frames.end, std::min(frames.end + context(), b.core_end())}),
-          .count = frames.size()};
+          .count = frames.size(),
+          .noise_before = a.stretch->noise.get(),
+          .noise_after = b.stretch->noise.get()};
 }
 
 void JunctionFiller::fill_gap(const Laid& a, const Laid& b, FrameRange frames, GroupSet groups,

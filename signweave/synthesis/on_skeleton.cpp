@@ -32,6 +32,7 @@ void put_on_skeleton(std::vector<Stretch>& stretches, std::size_t reference, con
       source = std::make_shared<RetargetedSource>(stretch.source, mapping);
     }
     stretch.source = source;
+    stretch.noise = nullptr;
   }
 }
 

@@ -140,7 +140,8 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
                          .clock = info.clock,
                          .signs = std::move(candidate.signs),
                          .pause_before = made.choices[part.place].pause_before,
-                         .junction = named == options.junctions.end() ? JunctionChoice{} : named->second});
+                         .junction = named == options.junctions.end() ? JunctionChoice{} : named->second,
+                         .noise = snapshot.joins(candidate.recording)->noise});
   }
 
   std::size_t reference = 0;

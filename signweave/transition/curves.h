@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <type_traits>
 
 #include "signweave/transition/method.h"
+#include "signweave/transition/quieten.h"
 
 /// How methods describe the ways that joints take: inside this module only.
 ///
@@ -108,11 +110,13 @@ void fill_curves(const GapJob& job, MutablePoses out, Family&& family, const Gap
   };
   GapScratch& scratch = job.scratch;
   see_all(job);
+  const bool quiet = quieten(job);
   const std::size_t terms = family.terms();
+  const std::size_t all_terms = terms + (quiet ? 2 : 0);  // the offsets of the borders, which fade out
   const std::size_t taken = scratch.taken.size();
   scratch.coefficients.resize(terms);
-  scratch.row.resize(terms);
-  scratch.ways.resize(terms * 3 * taken);
+  scratch.row.resize(all_terms);
+  scratch.ways.resize(all_terms * 3 * taken);
   scratch.reaches.resize(scratch.turned);
   for (std::size_t i = 0; i < taken; ++i) {
     const Sides sides = sides_of(job, i, time.seconds());
@@ -124,8 +128,18 @@ void fill_curves(const GapJob& job, MutablePoses out, Family&& family, const Gap
         way[static_cast<std::size_t>(axis) * taken] = scratch.coefficients[term][axis];
     }
   }
+  for (std::size_t side = 0; quiet && side < 2; ++side) {
+    std::ranges::copy(scratch.offsets[side],
+                      scratch.ways.begin() + static_cast<std::ptrdiff_t>((terms + side) * 3 * taken));
+  }
+  const double gap = job.gap.duration().count();
   for (std::int64_t frame = 0; frame < job.gap.count; ++frame) {
     family.row(time.at(frame), frame, scratch.row.data());
+    if (quiet) {
+      const double since = static_cast<double>(frame + 1) / job.gap.rate.hertz();
+      scratch.row[terms] = offset_left(since, gap);
+      scratch.row[terms + 1] = offset_left(gap - since, gap);
+    }
     make_frame(job, frame, out);
   }
 }

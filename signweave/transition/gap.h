@@ -5,6 +5,7 @@
 #include <span>
 
 #include "signweave/core/time.h"
+#include "signweave/features/capture_noise.h"
 #include "signweave/motion/motion.h"
 #include "signweave/transition/joint_groups.h"
 
@@ -37,6 +38,9 @@ struct Gap {
   PosesView after;         ///< at least one frame; the first is the border
   std::int64_t count = 0;  ///< frames to be made, at least one
   Seconds pause{0};        ///< of the gap, in which nothing moves: soon after the left border
+  /// Of the captures that the sides are from; null: not known, and the sides are taken as they are.
+  const CaptureNoise* noise_before = nullptr;
+  const CaptureNoise* noise_after = nullptr;
 
   PoseView left() const noexcept { return before.pose(before.frames - 1); }
   PoseView right() const noexcept { return after.pose(0); }

@@ -37,6 +37,7 @@ struct GapScratch {
   std::vector<std::size_t> taken;             ///< the joints and then the translations that are made
   std::size_t turned = 0;                     ///< how many of them are joints
   std::array<std::vector<float>, 2> seen;     ///< before, after: [frame from the border][x y z][taken]
+  std::array<std::vector<float>, 2> offsets;  ///< before, after: [x y z][taken] how far a border is off, see quieten
   std::vector<float> last;                    ///< [x y z w][taken joint], while they are seen
   std::vector<float> ways;                    ///< [term][x y z][taken]
   std::vector<float> middles;                 ///< [x y z w][taken joint]

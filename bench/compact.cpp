@@ -143,7 +143,7 @@ void measure_speed(const Named& named) {
   if (std::memcmp(both.rotations.data(), motion.pose(starts[0]).rotations.data(), 16 * joints) != 0) {
     throw std::runtime_error(named.name + ": what was unpacked differs");
   }
-  const int rounds = quick ? 1 : 101;
+  const int rounds = quick ? 11 : 101;
   const double per_joint = 1e9 / static_cast<double>(joints * starts.size());
   const auto all = [&](auto&& action) {
     return [&, action] {

@@ -65,10 +65,10 @@ inline double mean(const std::vector<double>& values) {
 /// The recordings 5 to 15 of several databases in turns with as many around the thousandth of one, the same files.
 inline void measure_growth(const std::vector<AnnotationDocument>& sources, const std::filesystem::path& folder,
                            bool quick) {
-  const std::size_t many = quick ? 100 : 1000;
+  const std::size_t many = quick ? 60 : 1000;
   constexpr std::size_t kFirst = 5;
   constexpr std::size_t kWindow = 11;  // to the fifteenth
-  const std::size_t batches = quick ? 2 : 10;
+  const std::size_t batches = quick ? 1 : 10;
   std::vector<std::filesystem::path> files;
   std::mt19937 random(11);
   for (std::size_t i = 0; i < 5; ++i) {  // from the shortest to the longest

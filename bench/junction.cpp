@@ -1,6 +1,6 @@
 // What a junction costs beyond the copying of frames: per joint and frame of the transition against a bare slerp of as
 // many joints; and whether that depends on how many junctions there are. (Copying does: what fits into the caches is
-// copied faster, so it is measured apart, into as much memory.)
+// copied faster, so it is measured apart, into as much memory.) `--quick`: the default and the paper's, fewer rounds.
 
 #include <random>
 
@@ -14,7 +14,6 @@ using namespace signweave;
 
 constexpr int kJoints = 56;
 constexpr std::int64_t kSign = 60;  // frames of preparation, stroke and retraction each
-constexpr int kRounds = 31;
 
 std::shared_ptr<const Skeleton> chain() {
   std::vector<Joint> joints;
@@ -119,12 +118,12 @@ class Utterance {
   Motion copies_;
 };
 
-void junction_against_slerp(const char* method) {
+void junction_against_slerp(const char* method, int rounds) {
   Utterance utterance(method, moving(40 * 3 * kSign), 201);
   BareSlerp slerp;
   const std::int64_t frames = utterance.transition_frames();
   std::vector<double> ours, bare, ratios;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     ours.push_back(utterance.seconds_per_junction(1) * static_cast<double>(utterance.junctions()));
     bare.push_back(bench::seconds_of([&] { slerp.frames(frames); }));
     ratios.push_back(ours.back() / bare.back());
@@ -135,12 +134,12 @@ void junction_against_slerp(const char* method) {
 }
 
 /// The same junctions in an utterance of 1,000 signs and in one of 10.
-void long_against_short(const char* method) {
+void long_against_short(const char* method, int rounds) {
   const auto source = moving(40 * 3 * kSign);
   Utterance many(method, source, 1000);
   Utterance few(method, source, 10);
   std::vector<double> ours, theirs, ratios;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     ours.push_back(many.seconds_per_junction(1));
     theirs.push_back(few.seconds_per_junction(100));
     ratios.push_back(ours.back() / theirs.back());
@@ -151,11 +150,13 @@ void long_against_short(const char* method) {
 
 }  // namespace
 
-int main() {
-  for (const TransitionMethod& method : transition_methods()) {
+int main(int argc, char** argv) {
+  const bool quick = argc > 1 && std::string_view(argv[1]) == "--quick";
+  const int rounds = quick ? 5 : 31;
+  for (const TransitionMethod& method : transition_methods().first(quick ? 3 : transition_methods().size())) {
     const std::string name(method.name);
-    junction_against_slerp(name.c_str());
-    long_against_short(name.c_str());
+    junction_against_slerp(name.c_str(), rounds);
+    long_against_short(name.c_str(), rounds);
   }
   return 0;
 }

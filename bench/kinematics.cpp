@@ -78,8 +78,8 @@ std::shared_ptr<const Skeleton> body() {
 
 int main(int argc, char** argv) {
   const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
-  const int rounds = quick ? 1 : 41;
-  const std::int64_t frames = quick ? 240 : 12'000;
+  const int rounds = quick ? 11 : 41;
+  const std::int64_t frames = quick ? 2'400 : 12'000;
   const Motion motion = moving(body(), frames, 1, {120, 1});
   const auto joints = static_cast<double>(motion.skeleton().joint_count());
   const double nanoseconds = 1e9 / (static_cast<double>(frames) * joints);

@@ -147,8 +147,8 @@ bool scan_rows(const char* name, const char* condition, std::normal_distribution
 
 int main(int argc, char** argv) {
   const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
-  const int rounds = quick ? 1 : 41;
-  const std::int64_t frames = quick ? 12'000 : 264'000;
+  const int rounds = quick ? 9 : 41;
+  constexpr std::int64_t frames = 264'000;
   std::mt19937 random(7);
   for (const FrameRate rate : {FrameRate{100, 1}, FrameRate{60, 1}}) {
     const HandTrace trace = wandering_hands(frames, rate, random);
@@ -191,7 +191,7 @@ int main(int argc, char** argv) {
     }
   }
 
-  const std::size_t rows = quick ? 10'000 : 1'000'000;
+  const std::size_t rows = quick ? 100'000 : 1'000'000;
   if (!scan_rows("movement/scan_of", "speed(right_hand) > 1.8 m/s", std::normal_distribution<float>(0.9f, 0.25f), 1.8,
                  rows, rounds, random))
     return 1;

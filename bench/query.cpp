@@ -2,7 +2,7 @@
 // replicated from the ELAN files of the shared data with generated sign and phase tiers beside them. Both sides are
 // asked the same, in turns, and their answers are compared row for row. Also: what opening costs, what the tables take,
 // and what the thousandth recording costs to import beside the tenth (`--growth`: that alone). `--quick`: a tenth of
-// everything.
+// everything, and none of the shared data.
 
 #include <sqlite3.h>
 
@@ -28,6 +28,7 @@ using Row = std::tuple<std::uint32_t, std::int64_t, std::int64_t>;  ///< recordi
 
 constexpr int kSignsOfRecording = 100;
 constexpr int kTokensOfGloss = 10;
+int questions = 2'000;  // of each kind
 
 void run_sql(sqlite3* db, const char* sql) {
   char* error = nullptr;
@@ -170,10 +171,9 @@ Times ask(const Corpus& corpus, const std::string& before, const std::string& af
   std::vector<FoundRow> found;
   std::vector<Row> rows;
   Times times;
-  constexpr int kQuestions = 2'000;
   constexpr int kRounds = 3;
-  constexpr int kCalls = 8;                  // reading the clock costs as much as a row
-  for (int i = -200; i < kQuestions; ++i) {  // the first are to warm up, and are compared too
+  constexpr int kCalls = 8;                 // reading the clock costs as much as a row
+  for (int i = -200; i < questions; ++i) {  // the first are to warm up, and are compared too
     const std::string gloss = fmt::format("G{}", random() % corpus.glosses);
     const std::string text = fmt::format("{}\"{}\"{}", before, gloss, after);
     PreparedQuery query(parse(text), segments);
@@ -255,14 +255,16 @@ void opening(const Corpus& corpus) {
 }
 
 void run(bool quick, bool growth_only) {
-  const std::vector<AnnotationDocument> sources = bench::documents();
+  const std::vector<AnnotationDocument> sources = quick ? std::vector(1, AnnotationDocument()) : bench::documents();
   const bench::Folder folder("query");
   bench::measure_growth(sources, folder.path(), quick);
   if (growth_only) return;
+  if (quick) questions = 400;
   const std::size_t thousand = quick ? 100 : 1000;
+  const std::string names[] = {quick ? "10k" : "100k", quick ? "100k" : "1M"};
   Times gloss[2], stroke[2], overlap[2];
   for (int i = 0; i < 2; ++i) {
-    const Corpus corpus = make(i == 0 ? "100k" : "1M", (i == 0 ? 100 : 1000) * thousand, sources, folder);
+    const Corpus corpus = make(names[i], (i == 0 ? 100 : 1000) * thousand, sources, folder);
     gloss[i] = ask(corpus, "gloss = ", "", kGlossSql);
     stroke[i] = ask(corpus, "phase = stroke & gloss = ", "", kStrokeSql);
     overlap[i] = ask(corpus, "gloss = ", " overlaps tier(\"BenchMouthing\") =~ /.*/", kOverlapSql);
@@ -273,9 +275,9 @@ void run(bool quick, bool growth_only) {
     opening(corpus);
     if (i == 1) bench::measure_stops(corpus.name, corpus.database->segments(), quick);
   }
-  const auto grows = [](const char* name, const Times(&times)[2], const char* goal) {
-    bench::print(fmt::format("1M_to_100k/{}/p50", name), 1e6 * times[1].p50(), "us", 1e6 * times[0].p50(),
-                 times[1].p50() / times[0].p50(), goal);
+  const auto grows = [&](const char* name, const Times(&times)[2], const char* goal) {
+    bench::print(fmt::format("{}_to_{}/{}/p50", names[1], names[0], name), 1e6 * times[1].p50(), "us",
+                 1e6 * times[0].p50(), times[1].p50() / times[0].p50(), goal);
   };
   grows("gloss", gloss, "<= 1.3");
   grows("stroke_of_gloss", stroke, "<= 2.5");

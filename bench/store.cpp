@@ -273,8 +273,8 @@ int main(int count, char** arguments) {
     for (int i = 1; i < count; ++i) {
       const std::string word = arguments[i];
       if (word == "--quick") {
-        options.minutes = 2;
-        options.rounds = 1;
+        options.minutes = 1;
+        options.rounds = 9;
         options.round_seconds = 0.001;
       } else if (word == "--engine" && i + 1 < count) {
         options.engines = {arguments[++i]};

@@ -7,6 +7,7 @@
 
 #include "app/calls/collection_report.h"
 #include "signweave/core/text.h"
+#include "signweave/evaluation/collection_table.h"
 #include "signweave/evaluation/folds.h"
 
 namespace signweave::calls {
@@ -135,6 +136,10 @@ Evaluated evaluate(EvaluationInput input, SpanChoice choice, const EvaluateCall&
 Evaluated run(const Database& database, const EvaluateCall& call, const Listener& listener) {
   EvaluationInput input = read_evaluation_input(database, listener);
   require_recordings(input, "the database");
+  if (!call.collections.empty()) {
+    TextReader table("collections", call.collections);
+    read_collections(table, input.recordings, input.left_out);
+  }
   SpanChoice choice = choose_spans(input.recordings);
   return evaluate(std::move(input), std::move(choice), call, listener);
 }
@@ -150,7 +155,7 @@ nlohmann::ordered_json json_of(const Evaluated& evaluated, const EvaluateCall& c
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const EvaluatedTask& task : evaluated.tasks) list.push_back(json_of(task, bootstrap));
   return {{"recordings", evaluated.input.recordings.size()},
-          {"recordings_left_out", evaluated.input.left_out},
+          {"recordings_left_out", evaluated.input.left_out.size()},
           {"left_out_by", evaluated.left_out_by},
           {"judged", judged_json(evaluated.tasks.front(), bootstrap)},
           {"spans_left_out", evaluated.choice.left_out},

@@ -16,6 +16,7 @@ namespace signweave::calls {
 struct EvaluateCall {
   std::vector<std::string> methods;  ///< none: all; slerp, which others are told over, is always there
   std::uint64_t seed = 1;
+  std::string collections;  ///< a table of them (read_collections), as text; on the command line the name of its file
 };
 
 /// Empty, or that there is no such method, with near matches.
@@ -36,6 +37,11 @@ void fields(Visit& visit, EvaluateCall& call) {
                     return text.starts_with('-') ? std::string("a seed is not negative") : std::string();
                   }},
         call.seed);
+  visit(Field{.name = "collections",
+              .help = "a table of which collection and signer recordings belong to: CSV with recording, collection, "
+                      "perhaps signer",
+              .type_name = "FILE.csv"},
+        call.collections);
 }
 
 /// What came of it.

@@ -72,7 +72,7 @@ Annotated annotation_of(const ImportJob& job, FrameRate rate) {
 
 /// Adds one recording; what is wrong with it alone is told, and the others go on.
 template <class Read>
-void add(Read read, EvaluationInput& input, const Listener& listener) {
+void add(const std::string& name, Read read, EvaluationInput& input, const Listener& listener) {
   try {
     EvaluatedMotion recording = read();
     // Of a recording that is there twice one would teach what the other is judged by.
@@ -83,13 +83,13 @@ void add(Read read, EvaluationInput& input, const Listener& listener) {
     });
     if (twin != input.recordings.end()) {
       listener.tell({"left out: " + recording.name, "the same motion as " + twin->name});
-      ++input.left_out;
+      input.left_out.push_back(name);
       return;
     }
     input.recordings.push_back(std::move(recording));
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
-    ++input.left_out;
+    input.left_out.push_back(name);
     const std::string line = std::string("left out: ").append(error.what());
     if (error.code() == ErrorCode::unsupported) {  // a short or handless motion is not at fault
       listener.tell({"", line});
@@ -137,6 +137,7 @@ void add_database(const Database& database, const std::string& name, EvaluationI
     listener.advance(static_cast<double>(i) / static_cast<double>(contents->recordings.size()));
     if (!info.motion) continue;
     add(
+        info.name,
         [&] {
           Motion motion = database.read(info.name);
           const RigMap rig = map_rig(motion, info.rig);
@@ -159,6 +160,7 @@ void add_files(const std::vector<fs::path>& paths, const MotionReading& reading,
     listener.advance(static_cast<double>(i) / static_cast<double>(pairing.jobs.size()));
     if (!job.motion) continue;
     add(
+        job.motion->string(),
         [&] {
           motion_file::File file = read_motion(*job.motion, reading, listener);
           if (file.motion.frame_count() == 0) {

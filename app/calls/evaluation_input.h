@@ -12,7 +12,7 @@ namespace signweave::calls {
 /// What is evaluated on, and what could not be.
 struct EvaluationInput {
   std::vector<EvaluatedMotion> recordings;  ///< by name
-  std::size_t left_out = 0;                 ///< each was told of
+  std::vector<std::string> left_out;        ///< names; each was told of
 };
 
 /// Recordings of databases, motion files, and folders of them with the annotation beside them. What cannot be

@@ -13,6 +13,7 @@
 #include "app/cli/progress.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
+#include "signweave/evaluation/collection_table.h"
 #include "signweave/formats/file_format.h"
 
 namespace signweave::cli {
@@ -65,6 +66,10 @@ void run_evaluate(const EvaluateArguments& options, Io& io) {
   calls::EvaluationInput input = calls::read_evaluation_input(options.paths, options.reading, listener);
   progress.reset();
   calls::require_recordings(input, fmt::format("{}", fmt::join(options.paths, ", ")));
+  if (!options.call.collections.empty()) {
+    TextReader table{std::filesystem::path(options.call.collections)};
+    read_collections(table, input.recordings, input.left_out);
+  }
   SpanChoice choice =
       options.spans.empty() ? choose_spans(input.recordings) : read_spans(options.spans, input.recordings);
   const calls::Evaluated made = calls::evaluate(std::move(input), std::move(choice), options.call, listener);
@@ -76,7 +81,7 @@ void run_evaluate(const EvaluateArguments& options, Io& io) {
     return;
   }
   io.out << fmt::format("{}, {} left out; {}, {} left out for defects of the capture\n",
-                        counted(made.input.recordings.size(), "recording"), made.input.left_out,
+                        counted(made.input.recordings.size(), "recording"), made.input.left_out.size(),
                         counted(made.choice.spans.size(), "span"), made.choice.left_out);
   io.out << fmt::format("nothing is learned from the {} that is judged\n", made.left_out_by);
   const std::vector<Measure> chosen = measures_of(options);

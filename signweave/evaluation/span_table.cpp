@@ -5,6 +5,7 @@
 
 #include "signweave/core/text.h"
 #include "signweave/core/text_reader.h"
+#include "signweave/evaluation/recording_rows.h"
 #include "signweave/evaluation/spans.h"
 
 namespace signweave {
@@ -12,28 +13,6 @@ namespace {
 
 /// Each is reported by itself.
 constexpr std::size_t kMostGroups = 100;
-
-/// The fields of a line of CSV; a field may be quoted, and double quotes stand for one inside.
-std::vector<std::string> fields_of(std::string_view line, const TextReader& reader) {
-  std::vector<std::string> fields = {""};
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      fields.back() += c;
-      ++i;
-    } else if (c == '"' && (quoted || trimmed(fields.back()).empty())) {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      fields.emplace_back();
-    } else {
-      fields.back() += c;
-    }
-  }
-  if (quoted) reader.fail("a quote is opened and never closed; close it");
-  for (std::string& field : fields) field = trimmed(field);
-  return fields;
-}
 
 std::int64_t number_of(const std::string& text, std::string_view what, const TextReader& reader) {
   std::int64_t number = 0;
@@ -44,30 +23,6 @@ std::int64_t number_of(const std::string& text, std::string_view what, const Tex
   return number;
 }
 
-std::string without_ending(const std::string& name) {
-  return std::filesystem::path(name).extension() == ".bvh" ? name.substr(0, name.size() - 4) : name;
-}
-
-/// The recording that a row names: by its whole name, or by the end of it from a '/' on, with or without a motion
-/// file's ending, for a recording of a database has none.
-std::size_t recording_of(const std::string& name, std::span<const EvaluatedMotion> recordings,
-                         const TextReader& reader) {
-  const std::string wanted = fmt::format("/{}", without_ending(name));
-  std::vector<std::size_t> found;
-  std::vector<std::string> known;
-  for (std::size_t i = 0; i < recordings.size(); ++i) {
-    const std::string& whole = recordings[i].name;
-    if (whole == name) return i;
-    if (fmt::format("/{}", without_ending(whole)).ends_with(wanted)) found.push_back(i);
-    known.push_back(std::filesystem::path(whole).filename().string());
-  }
-  if (found.size() == 1) return found[0];
-  if (found.empty()) {
-    reader.fail(fmt::format("no recording '{}' is evaluated on{}", printable(name), did_you_mean(name, known)));
-  }
-  reader.fail(fmt::format("'{}' is the name of {} recordings; give its folder too", printable(name), found.size()));
-}
-
 }  // namespace
 
 SpanChoice read_spans(const std::filesystem::path& path, std::span<const EvaluatedMotion> recordings) {
@@ -75,13 +30,13 @@ SpanChoice read_spans(const std::filesystem::path& path, std::span<const Evaluat
   SpanChoice choice;
   bool heading = true;
   while (!reader.peek().empty()) {
-    const std::vector<std::string> fields = fields_of(reader.rest_of_line(), reader);
+    const std::vector<std::string> fields = csv_fields(reader);
     if (fields.size() == 1 && fields[0].empty()) continue;
     if (std::exchange(heading, false) && fold_case(fields[0]) == "file") continue;
     if (fields.size() < 3 || fields.size() > 4) {
       reader.fail(fmt::format("{} columns; a row has file, first frame, frames, and may have a group", fields.size()));
     }
-    const std::size_t index = recording_of(fields[0], recordings, reader);
+    const std::size_t index = recording_named(fields[0], recordings, reader);
     const EvaluatedMotion& recording = recordings[index];
     const std::int64_t first = number_of(fields[1], "first frame", reader);
     const std::int64_t frames = number_of(fields[2], "number of frames", reader);

@@ -33,6 +33,15 @@ export interface MeasuredSpan {
   readonly frames: number
   readonly group: string
 }
+/** How near a method comes to the captures beside another: the wrist's error over the other's, where 1 is as near. */
+export interface Judgement {
+  readonly method: string
+  readonly over: string
+  readonly all: Estimate
+  readonly collections: readonly (Estimate & { readonly collection: string })[]
+  /** Worse in no collection by more than its interval, and better over all. */
+  readonly may_be_default: boolean
+}
 /** What `signweave evaluate --json` prints, and what the job answers, which has the last three as well. */
 export interface Evaluation {
   readonly recordings: number
@@ -40,6 +49,8 @@ export interface Evaluation {
   readonly spans_left_out: number
   readonly seed: number
   readonly confidence: number
+  /** Not in files of older versions. */
+  readonly judged?: readonly Judgement[]
   readonly tasks: readonly Task[]
   readonly spans: readonly MeasuredSpan[]
   readonly plot?: string
@@ -78,6 +89,7 @@ function isEvaluation(read: unknown): boolean {
     areUnique(read.tasks.map(({ task }) => task)) &&
     read.tasks.some(({ groups }) => (groups as readonly unknown[]).length > 0) &&
     list(read.spans, (span) => isObject(span) && isText(span.file) && isText(span.group)) &&
+    (missing(read.judged) || (list(read.judged, isJudgement) && areUnique(read.judged.map(({ method }) => method)))) &&
     (missing(read.plot) || isText(read.plot)) &&
     (missing(read.declarations) || every(read.declarations, isText)) &&
     (missing(read.notices) || list(read.notices, (notice) => isObject(notice) && isText(notice.where) && isText(notice.text)))
@@ -90,6 +102,13 @@ const isGroup = (group: unknown) =>
   isNumber(group.spans) &&
   isNumber(group.recordings) &&
   every(group.hands, (scores) => every(scores, (figures) => every(figures, isEstimate)))
+const isJudgement = (one: unknown) =>
+  isObject(one) &&
+  isText(one.method) &&
+  isText(one.over) &&
+  isEstimate(one.all) &&
+  list(one.collections, isEstimate) &&
+  areUnique(one.collections.map(({ collection }) => collection))
 function isEstimate(figure: unknown): boolean {
   return (
     isObject(figure) &&

@@ -45,6 +45,15 @@ const en = {
   byGroup: 'One measure, all gaps',
   byMeasure: 'All measures, one kind of gap',
   method: 'Method',
+  judged: 'Wrist error over that of {method}, by collection',
+  judgedLine:
+    'Duration given, moving hand, all gaps together. Above 1 a method is farther from the captures than {method}. One may be the default where it is worse ' +
+    'in no collection by more than its interval leaves open, and better over all.',
+  allCollections: 'All',
+  mayBeDefault: 'May be the default',
+  verdict_yes: 'yes',
+  verdict_worse: 'no: worse',
+  verdict_notBetter: 'no: not better',
   best: 'best',
   bestNote: '★ the best of a column; bounds do not count. Intervals hold {percent} %: where they overlap, these recordings do not tell the methods apart.',
   noInterval: 'No interval: of one recording alone there is none.',
@@ -130,6 +139,15 @@ const fr: Words = {
   byGroup: 'Une mesure, tous les intervalles',
   byMeasure: 'Toutes les mesures, une sorte d’intervalle',
   method: 'Méthode',
+  judged: 'Erreur du poignet rapportée à celle de {method}, par collection',
+  judgedLine:
+    'Durée donnée, main qui bouge, tous les intervalles ensemble. Au-dessus de 1 une méthode est plus loin des captures que {method}. ' +
+    'Elle peut être la méthode par défaut si elle n’est pire dans aucune collection, compte tenu de l’intervalle de confiance, et meilleure sur l’ensemble.',
+  allCollections: 'Ensemble',
+  mayBeDefault: 'Peut être par défaut',
+  verdict_yes: 'oui',
+  verdict_worse: 'non : pire',
+  verdict_notBetter: 'non : pas meilleure',
   best: 'meilleure',
   bestNote:
     '★ la meilleure d’une colonne, bornes exclues. Les intervalles de confiance sont à {percent} % : là où ils se recouvrent, ' +

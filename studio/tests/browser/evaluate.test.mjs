@@ -166,7 +166,7 @@ test('follows its job through a break of the network, is cancelled there, and ou
 })
 
 test('opens what the command line wrote, and says what is none', async () => {
-  const made = execFileSync(join(kBin, 'signweave'), ['evaluate', join(folder, 'corpus/meteo.bvh'), '--method', 'gap', '--json'], {
+  const made = execFileSync(join(kBin, 'signweave'), ['evaluate', join(folder, 'corpus/meteo.bvh'), '--method', 'gap', '--method', 'kriging', '--json'], {
     stdio: ['ignore', 'pipe', 'ignore'],
     maxBuffer: 1e9,
   })
@@ -190,10 +190,41 @@ test('opens what the command line wrote, and says what is none', async () => {
   await choose(file)
   await result()
   await until(async () => assert.match(await page.locator('#result-title').textContent(), /command_line\.json/))
-  await until(async () => assert.deepEqual(await methods('by-group'), ['gap', 'slerp', 'ceiling']))
+  await until(async () => assert.deepEqual(await methods('by-group'), ['kriging', 'gap', 'slerp', 'ceiling']))
   await until(async () => assert.equal(await page.getByText('of one recording alone there is none').count(), 1))
   await until(async () => assert.equal(await page.getByRole('alert').count(), 0))
   await until(async () => assert.equal(await page.locator('details img').count(), 0))
+})
+
+test('shows by collection who may be the default', async () => {
+  const table = join(folder, 'who.csv')
+  writeFileSync(table, 'meteo,weather\nvilles,towns\n')
+  writeFileSync(join(folder, 'some.csv'), 'meteo,600,20\nmeteo,700,30\nmeteo,900,30\nvilles,800,20\nvilles,900,20\nvilles,1000,20\n')
+  const words = [join(folder, 'corpus/meteo.bvh'), join(folder, 'corpus/villes.bvh'), '--collections', table, '--spans', join(folder, 'some.csv')]
+  const made = execFileSync(join(kBin, 'signweave'), ['evaluate', ...words, '--method', 'kriging', '--method', 'hermite', '--json'], {
+    stdio: ['ignore', 'pipe', 'ignore'],
+    maxBuffer: 1e9,
+  })
+  const file = join(folder, 'judged.json')
+  writeFileSync(file, made)
+  const { all, collections, may_be_default: may } = JSON.parse(made).judged[0]
+  await visit('#/demo/evaluate')
+  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), button('Open an evaluation').press('Enter')])
+  await chooser.setFiles(file)
+  await result()
+  await page.getByRole('heading', { name: 'Wrist error over that of kriging, by collection' }).waitFor()
+  const cells = async (of) => (await page.locator(`[aria-labelledby=judged] ${of}`).allInnerTexts()).map((text) => text.replace(/\s+/g, ' ').trim())
+  assert.deepEqual(await cells('thead th'), ['Method', 'towns', 'weather', 'All', 'May be the default'])
+  const figure = ({ value, low, high }) => `${value.toFixed(3)} ${low.toFixed(2)}–${high.toFixed(2)}`
+  assert.equal(may, false)
+  assert.deepEqual(await cells('tbody th'), ['hermite'])
+  assert.deepEqual(await cells('tbody td'), [...collections.map(figure), figure(all), 'no: worse'])
+  const csv = rows((await saved(() => page.locator('.above', { hasText: 'over that of kriging' }).getByRole('button').click())).text)
+  assert.deepEqual(csv[0].slice(0, 3), ['method', 'over', 'towns'])
+  assert.equal(Number(csv[1][2]), collections[0].value)
+  // It is of the duration given alone.
+  await button('Duration predicted').click()
+  await until(async () => assert.equal(await page.locator('#judged').count(), 0))
 })
 
 for (const [theme, language] of [

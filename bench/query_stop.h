@@ -74,7 +74,7 @@ inline void measure_stops(std::string_view corpus, const std::shared_ptr<const S
       {"groups", "(gloss =~ /.*/ ->[0s..] gloss =~ /.*/) overlaps (phase = stroke ->[0s..] phase = stroke)"},
       {"linked", "!overlaps(tier(\"BenchMouthing\") =~ /.*/) & child(phase = stroke) | duration > 1ms"},
   };
-  const int tries = quick ? 4 : 40;
+  const int tries = quick ? 2 : 40;
   for (const auto& query : kQueries) {
     FindLimits some;
     some.limit = 20;

@@ -274,7 +274,7 @@ int main(int count, char** arguments) {
       const std::string word = arguments[i];
       if (word == "--quick") {
         options.minutes = 1;
-        options.rounds = 9;
+        options.rounds = 7;
         options.round_seconds = 0.001;
       } else if (word == "--engine" && i + 1 < count) {
         options.engines = {arguments[++i]};

@@ -352,7 +352,7 @@ int main(int argc, char** argv) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == "--quick") {
       minutes = 2;
-      size = {40, 20, 100, 7, {50}, 0.5, 1, 0.5, 2, 2, 0.2, 10, 1};
+      size = {30, 20, 100, 7, {50}, 0.5, 1, 0.5, 1.5, 2, 0.2, 10, 0.5};
     } else if (words[i] == "--database" && i + 1 < words.size()) {
       database = words[++i];
     } else if (words[i] == "--only" && i + 1 < words.size()) {

@@ -28,6 +28,7 @@ struct ServeArguments {
   std::string token_file;
   std::string characters;
   std::string media;
+  bool no_io_uring = false;
   server::ServerOptions server;
 };
 
@@ -101,6 +102,7 @@ void run_serve(const ServeArguments& given, Io& io) {
   options.address = listen.address;
   options.port = listen.port;
   options.token = read_token(given.token_file);
+  options.io_uring = !given.no_io_uring;
   if (!server::is_loopback(options.address)) {
     if (options.limits.connections_per_address == 0) options.limits.connections_per_address = 256;
     if (options.limits.requests_per_second <= 0) options.limits.requests_per_second = 100;
@@ -182,6 +184,9 @@ Run serve(CLI::App& verb) {
   verb.add_option("--requests-per-second", server.limits.requests_per_second,
                   "of one address, in the mean (0: no limit on loopback, 100 elsewhere)")
       ->check(within(0.0, 1e6));
+  verb.add_flag(
+      "--no-io-uring", options->no_io_uring,
+      "send the frames of each stream by a call of its own, as where the kernel does not let io_uring be used");
   return [options](Io& io) { run_serve(*options, io); };
 }
 

@@ -47,11 +47,13 @@ Connection::~Connection() {
   --thread_.context.connections;
 }
 
-IoThread::IoThread(Context& server) : context(server), pacer(io), look_timer_(io) {}
+IoThread::IoThread(Context& server) : context(server), sends(metrics.by_one_call), pacer(io, sends), look_timer_(io) {}
 
 void IoThread::run() {
+  sends.use(context.options.io_uring ? SendBatch::Way::one_call : SendBatch::Way::call_each);
   look();
   io.run();
+  sends.use(SendBatch::Way::call_each);
 }
 
 void IoThread::stop() {

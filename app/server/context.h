@@ -75,6 +75,7 @@ class IoThread {
   Context& context;
   Metrics metrics;
   std::set<Connection*> connections;
+  SendBatch sends;
   boost::asio::io_context io{1};  // after these, for what waits in it holds connections
   Pacer pacer;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/server/stream_text.h"
+#include "signweave/core/prefetch.h"
 #include "signweave/synthesis/missing_glosses.h"
 
 namespace signweave::server {
@@ -31,10 +32,10 @@ std::size_t batch_of(std::size_t wanted, std::size_t frame_bytes, std::size_t me
 FrameSender::FrameSender(IoThread& thread, ServedDatabase& database, StreamSocket& out, const StreamOptions& options)
     : thread_(thread),
       out_(out),
-      database_(database.name()),
-      pace_(options.pace),
-      batch_(options.batch),
       player_(database.signing(), options.player),
+      batch_(options.batch),
+      pace_(options.pace),
+      database_(database.name()),
       served_(database) {
   if (!options.character.empty()) character_ = thread.context.databases.characters.at(options.character);
 }
@@ -144,6 +145,17 @@ void FrameSender::passed(std::size_t frames) noexcept {
   }
 }
 
+void FrameSender::prefetch(Step step) const noexcept {
+  if (step == Step::near) {
+    player_.prefetch_state();
+    out_.prefetch();
+    signweave::prefetch(message_.data(), std::min<std::size_t>(message_.size(), 1'024));
+    signweave::prefetch(&event_, sizeof event_);
+  } else {
+    player_.prefetch_frame();
+  }
+}
+
 Clock::time_point FrameSender::tick(Clock::time_point now) noexcept {
   const Clock::time_point next = send_due(now);
   if (next == kNever ? starved_ : ready_ < ahead_ / 4) thread_.pacer.want_work(*this);
@@ -157,6 +169,7 @@ Clock::time_point FrameSender::send_due(Clock::time_point now) noexcept {
   while (at <= now) {
     const auto next =
         at + std::chrono::duration_cast<Clock::duration>(static_cast<double>(batch_) * rate_.frame_time());
+    out_.settle();  // where two messages of this stream are due
     const bool keep = out_.idle() && (now - at <= kStale || next > now);
     const std::uint64_t first = player_.frame();
     const std::size_t frames = take(batch_, keep);
@@ -218,7 +231,7 @@ bool FrameSender::send_fast() {
 
 std::size_t FrameSender::take(std::size_t most, bool keep, std::size_t after) noexcept {
   std::byte* to = message_.data() + kRoomForHeader + kMessageHeaderBytes + after * frame_bytes_;
-  const MutableFrameView frame{pose_.view(), tracks_};
+  const MutableFrameView room{pose_.view(), tracks_};
   for (std::size_t taken = 0; taken < most; ++taken) {
     if (!event_) event_ = player_.take_event();
     if (event_) {
@@ -227,15 +240,19 @@ std::size_t FrameSender::take(std::size_t most, bool keep, std::size_t after) no
       tell_events();
     }
     // Nothing is sent as fast as it goes while the signer only breathes.
-    if ((pace_ == Pace::fast && player_.idle()) || !player_.next(frame)) {
+    std::optional<FrameView> frame;
+    if (pace_ == Pace::live || !player_.idle()) frame = player_.next_in(room);
+    if (!frame) {
       ready_ = 0;
       return taken;
     }
     if (ready_ > 0) --ready_;
     if (!keep) continue;
-    if (retargeter_) retargeter_->pose(frame.pose, shown_.view());
-    const FrameView sent{retargeter_ ? shown_.view() : pose_.view(), tracks_};
-    encode(sent, {to + taken * frame_bytes_, frame_bytes_});
+    if (retargeter_) {
+      retargeter_->pose(frame->pose, shown_.view());
+      frame->pose = shown_.view();
+    }
+    encode(*frame, {to + taken * frame_bytes_, frame_bytes_});
   }
   return most;
 }
@@ -291,7 +308,7 @@ void FrameSender::announce() {
     }
     RetargetOptions options = options_for(stance->frames, stance->signer, character_->character);
     options.face_joints = header->tracks.empty();
-    retargeter_.emplace(*header->skeleton, stance->signer, character_->character, options);
+    retargeter_ = std::make_unique<Retargeter>(*header->skeleton, stance->signer, character_->character, options);
     told.skeleton = character_->character.skeleton;
     shown_ = Pose(*told.skeleton);
   }

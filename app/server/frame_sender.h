@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +38,7 @@ class FrameSender final : public Paced {
 
   Clock::time_point tick(Clock::time_point now) noexcept override;
   bool work() override;
+  void prefetch(Step step) const noexcept override;
 
  private:
   Clock::time_point due() const noexcept;
@@ -51,39 +53,38 @@ class FrameSender final : public Paced {
   void send(std::size_t frames, std::uint64_t first) noexcept;
   bool send_fast();
 
+  // What each frame needs comes first, and lies together (Paced::kNearBytes).
   IoThread& thread_;
   StreamSocket& out_;
-  std::string database_;
-  Pace pace_;
-  std::size_t batch_;
   Player player_;
-
-  bool announced_ = false;  // the header was sent
-  bool stopped_ = false;
-  FrameShape shape_;
+  std::vector<std::byte> message_;  // room for a WebSocket header, the message's header, the frames
+  std::size_t batch_;
   std::size_t frame_bytes_ = 0;
-  ServedDatabase& served_;
-  calls::SharedCharacter character_;      // whose joints the frames have; null: the recording's
-  std::optional<Retargeter> retargeter_;  // onto it
-  Pose shown_;                            // the frame on the character
-  std::vector<std::byte> message_;        // room for a WebSocket header, the message's header, the frames
-  Pose pose_;                             // the frame that was taken
-  std::vector<float> tracks_;
-
   // Frame `since_` after `start_` is due at start_ + since_ / rate.
-  FrameRate rate_;
   Clock::time_point start_;
   std::int64_t since_ = 0;
-  bool flowing_ = false;   // the clock runs
-  bool starved_ = false;   // it stopped for want of frames
-  std::size_t ready_ = 0;  // frames that can be taken, as far as is known
-  bool was_idle_ = true;
-  bool first_ = true;       // nothing was sent since a control message
-  std::size_t ahead_ = 64;  // frames made at a time
-
+  FrameRate rate_;
+  std::size_t ready_ = 0;             // frames that can be taken, as far as is known
+  std::size_t ahead_ = 64;            // frames made at a time
   Clock::time_point asked_ = kNever;  // when glosses came whose first frame is yet to be sent
-  std::optional<PlayerEvent> event_;  // the next to be told
   std::uint32_t left_out_ = 0;
+  Pace pace_;
+  bool flowing_ = false;    // the clock runs
+  bool starved_ = false;    // it stopped for want of frames
+  bool first_ = true;       // nothing was sent since a control message
+  bool announced_ = false;  // the header was sent
+  bool stopped_ = false;
+  std::optional<PlayerEvent> event_;  // the next to be told
+
+  std::string database_;
+  bool was_idle_ = true;
+  FrameShape shape_;
+  ServedDatabase& served_;
+  calls::SharedCharacter character_;        // whose joints the frames have; null: the recording's
+  std::unique_ptr<Retargeter> retargeter_;  // onto it
+  Pose shown_;                              // the frame on the character
+  Pose pose_;                               // a frame that the player has to make
+  std::vector<float> tracks_;
   std::size_t events_left_out_ = 0;
 };
 

@@ -32,6 +32,8 @@ constexpr Total kTotals[] = {
     {"signweave_frames_left_out_total", "counter", "Frames left out for slow clients.", &Metrics::left_out},
     {"signweave_messages_total", "counter", "Messages of frames sent.", &Metrics::messages},
     {"signweave_message_bytes_total", "counter", "Bytes of these.", &Metrics::bytes},
+    {"signweave_messages_by_io_uring_total", "counter",
+     "Messages of streams sent with others by one call of the kernel.", &Metrics::by_one_call},
     {"signweave_ticks_total", "counter", "Paced messages that were due.", &Metrics::ticks},
     {"signweave_ticks_late_total", "counter", "Paced messages sent later than half a frame.", &Metrics::late},
     {"signweave_starved_total", "counter", "Times that a paced stream had no frame made in time.", &Metrics::starved},

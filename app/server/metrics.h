@@ -60,6 +60,7 @@ struct alignas(64) Metrics {
   Counter left_out;                              ///< frames
   Counter messages;                              ///< of frames, sent
   Counter bytes;                                 ///< of these
+  Counter by_one_call;                           ///< of the messages, sent with others by one call of the kernel
   Counter ticks;                                 ///< paced messages that were due
   Counter late;                                  ///< of these, by more than half a frame
   Counter starved;                               ///< times that a paced stream had no frame made in time

@@ -1,67 +1,85 @@
 #include "app/server/pacer.h"
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
-#include <utility>
+
+#include "signweave/core/prefetch.h"
 
 namespace signweave::server {
 namespace {
 
-constexpr std::chrono::milliseconds kGrid{1};
+using Ticks = std::chrono::duration<std::int64_t, std::ratio<2, 1'000>>;
+constexpr Ticks kTick{1};
 /// After so long the sockets are looked at, whatever work is left.
 constexpr std::chrono::milliseconds kTurn{2};
 
-Clock::time_point on_grid(Clock::time_point at) {
-  return Clock::time_point(std::chrono::ceil<std::chrono::milliseconds>(at.time_since_epoch()));
+std::int64_t tick_at(Clock::time_point at) {
+  return std::chrono::ceil<Ticks>(at.time_since_epoch()).count();
+}
+std::int64_t last_tick(Clock::time_point now) {
+  return std::chrono::floor<Ticks>(now.time_since_epoch()).count();
 }
 
 }  // namespace
 
-Pacer::Pacer(boost::asio::io_context& io) : io_(io), timer_(io) {
-  heap_.reserve(1'024);
+Pacer::Pacer(boost::asio::io_context& io, SendBatch& sends) : io_(io), timer_(io), sends_(sends) {}
+
+void Pacer::place(Paced& paced, Clock::time_point at) noexcept {
+  paced.waking_.unlink();
+  paced.at_ = at;
+  if (at == Paced::kNever) return;
+  // The slot before next_ may be the one that is being gone through: nobody is put there.
+  const std::int64_t tick = std::clamp(tick_at(at), next_, next_ + kSlots - 2);
+  slots_[static_cast<std::size_t>(tick % kSlots)].push_back(paced);
 }
 
 void Pacer::wake_at(Paced& paced, Clock::time_point at) {
-  if (at == Paced::kNever) {
-    if (paced.slot_ != Paced::kNowhere) {
-      const std::size_t slot = paced.slot_;
-      paced.slot_ = Paced::kNowhere;
-      const Slot last = heap_.back();
-      heap_.pop_back();
-      if (last.paced != &paced) {
-        place(slot, last);
-        up(slot);
-        down(last.paced->slot_);
-      }
-    }
-    return;
-  }
-  if (paced.slot_ == Paced::kNowhere) {
-    heap_.push_back({at, &paced});
-    paced.slot_ = heap_.size() - 1;
-    up(paced.slot_);
-  } else {
-    heap_[paced.slot_].at = at;
-    up(paced.slot_);
-    down(paced.slot_);
-  }
+  place(paced, at);
   if (!turning_) arm();
 }
 
 void Pacer::want_work(Paced& paced) {
-  if (!paced.is_linked()) working_.push_back(paced);
+  if (!paced.working_.is_linked()) working_.push_back(paced);
   if (!turning_) arm();
 }
 
 void Pacer::forget(Paced& paced) noexcept {
-  wake_at(paced, Paced::kNever);
-  paced.unlink();
+  place(paced, Paced::kNever);
+  paced.working_.unlink();
 }
 
-void Pacer::send_due() {
-  for (Clock::time_point now = Clock::now(); !heap_.empty() && heap_.front().at <= now;) {
-    Paced& paced = *heap_.front().paced;
-    const Clock::time_point next = paced.tick(now);
-    wake_at(paced, next > now ? next : now + kGrid);
+void Pacer::send_due() noexcept {
+  const Clock::time_point now = Clock::now();
+  const std::int64_t last = last_tick(now);
+  next_ = std::max(next_, last - kSlots + 1);  // the wheel once round is all there is
+  sends_.collect();
+  while (next_ <= last) {
+    auto& slot = slots_[static_cast<std::size_t>(next_ % kSlots)];
+    ++next_;  // nobody is put into this slot now
+    send_slot(slot, now);
+  }
+  sends_.finish();
+}
+
+/// What hundreds of streams have in memory is far away when their turn comes: it is brought near, a step at a time,
+/// while those before them are sent.
+void Pacer::send_slot(List<&Paced::waking_>& slot, Clock::time_point now) noexcept {
+  constexpr std::size_t kAhead = 3;
+  std::array<const Paced*, kAhead> coming{};  // the next, the one after it, and the third
+  auto further = slot.begin();
+  const auto look_further = [&] {
+    std::shift_left(coming.begin(), coming.end(), 1);
+    coming.back() = further == slot.end() ? nullptr : &*further++;
+    if (coming[2] != nullptr) signweave::prefetch(coming[2], Paced::kNearBytes);
+    if (coming[1] != nullptr) coming[1]->prefetch(Paced::Step::near);
+    if (coming[0] != nullptr) coming[0]->prefetch(Paced::Step::frame);
+  };
+  for (std::size_t i = 0; i < kAhead; ++i) look_further();
+  while (!slot.empty()) {
+    Paced& paced = slot.front();
+    look_further();
+    const Clock::time_point next = paced.at_ > now ? paced.at_ : paced.tick(now);
+    place(paced, next > now ? next : now + kTick);
   }
 }
 
@@ -72,9 +90,9 @@ void Pacer::turn() {
   while (!working_.empty()) {
     Paced& paced = working_.front();
     working_.pop_front();
-    if (paced.work() && !paced.is_linked()) working_.push_back(paced);
+    if (paced.work() && !paced.working_.is_linked()) working_.push_back(paced);
     const Clock::time_point now = Clock::now();
-    if (!heap_.empty() && heap_.front().at <= now) send_due();
+    if (last_tick(now) >= next_) send_due();
     if (now >= end) break;
   }
   turning_ = false;
@@ -87,8 +105,10 @@ void Pacer::arm() {
     boost::asio::post(io_, [this] { turn(); });
     return;
   }
-  if (heap_.empty()) return;
-  const Clock::time_point at = on_grid(heap_.front().at);
+  std::int64_t tick = next_;
+  while (tick < next_ + kSlots && slots_[static_cast<std::size_t>(tick % kSlots)].empty()) ++tick;
+  if (tick == next_ + kSlots) return;
+  const Clock::time_point at{tick * kTick};
   if (at >= armed_) return;
   armed_ = at;
   timer_.expires_at(at);
@@ -97,31 +117,6 @@ void Pacer::arm() {
     armed_ = Paced::kNever;
     if (!turning_) turn();
   });
-}
-
-void Pacer::place(std::size_t slot, Slot what) noexcept {
-  heap_[slot] = what;
-  what.paced->slot_ = slot;
-}
-
-void Pacer::up(std::size_t slot) noexcept {
-  const Slot what = heap_[slot];
-  while (slot > 0 && what.at < heap_[(slot - 1) / 2].at) {
-    place(slot, heap_[(slot - 1) / 2]);
-    slot = (slot - 1) / 2;
-  }
-  place(slot, what);
-}
-
-void Pacer::down(std::size_t slot) noexcept {
-  const Slot what = heap_[slot];
-  for (std::size_t child = 2 * slot + 1; child < heap_.size(); child = 2 * slot + 1) {
-    if (child + 1 < heap_.size() && heap_[child + 1].at < heap_[child].at) ++child;
-    if (what.at <= heap_[child].at) break;
-    place(slot, heap_[child]);
-    slot = child;
-  }
-  place(slot, what);
 }
 
 }  // namespace signweave::server

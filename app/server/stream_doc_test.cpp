@@ -75,6 +75,18 @@ std::string said(const Json& example) {
   return event_text(event);
 }
 
+TEST(StreamDocument, AnEventIsJsonWhateverItsTexts) {
+  for (const std::string text : {"MATIN", "", "a \"quoted\" \\ one", "line\nand tab\t", "MÉTÉO 手話", "\x01"}) {
+    const PlayerEvent event{.kind = PlayerEvent::Kind::place, .gloss = text, .recording = text, .text = text};
+    const auto json = nlohmann::json::parse(event_text(event));
+    EXPECT_EQ(json["gloss"], text);
+    EXPECT_EQ(json["recording"], text);
+    EXPECT_EQ(json.value("text", ""), text);
+  }
+  const PlayerEvent event{.text = "no UTF-8: \xff"};
+  EXPECT_EQ(nlohmann::json::parse(event_text(event))["text"], "no UTF-8: \uFFFD");
+}
+
 TEST(StreamDocument, EveryAnswerIsAsItIsSaid) {
   std::set<std::string> shown;
   for (const std::string& line : lines("server")) {

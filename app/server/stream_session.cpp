@@ -27,7 +27,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
         database_(database),
         counted_(counted),
         address_(address),
-        socket_(std::move(socket), thread.context.options.limits.unread_bytes),
+        socket_(std::move(socket), thread.context.options.limits.unread_bytes, thread.sends),
         buffer_(2 * thread.context.options.limits.control_bytes),
         tokens_(thread.context.options.limits.control_rate),
         late_(thread.io) {

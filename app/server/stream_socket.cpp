@@ -1,7 +1,6 @@
 #include "app/server/stream_socket.h"
 
-#include <sys/socket.h>
-
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -21,26 +20,45 @@ std::size_t write_frame_header(std::byte* end, unsigned opcode, std::size_t payl
   return 2 + more;
 }
 
-std::size_t StreamSocket::send_some(std::span<const std::byte> bytes) noexcept {
-  std::size_t sent = 0;
-  while (sent < bytes.size() && !failed_) {
-    const ssize_t n =
-        ::send(socket_.native_handle(), bytes.data() + sent, bytes.size() - sent, MSG_DONTWAIT | MSG_NOSIGNAL);
-    if (n >= 0) {
-      sent += static_cast<std::size_t>(n);
-    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      break;
-    } else if (errno != EINTR) {
-      close();
-    }
-  }
-  return sent;
+SendBatch::Parts StreamSocket::to_send() const noexcept {
+  const std::size_t first = rest_.empty() ? unread() : before_rest_;
+  return {std::span(queue_).subspan(queue_begin_, first), rest_};
+}
+
+/// So many bytes of to_send() have gone out.
+void StreamSocket::took(std::size_t bytes) noexcept {
+  const std::size_t of_queue = std::min(bytes, to_send()[0].size());
+  queue_begin_ += of_queue;
+  before_rest_ -= std::min(before_rest_, of_queue);
+  rest_ = rest_.subspan(bytes - of_queue);
+  if (queue_begin_ < queue_.size()) return;
+  queue_begin_ = 0;
+  queue_.clear();
+  if (queue_.capacity() > 16 * 1024) queue_ = {};  // a header is long, what follows is not
+}
+
+void StreamSocket::send_soon() noexcept {
+  if (waiting_ || in_batch_) return;  // it goes after what there is
+  if (!sends_.collecting()) return flush();
+  in_batch_ = true;
+  sends_.add(*this, socket_.native_handle());
 }
 
 void StreamSocket::send_frame(std::span<const std::byte> frame) noexcept {
   if (failed_) return;
-  rest_ = frame.subspan(send_some(frame));
-  if (!rest_.empty() && !failed_) wait();
+  rest_ = frame;
+  before_rest_ = unread();
+  send_soon();
+}
+
+void StreamSocket::sent(long result) noexcept {
+  in_batch_ = false;
+  if (result >= 0) {
+    took(static_cast<std::size_t>(result));
+  } else if (result != -EAGAIN && result != -EINTR) {
+    return close();
+  }
+  flush();
 }
 
 void StreamSocket::send_text(std::string_view text) {
@@ -55,7 +73,7 @@ void StreamSocket::send_text(std::string_view text) {
 }
 
 void StreamSocket::queued() {
-  if (!waiting_) flush();
+  send_soon();
   if (queue_begin_ > 64 * 1024) {  // or a client that always leaves a little would let it grow
     queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(queue_begin_));
     queue_begin_ = 0;
@@ -64,16 +82,17 @@ void StreamSocket::queued() {
 }
 
 void StreamSocket::flush() noexcept {
-  rest_ = rest_.subspan(send_some(rest_));
-  if (rest_.empty()) {
-    queue_begin_ += send_some(std::span<const std::byte>(queue_).subspan(queue_begin_));
-    if (queue_begin_ == queue_.size()) {
-      queue_begin_ = 0;
-      queue_.clear();
-      if (queue_.capacity() > 16 * 1024) queue_ = {};  // a header is long, what follows is not
+  while (!failed_ && !(rest_.empty() && queue_.empty())) {
+    const SendBatch::Parts parts = to_send();
+    const long n = send_now(socket_.native_handle(), parts[0].empty() ? parts[1] : parts[0]);
+    if (n >= 0) {
+      took(static_cast<std::size_t>(n));
+    } else if (n == -EAGAIN) {
+      return wait();
+    } else if (n != -EINTR) {
+      close();
     }
   }
-  if (!failed_ && !(rest_.empty() && queue_.empty())) wait();
 }
 
 void StreamSocket::wait() {
@@ -89,10 +108,12 @@ void StreamSocket::wait() {
 }
 
 void StreamSocket::close() noexcept {
+  settle();
   failed_ = true;
   rest_ = {};
   queue_.clear();
   queue_begin_ = 0;
+  before_rest_ = 0;
   boost::system::error_code error;
   socket_.close(error);
 }

@@ -16,17 +16,24 @@
 #include <utility>
 #include <vector>
 
+#include "app/server/send_batch.h"
+#include "signweave/core/prefetch.h"
+
 namespace signweave::server {
 
 /// The socket under a WebSocket, and the one queue of what goes out on it. Beast reads from it, and writes its own
 /// frames (handshake, pong, close) to it, each by one call; messages of frames and of text come in beside, as whole
-/// WebSocket frames. So nothing can come between the parts of a frame, and a message of frames costs one `send`.
-class StreamSocket {
+/// WebSocket frames. So nothing can come between the parts of a frame, and a message of frames costs one `send`, or
+/// goes out with those of other streams (SendBatch).
+class StreamSocket final : private SendBatch::Sender {
  public:
   using executor_type = boost::asio::ip::tcp::socket::executor_type;
 
-  StreamSocket(boost::asio::ip::tcp::socket socket, std::size_t most_unread)
-      : socket_(std::move(socket)), most_unread_(most_unread) {}
+  /// `sends` must outlive it.
+  StreamSocket(boost::asio::ip::tcp::socket socket, std::size_t most_unread, SendBatch& sends)
+      : socket_(std::move(socket)), most_unread_(most_unread), sends_(sends) {}
+  StreamSocket(const StreamSocket&) = delete;
+  ~StreamSocket() { settle(); }
 
   executor_type get_executor() { return socket_.get_executor(); }
   boost::asio::ip::tcp::socket& socket() noexcept { return socket_; }
@@ -43,9 +50,16 @@ class StreamSocket {
   /// True where the connection broke, or the client leaves more unread than it may.
   bool failed() const noexcept { return failed_; }
 
-  /// Sends a whole WebSocket frame; only when idle. What the kernel does not take at once goes out later, from these
-  /// same bytes: they must stay as they are until the socket is idle.
+  /// Sends a whole WebSocket frame, after the text that there is; only while no other is under way. While the batch
+  /// collects, it goes out with that. What the kernel does not take at once goes out later, from these same bytes: they
+  /// must stay as they are until the socket is idle.
   void send_frame(std::span<const std::byte> frame) noexcept;
+  /// Sends now what is still in the batch, so that idle() tells what the client took.
+  void settle() noexcept {
+    if (in_batch_) sends_.flush();
+  }
+  /// Brings near what send_frame() reads.
+  void prefetch() const noexcept { signweave::prefetch(this, sizeof *this); }
   /// Queues a text message.
   void send_text(std::string_view text);
 
@@ -78,17 +92,22 @@ class StreamSocket {
 
  private:
   static constexpr std::byte kCloseFrame{0x88};
+  SendBatch::Parts to_send() const noexcept override;
+  void sent(long result) noexcept override;
+  void took(std::size_t bytes) noexcept;
+  void send_soon() noexcept;
   void queued();
   void flush() noexcept;
   void wait();
-  /// How much of these bytes went out.
-  std::size_t send_some(std::span<const std::byte> bytes) noexcept;
 
   boost::asio::ip::tcp::socket socket_;
   std::size_t most_unread_;
+  SendBatch& sends_;
   std::span<const std::byte> rest_;  // of the message of frames that is under way
-  std::vector<std::byte> queue_;     // goes after it
+  std::vector<std::byte> queue_;
   std::size_t queue_begin_ = 0;
+  std::size_t before_rest_ = 0;  // bytes of the queue that go before it; the others go after it
+  bool in_batch_ = false;
   bool waiting_ = false;
   bool failed_ = false;
   bool closing_ = false;  // Beast has written a close frame

@@ -128,8 +128,48 @@ TEST(Stream, PausesAndGoesOn) {
   EXPECT_EQ(client.next_frames()->first_frame, ok["frame"]) << "no frame is lost by a pause";
 }
 
-TEST(Stream, ASlowClientLosesFramesAndNobodyElseDoes) {
-  ServerOptions options{.threads = 1};
+class StreamWays : public ::testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Stream, StreamWays, ::testing::Bool(),
+                         [](const auto& info) { return info.param ? "IoUring" : "CallEach"; });
+
+TEST_P(StreamWays, StreamsThatAreDueTogetherEachGetTheirOwn) {
+  const TestServer server({.threads = 1, .io_uring = GetParam()});
+  std::vector<StreamClient> clients;
+  for (int i = 0; i < 12; ++i) {
+    clients.emplace_back(server.port());
+    clients.back().say(R"({"type":"open","rate":)" + std::to_string(150 + 250 * (i % 3)) + R"(,"loop":true})");
+    clients.back().say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
+  }
+  std::vector<std::size_t> places(clients.size());
+  std::vector<std::uint64_t> next(clients.size());
+  for (int round = 0; round < 200; ++round) {
+    for (std::size_t i = 0; i < clients.size(); ++i) {
+      StreamMessage message = clients[i].next();
+      for (; message.opcode == 1; message = clients[i].next()) {
+        const nlohmann::json json = message.json();
+        if (json["type"] != "place") continue;
+        ++places[i];
+        EXPECT_EQ(json["frame"], next[i]) << "an event comes right before its frame";
+      }
+      ASSERT_EQ(message.opcode, 2u);
+      const auto* bytes = reinterpret_cast<const std::byte*>(message.bytes.data());
+      std::uint64_t first = 0;
+      std::uint32_t left_out = 0;
+      std::memcpy(&left_out, bytes + 4, sizeof left_out);
+      std::memcpy(&first, bytes + 8, sizeof first);
+      EXPECT_EQ(left_out, 0u);
+      EXPECT_EQ(first, next[i]);
+      next[i] = first + 1;
+    }
+  }
+  for (std::size_t i = 0; i < places.size(); i += 3) EXPECT_GE(places[i], 1u) << "200 frames are long enough for one";
+  const std::string metrics = get(server.port(), "/metrics").body;
+  EXPECT_TRUE(GetParam() || metrics.find("\nsignweave_messages_by_io_uring_total 0\n") != std::string::npos);
+}
+
+TEST_P(StreamWays, ASlowClientLosesFramesAndNobodyElseDoes) {
+  ServerOptions options{.threads = 1, .io_uring = GetParam()};
   options.limits.send_buffer = 16 * 1024;
   const TestServer server(options);
   StreamClient slow(server.port(), {}, {}, 4'096);

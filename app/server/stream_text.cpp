@@ -1,5 +1,9 @@
 #include "app/server/stream_text.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace signweave::server {
@@ -17,6 +21,16 @@ void add_id(OrderedJson& object, std::string_view id) {
 
 OrderedJson list_of(const Eigen::Vector3f& v) {
   return {v.x(), v.y(), v.z()};
+}
+
+/// Appends a text as JSON has it.
+void add_quoted(std::string& line, std::string_view text) {
+  const auto plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
+  if (!std::ranges::all_of(text, plain)) {
+    line += line_of(OrderedJson(text));
+    return;
+  }
+  line.append(1, '"').append(text).append(1, '"');
 }
 
 std::string_view event_name(PlayerEvent::Kind kind) noexcept {
@@ -96,17 +110,23 @@ std::string error_text(const Error& error, std::string_view id) {
   return line_of(object);
 }
 
+// Streams tell so many events that the tree of a JSON library, and its parts all over memory, would cost as much as the
+// frames themselves.
 std::string event_text(const PlayerEvent& event) {
-  OrderedJson object = {{"type", event_name(event.kind)}, {"frame", event.frame}};
+  std::string line = fmt::format(R"({{"type":"{}","frame":{})", event_name(event.kind), event.frame);
+  const auto to = std::back_inserter(line);
   if (event.kind == PlayerEvent::Kind::place) {
-    object["place"] = event.place;
-    object["gloss"] = event.gloss;
-    object["token"] = event.token;
-    object["recording"] = event.recording;
+    fmt::format_to(to, R"(,"place":{},"gloss":)", event.place);
+    add_quoted(line, event.gloss);
+    fmt::format_to(to, R"(,"token":{},"recording":)", event.token);
+    add_quoted(line, event.recording);
   }
-  object["ms"] = event.at.count();
-  if (!event.text.empty()) object["text"] = event.text;
-  return line_of(object);
+  fmt::format_to(to, R"(,"ms":{})", event.at.count());
+  if (!event.text.empty()) {
+    line += R"(,"text":)";
+    add_quoted(line, event.text);
+  }
+  return line += '}';
 }
 
 }  // namespace signweave::server

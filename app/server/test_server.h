@@ -5,6 +5,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <memory>
@@ -125,7 +126,10 @@ class Client {
  private:
   bool more() {
     char buffer[16 * 1024];
-    const ssize_t n = ::recv(socket_, buffer, sizeof buffer, 0);
+    ssize_t n = 0;
+    do {  // the kernel interrupts a thread that made an io_uring when it takes that down
+      n = ::recv(socket_, buffer, sizeof buffer, 0);
+    } while (n < 0 && errno == EINTR);
     if (n <= 0) return false;
     read_.append(buffer, static_cast<std::size_t>(n));
     return true;

@@ -51,7 +51,7 @@ int listen_anywhere() {
 
 }  // namespace
 
-int run_bare_sender(std::size_t streams, std::size_t bytes, double rate) {
+int run_bare_sender(std::size_t streams, std::size_t bytes, double rate, double tick) {
   const bool waits = rate == 0;
   const int listener = listen_anywhere();
   if (listener < 0 || bytes < 4 + kMessageHeaderBytes || bytes > 65'000) return 1;
@@ -86,7 +86,8 @@ int run_bare_sender(std::size_t streams, std::size_t bytes, double rate) {
       ++to.frame;
       due.push({waits ? to.start : to.start + static_cast<double>(to.frame) / rate, which});
     }
-    const int patience = due.empty() ? 1000 : static_cast<int>(std::ceil(1e3 * std::max(0.0, due.top().at - now())));
+    const double ticks = due.empty() ? 0 : std::ceil(std::max(0.0, due.top().at - now()) / tick);
+    const int patience = due.empty() ? 1000 : static_cast<int>(std::lround(1e3 * ticks * tick));
     const int ready = epoll_wait(epoll, events.data(), static_cast<int>(events.size()), patience);
     for (int i = 0; i < ready; ++i) {
       const std::size_t which = events[static_cast<std::size_t>(i)].data.u64;

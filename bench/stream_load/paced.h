@@ -35,8 +35,8 @@ double quantile(const std::vector<double>& ascending, double part);
 
 /// The yardstick: a loop that only sends. Listens on a free port of this machine and says "listening on PORT" on
 /// standard error; to each connection that sends a byte it sends `bytes` bytes, WebSocket frame and numbers of a
-/// message of one frame, `rate` times a second, until all have gone. Wakes at whole milliseconds, as the server does.
-/// Where `rate` is 0 there is one stream, and it gets them as fast as it takes them.
-int run_bare_sender(std::size_t streams, std::size_t bytes, double rate);
+/// message of one frame, `rate` times a second, until all have gone. Sleeps for whole ticks, of
+/// so many seconds. Where `rate` is 0 there is one stream, and it gets them as fast as it takes them.
+int run_bare_sender(std::size_t streams, std::size_t bytes, double rate, double tick);
 
 }  // namespace signweave::bench

@@ -19,10 +19,17 @@ std::string program() {
   return other != nullptr ? other : SIGNWEAVE_PROGRAM;
 }
 
+std::vector<std::string> command(const std::filesystem::path& database, const std::vector<std::string>& options) {
+  std::vector<std::string> words = {program(), "serve", database.string(), "--listen", "127.0.0.1:0"};
+  words.insert(words.end(), options.begin(), options.end());
+  return words;
+}
+
 }  // namespace
 
-Server::Server(const std::filesystem::path& database, const std::filesystem::path& work)
-    : process_({program(), "serve", database.string(), "--listen", "127.0.0.1:0"}, work / "server.log"),
+Server::Server(const std::filesystem::path& database, const std::filesystem::path& work,
+               const std::vector<std::string>& options)
+    : process_(command(database, options), work / "server.log"),
       port_(static_cast<std::uint16_t>(std::stoi(process_.wait_for_line("listening on http://127.0.0.1:")))) {}
 
 std::unique_ptr<Connection> Server::open(std::string_view options) const {

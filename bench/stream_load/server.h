@@ -15,7 +15,8 @@ namespace signweave::bench {
 /// `signweave serve` of one database, as a process of its own, on a free port of this machine.
 class Server {
  public:
-  Server(const std::filesystem::path& database, const std::filesystem::path& work);
+  Server(const std::filesystem::path& database, const std::filesystem::path& work,
+         const std::vector<std::string>& options = {});
 
   const Process& process() const noexcept { return process_; }
   std::uint16_t port() const noexcept { return port_; }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "signweave/core/prefetch.h"
 #include "signweave/motion/motion.h"
 #include "signweave/stream/frame_codec.h"
 
@@ -33,6 +34,15 @@ class FrameRing {
     return {{std::span(rotations_).subspan(slot * shape_.joints, shape_.joints),
              std::span(translations_).subspan(slot * shape_.translations, shape_.translations)},
             std::span(tracks_).subspan(slot * shape_.tracks, shape_.tracks)};
+  }
+
+  /// Brings near what at(frame) will show.
+  void prefetch_frame(std::int64_t frame) const noexcept {
+    if (frame < begin_ || frame >= end_) return;
+    const FrameView view = at(frame);
+    prefetch(view.pose.rotations.data(), view.pose.rotations.size_bytes());
+    prefetch(view.pose.translations.data(), view.pose.translations.size_bytes());
+    prefetch(view.tracks.data(), view.tracks.size_bytes());
   }
 
   /// Frames after end() that lie side by side, at most `most` and as many as there is room for.

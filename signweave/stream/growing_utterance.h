@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "signweave/core/prefetch.h"
 #include "signweave/stream/frame_ring.h"
 #include "signweave/stream/living_rest.h"
 #include "signweave/stream/open_recordings.h"
@@ -61,6 +62,14 @@ class GrowingUtterance {
 
   /// The next event that belongs to a frame up to `frame`.
   std::optional<PlayerEvent> take_event(std::int64_t frame) noexcept;
+  /// Brings near what take_event() reads, in two steps.
+  void prefetch_state() const noexcept {
+    prefetch(&state_, sizeof state_);
+    prefetch(&events_, sizeof events_);
+  }
+  void prefetch_event() const noexcept {
+    if (!events_.empty()) prefetch(&events_.front().frame, sizeof(std::uint64_t));
+  }
   /// True where from this frame on nothing is left to sign.
   bool idle(std::int64_t frame) const noexcept;
   /// True where the last retraction is the end of the timeline.

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "signweave/core/error.h"
+#include "signweave/core/prefetch.h"
 #include "signweave/motion/blend.h"
 #include "signweave/stream/frame_ring.h"
 #include "signweave/stream/growing_utterance.h"
@@ -29,13 +31,14 @@ PlayerOptions checked(PlayerOptions options) {
 struct Player::State {
   State(SigningBase& base, const PlayerOptions& options) : growing(base, options) {}
 
-  GrowingUtterance growing;
+  // What each frame needs comes first, and lies together.
   FrameRing ring;
   std::int64_t next = 0;    ///< frame of the timeline that is shown next
   double part = 0;          ///< of the way to the frame after it, in [0, 1)
   double tempo = 1;         ///< frames of the timeline for one that is taken
   std::uint64_t taken = 0;  ///< frames of the stream
   bool paused = false;
+  GrowingUtterance growing;
 
   /// The ring, once it is known what a frame is.
   void open_ring() {
@@ -147,20 +150,28 @@ std::size_t Player::prepare(std::size_t frames) {
 }
 
 bool Player::next(MutableFrameView out) noexcept {
+  const std::optional<FrameView> frame = next_in(out);
+  if (!frame) return false;
+  if (frame->pose.rotations.data() == out.pose.rotations.data()) return true;
+  std::ranges::copy(frame->pose.rotations, out.pose.rotations.begin());
+  std::ranges::copy(frame->pose.translations, out.pose.translations.begin());
+  std::ranges::copy(frame->tracks, out.tracks.begin());
+  return true;
+}
+
+std::optional<FrameView> Player::next_in(MutableFrameView room) noexcept {
   State& state = *state_;
-  if (state.paused || state.ready() == 0) return false;
-  const FrameView frame = state.ring.at(state.next);
-  if (state.part == 0) {
-    std::ranges::copy(frame.pose.rotations, out.pose.rotations.begin());
-    std::ranges::copy(frame.pose.translations, out.pose.translations.begin());
-    std::ranges::copy(frame.tracks, out.tracks.begin());
-  } else {
+  if (state.paused || state.ready() == 0) return std::nullopt;
+  FrameView shown = state.ring.at(state.next);
+  if (state.part > 0) {
+    const FrameView before = shown;
     const FrameView after = state.ring.at(state.next + 1);
     const auto part = static_cast<float>(state.part);
-    blend(frame.pose, after.pose, part, out.pose);
-    for (std::size_t i = 0; i < out.tracks.size(); ++i) {
-      out.tracks[i] = frame.tracks[i] + part * (after.tracks[i] - frame.tracks[i]);
+    blend(before.pose, after.pose, part, room.pose);
+    for (std::size_t i = 0; i < room.tracks.size(); ++i) {
+      room.tracks[i] = before.tracks[i] + part * (after.tracks[i] - before.tracks[i]);
     }
+    shown = room;
   }
   const double to = state.part + state.tempo;
   const double whole = std::floor(to);
@@ -171,7 +182,18 @@ bool Player::next(MutableFrameView out) noexcept {
     state.part = 0;
   }
   ++state.taken;
-  return true;
+  return shown;
+}
+
+void Player::prefetch_state() const noexcept {
+  const auto address = [](const void* of) { return static_cast<const std::byte*>(of); };
+  prefetch(state_.get(), static_cast<std::size_t>(address(&state_->growing) - address(state_.get())));
+  state_->growing.prefetch_state();
+}
+
+void Player::prefetch_frame() const noexcept {
+  state_->ring.prefetch_frame(state_->next);
+  state_->growing.prefetch_event();
 }
 
 std::uint64_t Player::frame() const noexcept {

@@ -102,6 +102,13 @@ class Player {
   /// The frame path: takes the next frame, which must have the header's shape. False where none is ready: paused, at
   /// the end, or to be prepared. Allocates nothing, locks nothing.
   bool next(MutableFrameView out) noexcept;
+  /// The same without a copy where the frame is there as it is to be shown: that one, which stays until prepare() or
+  /// a control is called; else `room`, with the frame in it.
+  std::optional<FrameView> next_in(MutableFrameView room) noexcept;
+  /// For who plays many streams in turn, whose memory is far away by then: brings near what next() and take_event()
+  /// will read, in two steps. The second reads what the first brought.
+  void prefetch_state() const noexcept;
+  void prefetch_frame() const noexcept;
 
   /// The number of the frame that `next` gives next.
   std::uint64_t frame() const noexcept;

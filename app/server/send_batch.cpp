@@ -1,0 +1,114 @@
+#include "app/server/send_batch.h"
+
+#include <liburing.h>
+#include <sys/socket.h>
+
+#include <cassert>
+#include <cerrno>
+
+namespace signweave::server {
+namespace {
+
+constexpr int kFlags = MSG_DONTWAIT | MSG_NOSIGNAL;
+
+/// Linux 5.6 knows how to send by io_uring; seccomp, or the system's settings, may forbid it all the same.
+bool sends(io_uring& ring) noexcept {
+  io_uring_probe* const probe = io_uring_get_probe_ring(&ring);
+  if (probe == nullptr) return false;
+  const bool supported =
+      io_uring_opcode_supported(probe, IORING_OP_SEND) != 0 && io_uring_opcode_supported(probe, IORING_OP_SENDMSG) != 0;
+  io_uring_free_probe(probe);
+  return supported;
+}
+
+}  // namespace
+
+long send_now(int descriptor, std::span<const std::byte> bytes) noexcept {
+  const ssize_t n = ::send(descriptor, bytes.data(), bytes.size(), kFlags);
+  return n >= 0 ? n : -errno;
+}
+
+void SendBatch::CloseRing::operator()(io_uring* ring) const noexcept {
+  io_uring_queue_exit(ring);
+  delete ring;
+}
+
+SendBatch::SendBatch(Counter& by_one_call) : by_one_call_(by_one_call) {}
+
+void SendBatch::use(Way way) {
+  flush();
+  ring_.reset();
+  if (way == Way::call_each) return;
+  auto ring = std::make_unique<io_uring>();
+  if (io_uring_queue_init(kMost, ring.get(), 0) != 0) return;
+  ring_.reset(ring.release());
+  if (!sends(*ring_)) ring_.reset();
+}
+
+SendBatch::~SendBatch() = default;
+
+void SendBatch::add(Sender& sender, int descriptor) noexcept {
+  assert(collecting_);
+  if (count_ == kMost) flush();
+  Message& message = messages_[count_++];
+  message.sender = &sender;
+  message.descriptor = descriptor;
+}
+
+void SendBatch::flush() noexcept {
+  const std::size_t count = count_;
+  if (count == 0) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    Message& message = messages_[i];
+    const Parts parts = message.sender->to_send();
+    std::size_t used = 0;
+    for (const std::span<const std::byte> part : parts) {
+      if (!part.empty()) message.parts[used++] = {const_cast<std::byte*>(part.data()), part.size()};
+    }
+    message.header = {};
+    message.header.msg_iov = message.parts.data();
+    message.header.msg_iovlen = used;
+  }
+  const std::size_t sent = ring_ ? send_by_ring() : 0;
+  for (std::size_t i = sent; i < count; ++i) {
+    const ssize_t n = ::sendmsg(messages_[i].descriptor, &messages_[i].header, kFlags);
+    messages_[i].result = n >= 0 ? n : -errno;
+  }
+  count_ = 0;
+  for (std::size_t i = 0; i < count; ++i) messages_[i].sender->sent(messages_[i].result);
+}
+
+/// How many of the messages, from the first on, the kernel has taken by the ring. Where these are not all there is no
+/// ring any longer.
+std::size_t SendBatch::send_by_ring() noexcept {
+  io_uring* const ring = ring_.get();
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Message& message = messages_[i];
+    io_uring_sqe* const entry = io_uring_get_sqe(ring);  // as many as there are messages, and none is left over
+    if (message.header.msg_iovlen == 1) {                // cheaper
+      io_uring_prep_send(entry, message.descriptor, message.parts[0].iov_base, message.parts[0].iov_len, kFlags);
+    } else {
+      io_uring_prep_sendmsg(entry, message.descriptor, &message.header, kFlags);
+    }
+    entry->user_data = i;
+  }
+  std::size_t taken = 0;
+  while (taken < count_) {
+    const int n = io_uring_submit(ring);
+    if (n < 0 && n != -EINTR) break;
+    if (n > 0) taken += static_cast<std::size_t>(n);
+  }
+  // What may not wait is done when it has been taken: the results are there.
+  for (std::size_t seen = 0; seen < taken;) {
+    io_uring_cqe* done = nullptr;
+    if (io_uring_wait_cqe(ring, &done) != 0) continue;  // a signal came
+    messages_[done->user_data].result = done->res;
+    io_uring_cqe_seen(ring, done);
+    ++seen;
+  }
+  by_one_call_.add(taken);
+  if (taken < count_) ring_.reset();
+  return taken;
+}
+
+}  // namespace signweave::server

@@ -51,7 +51,7 @@ struct ServerOptions {
   std::filesystem::path scratch;             ///< bodies that belong in files; must exist
   std::string token;                         ///< empty: none is asked for
   std::vector<std::string> allowed_origins;  ///< beside the server's own: "https://signs.example.org"
-  bool io_uring = true;  ///< streams send by it what is due at one tick, where the kernel lets them
+  bool io_uring = true;                      ///< streams send by it what is due at one tick, where the kernel lets them
   ServerLimits limits;
 };
 

@@ -83,7 +83,7 @@ void SendBatch::flush() noexcept {
 std::size_t SendBatch::send_by_ring() noexcept {
   io_uring* const ring = ring_.get();
   for (std::size_t i = 0; i < count_; ++i) {
-    const Message& message = messages_[i];
+    Message& message = messages_[i];
     io_uring_sqe* const entry = io_uring_get_sqe(ring);  // as many as there are messages, and none is left over
     if (message.header.msg_iovlen == 1) {                // cheaper
       io_uring_prep_send(entry, message.descriptor, message.parts[0].iov_base, message.parts[0].iov_len, kFlags);
@@ -91,23 +91,27 @@ std::size_t SendBatch::send_by_ring() noexcept {
       io_uring_prep_sendmsg(entry, message.descriptor, &message.header, kFlags);
     }
     entry->user_data = i;
+    message.result = -EIO;
   }
   std::size_t taken = 0;
   while (taken < count_) {
     const int n = io_uring_submit(ring);
-    if (n < 0 && n != -EINTR) break;
+    if (n <= 0 && n != -EINTR) break;
     if (n > 0) taken += static_cast<std::size_t>(n);
   }
   // What may not wait is done when it has been taken: the results are there.
-  for (std::size_t seen = 0; seen < taken;) {
+  std::size_t seen = 0;
+  while (seen < taken) {
     io_uring_cqe* done = nullptr;
-    if (io_uring_wait_cqe(ring, &done) != 0) continue;  // a signal came
+    const int error = io_uring_wait_cqe(ring, &done);
+    if (error == -EINTR) continue;
+    if (error != 0) break;  // nobody knows what went out of those that are left
     messages_[done->user_data].result = done->res;
     io_uring_cqe_seen(ring, done);
     ++seen;
   }
   by_one_call_.add(taken);
-  if (taken < count_) ring_.reset();
+  if (seen < count_) ring_.reset();
   return taken;
 }
 

@@ -17,10 +17,16 @@ constexpr float kHeadForward = 0.10f;  // the skull's middle before the line fro
 // Shares of the arm's length.
 constexpr float kPalmRadius = 0.030f;
 constexpr float kFingerRadius = 0.017f;
+constexpr float kForearmRadius = 0.060f;
 constexpr float kHandLength = 0.32f;  // wrist to finger tips: 0.108 of the stature (Drillis and Contini 1966)
 
-/// From the second to the first of two stretches of lines, where they are nearest.
-Vector3f between(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
+/// Two stretches of lines where they are nearest.
+struct Nearest {
+  Vector3f way = Vector3f::Zero();  ///< from the second to the first
+  float s = 0;                      ///< along the first, 0 to 1
+  float t = 0;                      ///< along the second
+};
+Nearest between(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
   const Vector3f u = b - a;
   const Vector3f v = d - c;
   const Vector3f w = a - c;
@@ -45,19 +51,20 @@ Vector3f between(const Vector3f& a, const Vector3f& b, const Vector3f& c, const 
       s = std::clamp((uv * t - uw) / uu, 0.0f, 1.0f);
     }
   }
-  return w + s * u - t * v;
+  return {w + s * u - t * v, s, t};
 }
 
 }  // namespace
 
 float clearance(const Capsule& a, const Capsule& b) noexcept {
-  return between(a.from, a.to, b.from, b.to).norm() - a.radius - b.radius;
+  return between(a.from, a.to, b.from, b.to).way.norm() - a.radius - b.radius;
 }
 
 Approach approach(const Capsule& a, const Capsule& b) noexcept {
-  const Vector3f way = between(a.from, a.to, b.from, b.to);
-  const float distance = way.norm();
-  return {distance - a.radius - b.radius, distance > 1e-6f ? Vector3f(way / distance) : Vector3f::Zero()};
+  const Nearest nearest = between(a.from, a.to, b.from, b.to);
+  const float distance = nearest.way.norm();
+  return {distance - a.radius - b.radius, distance > 1e-6f ? Vector3f(nearest.way / distance) : Vector3f::Zero(),
+          nearest.s, nearest.t};
 }
 
 HandShell shell_of(const HandPoints& hand, const std::optional<Vector3f>& elbow, const SignerBody& body) noexcept {
@@ -87,6 +94,10 @@ HandShell shell_of(const HandPoints& hand, const std::optional<Vector3f>& elbow,
         {shell.reach, (bar.from - shell.middle).norm() + bar.radius, (bar.to - shell.middle).norm() + bar.radius});
   }
   return shell;
+}
+
+Capsule forearm_bar(const Vector3f& elbow, const Vector3f& wrist, const SignerBody& body) noexcept {
+  return {elbow, wrist, kForearmRadius * body.arm_length * body.shoulder_width};
 }
 
 BodyShell shell_of(const SignerBody& body, const RigMap& rig, const SignerSpace& space,

@@ -24,6 +24,8 @@ float clearance(const Capsule& a, const Capsule& b) noexcept;
 struct Approach {
   float clearance = 0;
   Eigen::Vector3f away = Eigen::Vector3f::Zero();  ///< unit; zero where the axes cross
+  float along_a = 0;                               ///< where that is: 0 at a.from, 1 at a.to
+  float along_b = 0;
 };
 Approach approach(const Capsule& a, const Capsule& b) noexcept;
 
@@ -47,6 +49,9 @@ struct HandShell {
 /// `elbow` is looked at where there are no fingers.
 HandShell shell_of(const HandPoints& hand, const std::optional<Eigen::Vector3f>& elbow,
                    const SignerBody& body) noexcept;
+
+/// From the elbow to the wrist: neither as thick as a forearm is below the elbow nor as thin as at the wrist.
+Capsule forearm_bar(const Eigen::Vector3f& elbow, const Eigen::Vector3f& wrist, const SignerBody& body) noexcept;
 
 /// Trunk and head of one pose.
 struct BodyShell {

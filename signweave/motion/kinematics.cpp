@@ -27,12 +27,13 @@ ModelPose to_model_space(const Skeleton& skeleton, PoseView pose) {
   return result;
 }
 
-JointChains::JointChains(const Skeleton& skeleton, std::span<const JointIndex> joints)
-    : joint_count_(skeleton.joint_count()) {
+JointChains::JointChains(const Skeleton& skeleton, std::span<const JointIndex> joints, JointIndex top)
+    : top_(top), joint_count_(skeleton.joint_count()) {
   std::vector<bool> needed(joint_count_);
   for (JointIndex joint : joints) {
     for (; joint != kNoJoint && !needed[static_cast<std::size_t>(joint)]; joint = skeleton.joint(joint).parent) {
       needed[static_cast<std::size_t>(joint)] = true;
+      if (joint == top) break;
     }
   }
   std::ptrdiff_t translation = 0;
@@ -54,7 +55,10 @@ void JointChains::to_model_space(PoseView pose, ModelPose& out) const {
     const auto i = static_cast<std::size_t>(link.joint);
     const Eigen::Vector3f& local =
         link.translation < 0 ? link.offset : pose.translations[static_cast<std::size_t>(link.translation)];
-    if (link.parent == kNoJoint) {
+    if (link.joint == top_) {
+      out.rotations[i].setIdentity();
+      out.positions[i].setZero();
+    } else if (link.parent == kNoJoint) {
       out.rotations[i] = pose.rotations[i];
       out.positions[i] = local;
     } else {

@@ -23,10 +23,11 @@ ModelPose to_model_space(const Skeleton& skeleton, PoseView pose);
 class JointChains {
  public:
   JointChains() = default;
-  /// The joints must be of the skeleton; their order and repetitions do not matter.
-  JointChains(const Skeleton& skeleton, std::span<const JointIndex> joints);
+  /// The joints must be of the skeleton; their order and repetitions do not matter. With a `top`, a joint above all of
+  /// them, what is above it is left out and model space is that joint's own.
+  JointChains(const Skeleton& skeleton, std::span<const JointIndex> joints, JointIndex top = kNoJoint);
 
-  /// The joints that are computed, ascending: those asked for and all above them.
+  /// The joints that are computed, ascending: those asked for and all above them, up to `top`.
   const JointSet& joints() const noexcept { return joints_; }
   /// As the function above, but only these joints of `out` are set, to the same bits; `out` is resized on first use.
   void to_model_space(PoseView pose, ModelPose& out) const;
@@ -39,6 +40,7 @@ class JointChains {
     Eigen::Vector3f offset = Eigen::Vector3f::Zero();
   };
   std::vector<Link> links_;  ///< parents first
+  JointIndex top_ = kNoJoint;
   JointSet joints_;
   std::size_t joint_count_ = 0;
 };

@@ -220,6 +220,21 @@ BodyGuard::Way BodyGuard::way_out(const Depth& deepest, bool of_hands, const Arm
   return {.shift = needed / by_shift * deepest.out};
 }
 
+/// Bends an arm where it is deepest, and ever less towards both borders.
+void BodyGuard::bend(const Gap& gap, const Arm& arm, const Way& way, float peak, MutablePoses made) {
+  for (std::int64_t frame = 0; frame < gap.count; ++frame) {
+    const MutablePoseView pose = pose_at(*skeleton_, made, frame);
+    const float share = bump(moment_of(gap, frame), peak);
+    hands_[static_cast<std::size_t>(arm.side)].to_model_space(pose, pose_);
+    if (way.swivel != 0) {
+      swivel_elbow(*skeleton_, arm.joints, pose_, share * way.swivel, pose);
+    } else {
+      shift_wrist(*skeleton_, arm.joints, pose_, share * way.shift, pose);
+    }
+    limit_wrist(arm, pose);
+  }
+}
+
 bool BodyGuard::mend_arm(const Gap& gap, Arm& arm, bool with_fingers, MutablePoses made) {
   const std::array<JointIndex, 3> joints{arm.joints.shoulder, arm.joints.elbow, arm.joints.wrist};
   const auto each = [&](auto&& use) {
@@ -235,48 +250,42 @@ bool BodyGuard::mend_arm(const Gap& gap, Arm& arm, bool with_fingers, MutablePos
     bent |= limit_wrist(arm, pose_at(*skeleton_, made, frame));
   }
   bool crossed = false;  // of the fingers
-  bool best_is_last = true;
-  float least = 0;
-  for (int round = 0;; ++round) {
-    std::int64_t worst = -1;
-    std::size_t worst_part = 0;
-    float beyond = 0;
-    Depths here;
-    for (std::int64_t frame = 0; frame < gap.count; ++frame) {
-      look_at(pose_at(*skeleton_, made, frame), arm, here);
-      if (round == 0 && with_fingers && !crossed) crossed = arm.fingers.known() && arm.fingers.crosses(points_);
-      for (std::size_t part = 0; part < here.size(); ++part) {
-        if (here[part].depth - allowed_[part] <= beyond) continue;
-        beyond = here[part].depth - allowed_[part];
-        worst = frame;
-        worst_part = part;
+  // Where not everything can be had, as when a whole arm passes through the trunk, the hand at least stays out of it.
+  for (const std::size_t parts : {std::tuple_size_v<Depths>, kHands}) {
+    bool best_is_last = true;
+    float least = 0;
+    for (int round = 0;; ++round) {
+      std::int64_t worst = -1;
+      std::size_t worst_part = 0;
+      float beyond = 0;
+      Depths here;
+      for (std::int64_t frame = 0; frame < gap.count; ++frame) {
+        look_at(pose_at(*skeleton_, made, frame), arm, here);
+        if (parts > kHands && round == 0 && with_fingers && !crossed) {
+          crossed = arm.fingers.known() && arm.fingers.crosses(points_);
+        }
+        for (std::size_t part = 0; part < parts; ++part) {
+          if (here[part].depth - allowed_[part] <= beyond) continue;
+          beyond = here[part].depth - allowed_[part];
+          worst = frame;
+          worst_part = part;
+        }
       }
-    }
-    best_is_last = round == 0 || beyond < least;
-    if (best_is_last) least = beyond;
-    if (worst < 0 || round == kRounds) break;
-    bent = true;
-    if (best_is_last) {
-      best_.resize(std::max(best_.size(), static_cast<std::size_t>(gap.count) * joints.size()));
-      each([](const Eigen::Quaternionf& now, Eigen::Quaternionf& kept) { kept = now; });
-    }
-    look_at(pose_at(*skeleton_, made, worst), arm, here);
-    const Way way = way_out({beyond, here[worst_part].out, here[worst_part].along}, worst_part == kHands, arm);
-    const float peak = moment_of(gap, worst);
-    for (std::int64_t frame = 0; frame < gap.count; ++frame) {
-      const MutablePoseView pose = pose_at(*skeleton_, made, frame);
-      const float share = bump(moment_of(gap, frame), peak);
-      const JointChains& chain = hands_[static_cast<std::size_t>(arm.side)];
-      chain.to_model_space(pose, pose_);
-      if (way.swivel != 0) {
-        swivel_elbow(*skeleton_, arm.joints, pose_, share * way.swivel, pose);
-      } else {
-        shift_wrist(*skeleton_, arm.joints, pose_, share * way.shift, pose);
+      best_is_last = round == 0 || beyond < least;
+      if (best_is_last) least = beyond;
+      if (worst < 0 || round == kRounds) break;
+      bent = true;
+      if (best_is_last) {
+        best_.resize(std::max(best_.size(), static_cast<std::size_t>(gap.count) * joints.size()));
+        each([](const Eigen::Quaternionf& now, Eigen::Quaternionf& kept) { kept = now; });
       }
-      limit_wrist(arm, pose);
+      look_at(pose_at(*skeleton_, made, worst), arm, here);
+      const Way way = way_out({beyond, here[worst_part].out, here[worst_part].along}, worst_part == kHands, arm);
+      bend(gap, arm, way, moment_of(gap, worst), made);
     }
+    if (!best_is_last) each([](Eigen::Quaternionf& now, const Eigen::Quaternionf& kept) { now = kept; });
+    if (!(least > 0)) break;
   }
-  if (!best_is_last) each([](Eigen::Quaternionf& now, const Eigen::Quaternionf& kept) { now = kept; });
   return (crossed && arm.fingers.mend(gap, made)) || bent;
 }
 

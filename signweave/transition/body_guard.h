@@ -35,7 +35,8 @@ class BodyGuard {
   ///   is deepest, or the elbow swivelled where that leads a forearm farther, fading out smoothly to nothing at both
   ///   borders, so that position and velocity go on there. The hand keeps its orientation, but for the limits of its
   ///   wrist. Repeated until no frame is too deep, at most kRounds times; of all rounds that one stays whose deepest
-  ///   frame is least deep.
+  ///   frame is least deep. Where some frame still is too deep, the hand at least is led out of head and trunk, by as
+  ///   many rounds that look at nothing else.
   /// - Fingers that cross are bent apart (see FingerGuard).
   ///
   /// Answers whether anything was bent. (ours)
@@ -78,6 +79,7 @@ class BodyGuard {
   bool limit_wrist(const Arm& arm, MutablePoseView pose) const;
   void set_limits(const Gap& gap, Arm& arm);
   Way way_out(const Depth& deepest, bool of_hands, const Arm& arm);
+  void bend(const Gap& gap, const Arm& arm, const Way& way, float peak, MutablePoses made);
   bool mend_arm(const Gap& gap, Arm& arm, bool with_fingers, MutablePoses made);
 
   const Skeleton* skeleton_;

@@ -145,7 +145,7 @@ void copy(const Motion& motion, std::byte* to) {
 void compare_with_aims(const std::filesystem::path& folder, const Scenario& scenario) {
   bench::print("table1/scenario1/total_warm", scenario.ours.total, "ms", 1.8, scenario.ours.total / 1.8, "<= 1");
   std::vector<double> opened;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const Database database(folder, kv::Access::read_only);
     opened.push_back(1e3 * synthesize(database, "meteo", scenario.edit).timings.total.count());
   }

@@ -112,6 +112,17 @@ TEST(JointChains, ComputeTheJointsAskedForAndThoseAboveToTheSameBits) {
   expect_same({3, 0}, {0, 1, 2, 3});
   expect_same({2, 4}, {0, 1, 2, 4});
   expect_same({}, {});
+
+  // Below a joint, in its own space.
+  const JointChains below(skeleton, std::vector<JointIndex>{3}, 1);
+  EXPECT_EQ(below.joints(), (JointSet{1, 2, 3}));
+  ModelPose model;
+  below.to_model_space(pose.view(), model);
+  for (const std::size_t i : {1u, 2u, 3u}) {
+    const Eigen::Quaternionf to_top = whole.rotations[1].conjugate();
+    EXPECT_LT((model.positions[i] - to_top * (whole.positions[i] - whole.positions[1])).norm(), 1e-5f);
+    EXPECT_LT(model.rotations[i].angularDistance(to_top * whole.rotations[i]), 1e-3f);
+  }
 }
 
 }  // namespace

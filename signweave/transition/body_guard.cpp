@@ -164,6 +164,7 @@ void BodyGuard::set_limits(const Gap& gap, Arm& arm) {
   allowed_.fill(kDepthAllowed);
   passing_.setZero();
   apart_.setZero();
+  limited_ = arm.hand->why_no_fingers().empty();
   const Arm& other = arms_[1 - static_cast<std::size_t>(arm.side)];
   std::array<HandPoints, 2> hands;
   std::array<HandAxes, 2> axes;
@@ -176,13 +177,12 @@ void BodyGuard::set_limits(const Gap& gap, Arm& arm) {
     }
     const Eigen::Quaternionf to_joint = pose_.rotations[at(arm.joints.wrist)].conjugate();
     hands[border] = points_;
-    axes[border] = turned(axes_of(points_, arm.side), to_joint);
+    if (limited_) axes[border] = turned(axes_of(points_, arm.side), to_joint);
     forearms[border] = to_joint * (points_.wrist - pose_.positions[at(arm.joints.elbow)]).normalized();
     if (!other.known()) continue;
     const Vector3f beside = points_.wrist - pose_.positions[at(other.joints.wrist)];
     passing_ = border == 0 ? Vector3f(-beside) : Vector3f(passing_ + beside);
   }
-  limited_ = arm.hand->why_no_fingers().empty();
   if (!limited_) return;
   if (arm.fingers.known()) arm.fingers.set_borders(hands[0], hands[1]);
   // Where the bones of the palm move, the hand's axes are those between both borders.

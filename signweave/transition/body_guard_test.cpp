@@ -1,0 +1,105 @@
+#include "signweave/transition/body_guard.h"
+
+#include <gtest/gtest.h>
+
+#include "signweave/core/test_allocations.h"
+#include "signweave/rig/test_rig.h"
+#include "signweave/transition/method.h"
+
+namespace signweave {
+namespace {
+
+using Eigen::AngleAxisf;
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+
+/// The test person's left hand goes from one side of the trunk to the other, low and with a bent elbow: straight
+/// through.
+struct ThroughTheTrunk {
+  std::shared_ptr<const Skeleton> skeleton;
+  Motion before, after;
+  SignerModel signer;
+  JointGroups groups;
+  Gap gap;
+
+  explicit ThroughTheTrunk(bool fingers, std::int64_t count = 40) : skeleton(whole_person(1, fingers)) {
+    signer.rig = rig_of_signer(*skeleton);
+    before = held(-0.9f);
+    after = held(0.9f);
+    signer.body = signer_body(before, signer.rig);
+    groups = joint_groups(*skeleton, signer.rig);
+    gap = {.skeleton = skeleton.get(),
+           .groups = &groups,
+           .rate = {100, 1},
+           .before = view_of(before, {0, 8}),
+           .after = view_of(after, {0, 8}),
+           .count = count};
+  }
+  Motion held(float turn) const {
+    Motion motion(skeleton, {100, 1}, 8);
+    const auto set = [&](Part part, const Quaternionf& to) {
+      for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+        motion.pose(frame).rotations[static_cast<std::size_t>(signer.rig[part].joint)] = to;
+      }
+    };
+    set(Part::left_upper_arm, Quaternionf(AngleAxisf(-1.3f, Vector3f::UnitZ())));
+    // Turned out of the plane of the trunk: forward for a negative turn, backward for a positive one.
+    set(Part::left_forearm,
+        Quaternionf(AngleAxisf(1.2f * turn, Vector3f::UnitX())) * Quaternionf(AngleAxisf(-1.9f, Vector3f::UnitZ())));
+    return motion;
+  }
+  Motion filled() const {
+    Motion made(skeleton, gap.rate, gap.count);
+    GapScratch scratch;
+    find_gap_method("sine")->fill({.gap = gap, .model = default_transition_model(), .scratch = scratch},
+                                  made.poses({0, gap.count}));
+    return made;
+  }
+  /// How deep the hand is in the trunk, at most; metres.
+  float deepest(const Motion& motion) const {
+    float depth = 0;
+    for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+      const ModelPose model = to_model_space(*skeleton, motion.pose(frame));
+      HandPoints points;
+      HandPlaces(signer.rig, Side::left).read(model, points);
+      const HandShell hand = shell_of(points, position_of(signer.rig[Part::left_forearm], model), *signer.body);
+      const BodyShell body = shell_of(*signer.body, signer.rig, signer_space(*signer.body, signer.rig, model), model);
+      for (const Capsule& bar : hand.all()) {
+        for (const Capsule& side : body.torso) depth = std::max(depth, -clearance(bar, side));
+      }
+    }
+    return depth;
+  }
+};
+
+TEST(BodyGuardOfATestPerson, GuardsHandsWithAndWithoutFingers) {
+  for (const bool fingers : {true, false}) {
+    const ThroughTheTrunk through(fingers);
+    ASSERT_TRUE(through.signer.body);
+    Motion made = through.filled();
+    const float allowed = std::max(through.deepest(through.before), through.deepest(through.after)) + 0.004f;
+    ASSERT_GT(through.deepest(made), allowed + 0.02f) << fingers;
+    BodyGuard guard(*through.skeleton, through.signer, through.groups);
+    EXPECT_TRUE(guard.mend(through.gap, GroupSet::all(), made.poses({0, made.frame_count()})));
+    EXPECT_LT(through.deepest(made), allowed) << fingers;
+  }
+}
+
+TEST(BodyGuardOfATestPerson, TheSecondGapAllocatesNothing) {
+  const ThroughTheTrunk through(true);
+  BodyGuard guard(*through.skeleton, through.signer, through.groups);
+  Motion first = through.filled();
+  guard.mend(through.gap, GroupSet::all(), first.poses({0, first.frame_count()}));
+  Motion second = through.filled();
+  EXPECT_EQ(allocations_in([&] {
+              guard.mend(through.gap, GroupSet::all(), second.poses({0, second.frame_count()}));
+            }),
+            0u);
+  // And makes the same, whatever was made before.
+  for (std::size_t i = 0; i < first.rotations().size(); ++i) {
+    ASSERT_EQ(first.rotations()[i].coeffs(), second.rotations()[i].coeffs());
+  }
+}
+
+}  // namespace
+}  // namespace signweave

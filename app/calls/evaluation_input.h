@@ -12,7 +12,7 @@ namespace signweave::calls {
 /// What is evaluated on, and what could not be.
 struct EvaluationInput {
   std::vector<EvaluatedMotion> recordings;  ///< by name
-  std::vector<std::string> left_out;        ///< names; each was told of
+  std::vector<std::string> left_out;        ///< names; each was reported
 };
 
 /// Recordings of databases, motion files, and folders of them with the annotation beside them. What cannot be

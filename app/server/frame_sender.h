@@ -74,7 +74,7 @@ class FrameSender final : public Paced {
   bool first_ = true;       // nothing was sent since a control message
   bool announced_ = false;  // the header was sent
   bool stopped_ = false;
-  std::optional<PlayerEvent> event_;  // the next to be told
+  std::optional<PlayerEvent> event_;  // the next to be reported
 
   std::string database_;
   bool was_idle_ = true;

@@ -85,7 +85,7 @@ class SendBatch {
   bool collecting_ = false;
 };
 
-/// So many of these bytes went out without waiting, or what went wrong: as Sender::sent is told.
+/// So many of these bytes went out without waiting, or what went wrong: as Sender::sent is given.
 long send_now(int descriptor, std::span<const std::byte> bytes) noexcept;
 
 }  // namespace signweave::server

@@ -50,7 +50,7 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
   if (!fault.empty()) listener.fault(fault);
 }
 
-/// What was learned is what the corpus teaches; where recordings are damaged it cannot be told.
+/// What was learned is what the corpus teaches; where recordings are damaged nothing is compared.
 void check_learned(const Database& database, const kv::ReadTransaction& snapshot, CheckListener& listener) {
   const char* mend = "signing learns it anew; import any file again to store it";
   try {

@@ -1,5 +1,5 @@
 // What the corpus teaches of durations: learned, stored with the weights, renewed, and done without. joins_test.cpp
-// tells of the weights.
+// has the tests of the weights.
 
 #include "signweave/database/learn.h"
 

@@ -17,7 +17,7 @@ struct CaptureNoise {
 /// At most kMostWindows windows of kNoiseWindow, evenly from all, are fitted by a cubic. A joint's still frames are the
 /// windows in which neither the fit's movement nor its cubic term is more than noise would make of it; where there are
 /// none, and at least half of all windows have no such cubic term, those serve: at such a rate movement shows no more
-/// than a quadratic. The noise is told from the quarter of them that are off least from their fits, so that movement
+/// than a quadratic. The noise is taken from the quarter of them that are off least from their fits, so that movement
 /// which no fit follows is not taken for noise. Noise that the capture's own filter has spread over several frames is
 /// underestimated. (ours; docs/synthesis.md)
 CaptureNoise capture_noise(const Motion& motion);

@@ -10,7 +10,7 @@ using Eigen::Vector3f;
 
 constexpr float kThickness = 0.1f;  ///< radius of a finger by its length
 
-/// Two bones where they are nearest, as `approach` of contact.h has it. Here, for most of the time goes by here.
+/// Two bones where they are nearest, as `approach` of contact.h has it. Here, since most of the time is spent here.
 struct NearestBones {
   Vector3f way = Vector3f::Zero();  ///< from the second to the first
   float s = 0;                      ///< along the first, 0 to 1

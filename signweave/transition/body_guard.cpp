@@ -14,7 +14,7 @@ using Eigen::Vector3f;
 /// An elbow is swivelled no farther in one round. Radians.
 constexpr float kMostSwivel = 0.3f;
 
-// Of what depths are told.
+// Which depths are measured.
 constexpr std::size_t kHands = 3;
 constexpr std::size_t kForearm = 4;
 

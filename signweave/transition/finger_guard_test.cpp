@@ -78,7 +78,7 @@ struct Hands {
     HandPlaces(rig, Side::left).read(to_model_space(*skeleton, pose), points);
     return points;
   }
-  /// Of each pair of fingers, told without the guard.
+  /// Of each pair of fingers, measured without the guard.
   FingerDepths depths(PoseView pose) const {
     Phalanges phalanges;
     phalanges_of(points(pose), finger_radii(points(pose)), phalanges);

@@ -142,15 +142,16 @@ TEST_P(StreamWays, StreamsThatAreDueTogetherEachGetTheirOwn) {
     clients.back().say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
   }
   std::vector<std::size_t> places(clients.size());
-  std::vector<std::uint64_t> next(clients.size());
+  std::vector<std::uint64_t> next(clients.size());  // but for frames left out: fast streams fill their buffers while slow ones are read
   for (int round = 0; round < 200; ++round) {
     for (std::size_t i = 0; i < clients.size(); ++i) {
       StreamMessage message = clients[i].next();
+      std::optional<std::uint64_t> event;
       for (; message.opcode == 1; message = clients[i].next()) {
         const nlohmann::json json = message.json();
         if (json["type"] != "place") continue;
         ++places[i];
-        EXPECT_EQ(json["frame"], next[i]) << "an event comes right before its frame";
+        event = json["frame"];
       }
       ASSERT_EQ(message.opcode, 2u);
       const auto* bytes = reinterpret_cast<const std::byte*>(message.bytes.data());
@@ -158,8 +159,11 @@ TEST_P(StreamWays, StreamsThatAreDueTogetherEachGetTheirOwn) {
       std::uint32_t left_out = 0;
       std::memcpy(&left_out, bytes + 4, sizeof left_out);
       std::memcpy(&first, bytes + 8, sizeof first);
-      EXPECT_EQ(left_out, 0u);
-      EXPECT_EQ(first, next[i]);
+      EXPECT_EQ(first, next[i] + left_out);
+      if (event) {
+        EXPECT_LE(next[i], *event);
+        EXPECT_LE(*event, first) << "an event comes before its frame";
+      }
       next[i] = first + 1;
     }
   }

@@ -80,7 +80,7 @@ Limbs limbs_of(const Motion& motion, const SignerModel& signer, Side side, PoseV
   }
   Phalanges phalanges;
   phalanges_of(points[own], finger_radii(points[own]), phalanges);
-  limbs.fingers = finger_depths(phalanges);
+  limbs.fingers = finger_depths(finger_pairs(phalanges));
   limbs.bend = wrist_bend((points[own].wrist - elbows[own]).normalized(), axes_of(points[own], side));
   return limbs;
 }

@@ -76,6 +76,10 @@ class Snapshot {
   /// long as nothing in the database changes. Nothing is known where the features are damaged.
   std::shared_ptr<const RecordingJoins> joins(std::size_t recording) const;
 
+  /// As `model_of` has the whole motion of one of `contents().recordings`; measured once as long as nothing in the
+  /// database changes. Throws what `motion` does.
+  std::shared_ptr<const SignerModel> signer(const RecordingInfo& recording) const;
+
   /// What was measured of the phases of `contents().recordings[recording]`, as Database::features; where the record is
   /// damaged nothing, and why.
   RecordingFeatures features(std::size_t recording) const;
@@ -291,8 +295,9 @@ class Database {
   mutable std::uint64_t segments_at_ = 0;
   mutable std::shared_ptr<MovementCache> movement_;  ///< of the newest state that was asked about
   mutable std::map<std::uint64_t, std::shared_ptr<const motion_db::KnownMotion>> known_;  ///< by generation
-  mutable std::map<std::size_t, std::shared_ptr<const RecordingJoins>> joins_;  ///< of contents_, by recording
-  mutable std::shared_ptr<const semantic_db::Learned> learned_;                 ///< of contents_
+  mutable std::map<std::size_t, std::shared_ptr<const RecordingJoins>> joins_;   ///< of contents_, by recording
+  mutable std::map<std::uint64_t, std::shared_ptr<const SignerModel>> signers_;  ///< of contents_, by generation
+  mutable std::shared_ptr<const semantic_db::Learned> learned_;                  ///< of contents_
 };
 
 }  // namespace signweave

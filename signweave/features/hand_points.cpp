@@ -88,7 +88,9 @@ void HandPlaces::read(const ModelPose& pose, HandPoints& out) const noexcept {
   for (std::size_t i = 0; i < fingers_.size(); ++i) {
     out.fingers[i].count = fingers_[i].count;
     for (std::size_t k = 0; k < fingers_[i].count; ++k) {
-      out.fingers[i].points[k] = position_of(fingers_[i].places[k], pose);
+      const PartPlace& place = fingers_[i].places[k];
+      out.fingers[i].points[k] =
+          place.offset.isZero(0) ? pose.positions[static_cast<std::size_t>(place.joint)] : position_of(place, pose);
     }
   }
 }

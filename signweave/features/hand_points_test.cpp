@@ -17,7 +17,7 @@ constexpr float kDegree = std::numbers::pi_v<float> / 180;
 constexpr std::size_t kKnuckle = 0, kBeyond = 1, kSpread = 2;
 
 /// A hand of the test person, whose fingers bend about z and spread about y: palm down, fingers along x.
-struct Hand {
+struct MadeHand {
   Side side = Side::left;
   std::shared_ptr<const Skeleton> skeleton = whole_person();
   RigMap rig = rig_of_signer(*skeleton);
@@ -54,7 +54,7 @@ struct Hand {
 
 TEST(HandAxes, PointOutOfBothPalmsAndToBothThumbs) {
   for (const Side side : kSides) {
-    const Hand hand{.side = side};
+    const MadeHand hand{.side = side};
     const float s = side == Side::left ? 1 : -1;
     EXPECT_LT((hand.axes().fingers - Vector3f(s, 0, 0)).norm(), 0.02f);
     EXPECT_LT((hand.axes().palm - Vector3f(0, -1, 0)).norm(), 1e-5f);
@@ -64,7 +64,7 @@ TEST(HandAxes, PointOutOfBothPalmsAndToBothThumbs) {
 
 TEST(HandAxes, TurnWithTheHand) {
   for (const Side side : kSides) {
-    Hand hand{.side = side};
+    MadeHand hand{.side = side};
     const float s = side == Side::left ? 1 : -1;
     // Arms out, thumbs up: the palms face forward.
     const JointIndex wrist = hand.rig[of(side, Part::left_hand)].joint;
@@ -79,7 +79,7 @@ TEST(HandAxes, TurnWithTheHand) {
 
 TEST(HandshapeOf, TellsHowFarEachFingerBends) {
   for (const Side side : kSides) {
-    Hand hand{.side = side};
+    MadeHand hand{.side = side};
     EXPECT_NEAR(hand.value(Finger::index, kKnuckle), 0, 0.01f);
     EXPECT_NEAR(hand.value(Finger::index, kBeyond), 0, 0.01f);
     hand.set(Finger::index, 45, 0);
@@ -99,7 +99,7 @@ TEST(HandshapeOf, TellsHowFarEachFingerBends) {
 
 TEST(HandshapeOf, TellsSpreadWhetherFingersAreBentOrNot) {
   for (const Side side : kSides) {
-    Hand hand{.side = side};
+    MadeHand hand{.side = side};
     EXPECT_NEAR(hand.value(Finger::middle, kSpread), 0, 0.01f);
     hand.set(Finger::index, 0, 0, 22.5f);
     EXPECT_NEAR(hand.value(Finger::middle, kSpread), 0.5f, 0.02f);
@@ -115,7 +115,7 @@ TEST(HandshapeOf, TellsSpreadWhetherFingersAreBentOrNot) {
 }
 
 TEST(HandshapeOf, TellsWhereTheThumbIs) {
-  Hand hand;
+  MadeHand hand;
   const float away = hand.value(Finger::index, kSpread);
   EXPECT_NEAR(away, std::atan2(2.5f, 3.0f) * 2 / std::numbers::pi_v<float>, 0.02f);  // as it grows
   EXPECT_EQ(hand.value(Finger::thumb, kSpread), 0);
@@ -133,7 +133,7 @@ TEST(HandshapeOf, TellsWhereTheThumbIs) {
 }
 
 TEST(Openness, FallsFromAFlatHandToAFist) {
-  Hand hand;
+  MadeHand hand;
   EXPECT_NEAR(hand.openness(), 1, 0.01f);
   hand.set_all(45, 45);
   EXPECT_NEAR(hand.openness(), 0.5f, 0.02f);
@@ -144,15 +144,15 @@ TEST(Openness, FallsFromAFlatHandToAFist) {
 }
 
 TEST(Handshape, OfBothHandsIsTheSameInTheMirror) {
-  Hand left{.side = Side::left};
-  Hand right{.side = Side::right};
-  for (Hand* hand : {&left, &right}) {
+  MadeHand left{.side = Side::left};
+  MadeHand right{.side = Side::right};
+  for (MadeHand* hand : {&left, &right}) {
     hand->set(Finger::index, 10, 30, 12);
     hand->set(Finger::middle, 70, 80, -3);
     hand->set(Finger::little, 20, 0, -20);
   }
   EXPECT_LT(distance(left.shape(), right.shape()), 1e-5f);
-  EXPECT_GT(distance(left.shape(), Hand().shape()), 0.1f);
+  EXPECT_GT(distance(left.shape(), MadeHand().shape()), 0.1f);
   EXPECT_EQ(distance(left.shape(), left.shape()), 0);
   Handshape full;
   full.values.fill(1);
@@ -160,13 +160,13 @@ TEST(Handshape, OfBothHandsIsTheSameInTheMirror) {
 }
 
 TEST(HandshapeOf, IsTheSameForRigsWithOtherLocalAxes) {
-  Hand hand;
+  MadeHand hand;
   hand.set(Finger::index, 30, 50, 10);
   // The same points from a rig whose finger joints are turned against their bones.
   const Quaternionf skew(AngleAxisf(1.1f, Vector3f(1, 2, 3).normalized()));
   std::vector<Joint> joints(hand.skeleton->joints().begin(), hand.skeleton->joints().end());
   std::vector<Tip> tips(hand.skeleton->tips().begin(), hand.skeleton->tips().end());
-  Hand other = hand;
+  MadeHand other = hand;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (joints[i].name.find("HandIndex") == std::string::npos) continue;
     const bool first = joints[i].name.ends_with("1");
@@ -184,7 +184,7 @@ TEST(HandshapeOf, IsTheSameForRigsWithOtherLocalAxes) {
 }
 
 TEST(HandPlaces, LetsWhatTheRigLacksFollowItsNeighbour) {
-  Hand hand;
+  MadeHand hand;
   hand.set(Finger::ring, 60, 30);
   for (const FingerPoint point :
        {FingerPoint::proximal, FingerPoint::intermediate, FingerPoint::distal, FingerPoint::tip}) {
@@ -198,7 +198,7 @@ TEST(HandPlaces, LetsWhatTheRigLacksFollowItsNeighbour) {
 }
 
 TEST(HandPlaces, SaysWhyThereAreNoFingers) {
-  Hand hand;
+  MadeHand hand;
   for (const Finger finger : kFingers) {
     if (finger == Finger::middle) continue;
     for (std::size_t point = 0; point < kFingerPoints; ++point) {

@@ -43,7 +43,8 @@ RC_GTEST_PROP(Phalanges, AreAsDeepInEachOtherAsTheirCapsules, ()) {
   const FingerRadii radii = finger_radii(hand);
   Phalanges phalanges;
   phalanges_of(hand, radii, phalanges);
-  const FingerDepths depths = finger_depths(phalanges);
+  const FingerPairs pairs = finger_pairs(phalanges);
+  const FingerDepths depths = finger_depths(pairs);
   std::size_t pair = 0;
   float deepest = 0;
   for (std::size_t a = 0; a < kFingers.size(); ++a) {
@@ -56,7 +57,7 @@ RC_GTEST_PROP(Phalanges, AreAsDeepInEachOtherAsTheirCapsules, ()) {
       deepest = std::max(deepest, depth);
     }
   }
-  const auto worst = worst_crossing(phalanges, {}, 0);
+  const auto worst = worst_crossing(phalanges, pairs, {});
   RC_ASSERT(worst.has_value() == (deepest > 0));
   if (!worst) return;
   RC_ASSERT(std::abs(worst->beyond - deepest) < 1e-5f);
@@ -65,10 +66,9 @@ RC_GTEST_PROP(Phalanges, AreAsDeepInEachOtherAsTheirCapsules, ()) {
       radii[static_cast<std::size_t>(worst->a.finger)] + radii[static_cast<std::size_t>(worst->b.finger)];
   const Vector3f led = worst->a.at + worst->beyond * worst->away - worst->b.at;
   RC_ASSERT(worst->away.isZero() || std::abs(led.norm() - thick) < 1e-4f);
-  RC_ASSERT(!worst_crossing(phalanges, {}, deepest + 1e-5f));
   FingerDepths allowed;
   allowed.fill(deepest + 1e-5f);
-  RC_ASSERT(!worst_crossing(phalanges, allowed, 0));
+  RC_ASSERT(!worst_crossing(phalanges, pairs, allowed));
 }
 
 TEST(Phalanges, AFingerIsATenthOfItsLengthThick) {

@@ -51,14 +51,20 @@ JointChains::JointChains(const Skeleton& skeleton, std::span<const JointIndex> j
 void JointChains::to_model_space(PoseView pose, ModelPose& out) const {
   out.rotations.resize(joint_count_);
   out.positions.resize(joint_count_);
+  if (top_ != kNoJoint && !links_.empty()) {
+    out.rotations[static_cast<std::size_t>(top_)].setIdentity();
+    out.positions[static_cast<std::size_t>(top_)].setZero();
+  }
+  continue_below_top(pose, out);
+}
+
+void JointChains::continue_below_top(PoseView pose, ModelPose& out) const {
   for (const Link& link : links_) {
     const auto i = static_cast<std::size_t>(link.joint);
     const Eigen::Vector3f& local =
         link.translation < 0 ? link.offset : pose.translations[static_cast<std::size_t>(link.translation)];
-    if (link.joint == top_) {
-      out.rotations[i].setIdentity();
-      out.positions[i].setZero();
-    } else if (link.parent == kNoJoint) {
+    if (link.joint == top_) continue;
+    if (link.parent == kNoJoint) {
       out.rotations[i] = pose.rotations[i];
       out.positions[i] = local;
     } else {

@@ -31,6 +31,8 @@ class JointChains {
   const JointSet& joints() const noexcept { return joints_; }
   /// As the function above, but only these joints of `out` are set, to the same bits; `out` is resized on first use.
   void to_model_space(PoseView pose, ModelPose& out) const;
+  /// The same for joints below a top that `out` already has in model space: it stays, and they follow.
+  void continue_below_top(PoseView pose, ModelPose& out) const;
 
  private:
   struct Link {

@@ -139,7 +139,7 @@ void GrowingUtterance::tell_mapping(const Entry& entry) {
 void GrowingUtterance::begin_header(const Stretch& stretch, const std::shared_ptr<const Contents>& contents) {
   const SynthesisOptions& synthesis = options_.synthesis;
   const TransitionMethod* const method = synthesis.method != nullptr ? synthesis.method : &transition_methods().front();
-  rig_ = base_.rig(contents, stretch);
+  rig_ = base_.rig(open_.snapshot(), stretch.recording);
   fit_ = base_.durations(contents, synthesis.duration);
   if (method->fill->needs_spans) spans_ = base_.spans(open_.snapshot(), stretch, *rig_);
   const JunctionSettings settings{.skeleton = stretch.source->skeleton(),

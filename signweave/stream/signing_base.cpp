@@ -80,7 +80,7 @@ void SigningBase::warm_up() {
                             .core = clamp({0, kBodyFrames}, info.motion->frames),
                             .clock = info.clock,
                             .signs = {}};
-      rest(snapshot, stretch, *rig(contents, stretch));
+      rest(snapshot, stretch, *rig(snapshot, info.name));
     } catch (const Error& error) {  // told when it is signed
       if (error.code() != ErrorCode::corrupt) throw;
     }
@@ -134,15 +134,14 @@ std::shared_ptr<const std::vector<Candidate>> SigningBase::candidates(const std:
   return known.candidates.try_emplace(std::move(key), std::move(made)).first->second;
 }
 
-std::shared_ptr<const SignerRig> SigningBase::rig(const std::shared_ptr<const Contents>& contents,
-                                                  const Stretch& stretch) {
+std::shared_ptr<const SignerRig> SigningBase::rig(const Snapshot& snapshot, const std::string& recording) {
   return look_up<SignerRig>(
-      contents,
+      snapshot.shared_contents(),
       [&](Known & known) -> auto& {
         if (known.rigs.size() > kMostRigs) known.rigs.clear();
-        return known.rigs[{stretch.recording, stretch.core.begin, std::min(stretch.core.size(), kBodyFrames)}];
+        return known.rigs[recording];
       },
-      [&] { return signer_rig_of(stretch, contents->at(stretch.recording).rig); });
+      [&] { return signer_rig_of(snapshot, snapshot.contents().at(recording)); });
 }
 
 std::shared_ptr<const CapturedSpans> SigningBase::spans(const Snapshot& snapshot, const Stretch& stretch,

@@ -53,8 +53,8 @@ class SigningBase {
   /// Throws what `candidates_for` throws for one of the places. Of a long utterance, glosses whose tokens all lack a
   /// stroke or a motion may be told later.
   void check(const std::shared_ptr<const Contents>& contents, const std::vector<Place>& places);
-  /// As `signer_rig_of` for a stretch of a recording.
-  std::shared_ptr<const SignerRig> rig(const std::shared_ptr<const Contents>& contents, const Stretch& stretch);
+  /// As `signer_rig_of` for a recording.
+  std::shared_ptr<const SignerRig> rig(const Snapshot& snapshot, const std::string& recording);
   /// As `captured_spans`, for the skeleton of a recording.
   std::shared_ptr<const CapturedSpans> spans(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
   /// Where the signer of a recording rests, in one of the signer's recordings.
@@ -82,9 +82,8 @@ class SigningBase {
     std::uint64_t number = 0;
     std::map<bool, std::shared_ptr<const DurationFit>> durations;  ///< by whether they may be fitted
     std::unordered_map<std::string, std::shared_ptr<const std::vector<Candidate>>> candidates;  ///< by the place
-    std::map<std::tuple<std::string, std::int64_t, std::int64_t>, std::shared_ptr<const SignerRig>>
-        rigs;  ///< recording, first frame and count of those that it is told from
-    std::map<std::string, std::shared_ptr<const CapturedSpans>> spans;  ///< by recording
+    std::map<std::string, std::shared_ptr<const SignerRig>> rigs;                               ///< by recording
+    std::map<std::string, std::shared_ptr<const CapturedSpans>> spans;                          ///< by recording
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const BodyMapping>>
         mappings;                                         ///< by recording, and that whose skeleton it is put onto
     std::vector<std::shared_ptr<const KnownRest>> rests;  ///< few: of each signer one for each skeleton

@@ -178,13 +178,13 @@ class Filler {
 
 }  // namespace
 
-SignerRig signer_rig_of(const Stretch& stretch, const RigNames& names) {
+SignerRig signer_rig_of(const Stretch& stretch) {
   // The measures are medians over some frames of a motion: those of the core serve.
   const MotionSource& source = *stretch.source;
   Motion core;
   core.reset(source.skeleton(), source.rate(), std::min(stretch.core.size(), kBodyFrames));
   source.read({stretch.core.begin, stretch.core.begin + core.frame_count()}, core.poses({0, core.frame_count()}));
-  SignerModel signer = model_of(core, names);
+  SignerModel signer = model_of(core);
   JointGroups groups = joint_groups(core.skeleton(), signer.rig);
   return {std::move(signer), std::move(groups)};
 }

@@ -95,8 +95,8 @@ struct SignerRig {
   SignerModel signer;
   JointGroups groups;
 };
-/// Told from at most kBodyFrames of a stretch's core. `names`: what a mapping file says.
-SignerRig signer_rig_of(const Stretch& stretch, const RigNames& names = {});
+/// Measured over at most kBodyFrames of a stretch's core.
+SignerRig signer_rig_of(const Stretch& stretch);
 
 /// A day of signing at a hundred frames a second. Frame rates come from files: a wrong one must not ask for a terabyte.
 inline constexpr std::int64_t kMostFrames = std::int64_t{24} * 60 * 60 * 100;

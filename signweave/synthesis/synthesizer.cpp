@@ -149,7 +149,8 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
     if (stretches[i].recording == edited) reference = i;
   }
   put_on_skeleton(stretches, reference, contents, notices);
-  const SignerRig rig = signer_rig_of(stretches[reference], contents.at(stretches[reference].recording).rig);
+  const RecordingInfo& layout = contents.at(stretches[reference].recording);
+  const SignerRig rig = signer_rig_of(snapshot, layout);
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
   CapturedSpans captured;
   if (const TransitionMethod* const asking = method_with_spans(stretches, method)) {
@@ -194,6 +195,12 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
 }
 
 }  // namespace
+
+SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording) {
+  SignerModel signer = *snapshot.signer(recording);
+  JointGroups groups = joint_groups(*snapshot.motion(recording)->skeleton(), signer.rig);
+  return {std::move(signer), std::move(groups)};
+}
 
 void check(const SynthesisOptions& options) {
   const auto check_tempo = [](double tempo) {

@@ -54,6 +54,9 @@ struct Synthesized {
   std::string layout_from;
 };
 
+/// Of the signer of a recording, whose motion is measured once as long as nothing in the database changes.
+SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording);
+
 /// Signs an utterance: the few lines that call the rest. Throws MissingGlosses for glosses that the database lacks,
 /// Error{bad_input} for skeletons that cannot be joined, options out of range, a junction that there is not. `used` is
 /// an older result whose memory may be used again.

@@ -5,6 +5,7 @@
 
 #include "signweave/transition/arm_reach.h"
 #include "signweave/transition/fade.h"
+#include "signweave/transition/knots.h"
 
 namespace signweave {
 namespace {
@@ -15,6 +16,13 @@ using Eigen::Vector3f;
 constexpr float kMostTurn = 0.25f;
 /// How gladly a finger goes aside, where 1 is how gladly it bends.
 constexpr float kAside = 0.5f;
+
+/// Two fingers that move so far past each other between two frames may have gone through each other. As thin as they
+/// are, one that goes less far is deeper by less than a millimetre in between. Metres.
+constexpr float kPassed = 0.012f;
+
+/// Two fingers lie on the same sides of each other in two frames where the ways out of each other are so much alike.
+constexpr float kSameSide = 0.9f;
 
 /// The bend is greatest no nearer to a border than this share of the gap.
 constexpr float kNearestPeak = 0.2f;
@@ -48,20 +56,6 @@ FingerGuard::FingerGuard(const Skeleton& skeleton, const RigMap& rig, Side side)
   }
 }
 
-void FingerGuard::set_borders(const HandPoints& left, const HandPoints& right) noexcept {
-  radii_ = finger_radii(left);
-  phalanges_of(left, radii_, phalanges_);
-  allowed_ = finger_depths(phalanges_);
-  phalanges_of(right, radii_, phalanges_);
-  const FingerDepths other = finger_depths(phalanges_);
-  for (std::size_t i = 0; i < allowed_.size(); ++i) allowed_[i] = std::max(allowed_[i], other[i]) + kFingerDepthAllowed;
-}
-
-bool FingerGuard::crosses(const HandPoints& hand) noexcept {
-  phalanges_of(hand, radii_, phalanges_);
-  return worst_crossing(phalanges_, allowed_, 0).has_value();
-}
-
 void FingerGuard::read(PoseView pose) {
   chains_.to_model_space(pose, pose_);
   places_.front().read(pose_, points_);
@@ -70,22 +64,22 @@ void FingerGuard::read(PoseView pose) {
 
 /// Turns about the hinges of one finger so that it goes some way where it is touched, the least turns that do.
 void FingerGuard::lead_out(const FingerCrossing::One& one, const Vector3f& way, const HandAxes& axes,
-                           Hinges& hinges) const {
+                           Correction& correction) const {
   const std::array<JointIndex, 2>& joints = joints_[static_cast<std::size_t>(one.finger)];
   const float length = way.norm();
   const Vector3f out = way / length;
-  const std::size_t first = hinges.count;
+  const std::size_t first = correction.count;
   std::array<float, 3> gains;   // metres along `out` for each radian
   std::array<float, 3> gladly;  // how gladly it turns
   float sum = 1e-6f;
   const auto add = [&](JointIndex joint, const Vector3f& axis, float weight) {
     if (joint == kNoJoint) return;
     const auto parent = static_cast<std::size_t>(skeleton_->joint(joint).parent);
-    const std::size_t i = hinges.count - first;
+    const std::size_t i = correction.count - first;
     gains[i] = axis.cross(one.at - pose_.positions[static_cast<std::size_t>(joint)]).dot(out);
     gladly[i] = weight;
     sum += weight * gains[i] * gains[i];
-    hinges.all[hinges.count++] = {joint, pose_.rotations[parent].conjugate() * axis, 0};
+    correction.hinges[correction.count++] = {joint, pose_.rotations[parent].conjugate() * axis, 0};
   };
   if (one.finger == Finger::thumb) {  // its first joint turns every way
     if (joints[0] == kNoJoint) return;
@@ -96,13 +90,13 @@ void FingerGuard::lead_out(const FingerCrossing::One& one, const Vector3f& way, 
     add(joints[0], axes.palm, kAside);
     if (one.bone > 0) add(joints[1], axes.thumb, 1);
   }
-  for (std::size_t i = 0; i < hinges.count - first; ++i) {
-    hinges.all[first + i].angle = std::clamp(gladly[i] * gains[i] * length / sum, -kMostTurn, kMostTurn);
+  for (std::size_t i = 0; i < correction.count - first; ++i) {
+    correction.hinges[first + i].angle = std::clamp(gladly[i] * gains[i] * length / sum, -kMostTurn, kMostTurn);
   }
 }
 
 /// From pose_ and points_ of the crossing's frame.
-FingerGuard::Hinges FingerGuard::way_out(const FingerCrossing& crossing, Way by) {
+FingerGuard::Correction FingerGuard::way_out(const FingerCrossing& crossing, Way by) {
   const HandAxes axes = axes_of(points_, side_);
   Vector3f away = crossing.away.isZero() ? axes.palm : crossing.away;
   if (by != Way::nearest) {
@@ -112,67 +106,162 @@ FingerGuard::Hinges FingerGuard::way_out(const FingerCrossing& crossing, Way by)
   }
   // A little farther than needed, or the rounds would only come near.
   const Vector3f half = 0.5f * (crossing.beyond + 0.5f * kFingerDepthAllowed) * away;
-  Hinges hinges;
-  lead_out(crossing.a, half, axes, hinges);
-  lead_out(crossing.b, -half, axes, hinges);
-  return hinges;
+  Correction correction;
+  lead_out(crossing.a, half, axes, correction);
+  lead_out(crossing.b, -half, axes, correction);
+  return correction;
 }
 
-FingerGuard::Worst FingerGuard::look(const Gap& gap, MutablePoses made) {
-  Worst worst;
-  for (std::int64_t frame = 0; frame < gap.count; ++frame) {
-    read(pose_at(*skeleton_, made, frame));
-    if (const auto crossing = worst_crossing(phalanges_, allowed_, worst.crossing.beyond)) worst = {frame, *crossing};
+MutablePoseView FingerGuard::pose_of(std::int64_t frame) const noexcept {
+  return pose_at(*skeleton_, made_, frame);
+}
+
+/// Bends the fingers of one frame, ever less towards both borders.
+void FingerGuard::apply(const Correction& correction, std::int64_t frame) const {
+  const MutablePoseView pose = pose_of(frame);
+  const float share = bump(moment_of(*gap_, frame), correction.peak);
+  for (std::size_t i = 0; i < correction.count; ++i) {
+    const Hinge& hinge = correction.hinges[i];
+    Eigen::Quaternionf& local = pose.rotations[static_cast<std::size_t>(hinge.joint)];
+    set_in_hemisphere(local, Eigen::Quaternionf(Eigen::AngleAxisf(share * hinge.angle, hinge.axis)) * local);
   }
-  return worst;
 }
 
-bool FingerGuard::mend(const Gap& gap, Way by, float& least, MutablePoses made) {
-  const auto each = [&](auto&& use) {
-    for (std::int64_t frame = 0; frame < gap.count; ++frame) {
-      const MutablePoseView pose = pose_at(*skeleton_, made, frame);
-      Eigen::Quaternionf* kept = best_.data() + static_cast<std::size_t>(frame) * bent_.size();
-      for (const JointIndex joint : bent_) use(pose.rotations[static_cast<std::size_t>(joint)], *kept++);
+/// Of a frame that was made.
+FingerGuard::Knot FingerGuard::knot_at(std::int64_t frame) {
+  Knot knot{.frame = frame, .as_made = kept_.size()};
+  const MutablePoseView pose = pose_of(frame);
+  for (const JointIndex joint : bent_) kept_.push_back(pose.rotations[static_cast<std::size_t>(joint)]);
+  for (const Correction& correction : corrections_) apply(correction, frame);
+  look(knot);
+  return knot;
+}
+
+void FingerGuard::look(Knot& knot) {
+  const bool inside = knot.frame >= 0 && knot.frame < gap_->count;
+  read(inside ? PoseView(pose_of(knot.frame)) : knot.frame < 0 ? gap_->left() : gap_->right());
+  for (std::size_t i = 0; i < knot.fingers.size(); ++i) {
+    const Phalanges::One& finger = phalanges_.fingers[i];
+    if (finger.end == finger.begin) continue;
+    knot.fingers[i] = {phalanges_.bones[finger.end - 1].to, phalanges_.bones[(finger.begin + finger.end) / 2].from};
+  }
+  pairs_ = finger_pairs(phalanges_);
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const FingerPair& pair = pairs_[i];
+    knot.pairs[i] = {.depth = pair.depth};
+    if (pair.depth < -kPassed) continue;
+    knot.pairs[i].away = approach(phalanges_.bones[pair.a], phalanges_.bones[pair.b]).away;
+  }
+  knot.crossing = inside ? worst_crossing(phalanges_, pairs_, allowed_) : std::nullopt;
+}
+
+bool FingerGuard::may_hide(const Knot& a, const Knot& b) const {
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < kFingers.size(); ++i) {
+    const Vector3f tip = b.fingers[i].tip - a.fingers[i].tip;
+    const Vector3f joint = b.fingers[i].joint - a.fingers[i].joint;
+    for (std::size_t k = i + 1; k < kFingers.size(); ++k, ++pair) {
+      const Beside& before = a.pairs[pair];
+      const Beside& after = b.pairs[pair];
+      if (before.away.dot(after.away) > kSameSide) continue;
+      const float moved = std::sqrt(std::max((tip - (b.fingers[k].tip - a.fingers[k].tip)).squaredNorm(),
+                                             (joint - (b.fingers[k].joint - a.fingers[k].joint)).squaredNorm()));
+      const float left = std::max(0.0f, allowed_[pair] - before.depth) + std::max(0.0f, allowed_[pair] - after.depth);
+      if (moved > kPassed && moved > left) return true;
     }
-  };
+  }
+  return false;
+}
+
+bool FingerGuard::refine() {
+  return refine_knots(
+      knots_, added_, 2 * knot_stride(gap_->rate), [this](std::int64_t frame) { return knot_at(frame); },
+      [this](const Knot& a, const Knot& b) { return may_hide(a, b); });
+}
+
+/// Finds corrections, and applies them to the knots. `least` is how deep the worst of them was, and is then.
+bool FingerGuard::lead_out(Way by, float& least) {
   away_.fill(Vector3f::Zero());
-  bool best_is_last = true;
-  int round = 0;
-  for (;; ++round) {
-    const Worst worst = look(gap, made);
-    best_is_last = round == 0 || worst.crossing.beyond < least;
-    if (best_is_last) least = worst.crossing.beyond;
-    if (worst.frame < 0 || round == kRounds) break;
-    if (best_is_last) {
-      best_.resize(std::max(best_.size(), static_cast<std::size_t>(gap.count) * bent_.size()));
-      each([](const Eigen::Quaternionf& now, Eigen::Quaternionf& kept) { kept = now; });
+  std::size_t best = corrections_.size();
+  bool first = true;
+  for (int round = 0;;) {
+    const Knot* worst = nullptr;
+    float beyond = 0;
+    for (const Knot& knot : knots_) {
+      if (!knot.crossing || knot.crossing->beyond <= beyond) continue;
+      beyond = knot.crossing->beyond;
+      worst = &knot;
     }
-    read(pose_at(*skeleton_, made, worst.frame));
-    const Hinges hinges = way_out(worst.crossing, by);
+    if (first || beyond < least) {
+      least = beyond;
+      best = corrections_.size();
+    }
+    first = false;
+    if (worst == nullptr) {
+      if (!refine()) break;
+      first = true;
+      continue;
+    }
+    if (round++ == kRounds) break;
+    read(pose_of(worst->frame));
+    corrections_.push_back(way_out(*worst->crossing, by));
     // Not so near a border that fingers would snap there.
-    const float peak = std::clamp(moment_of(gap, worst.frame), kNearestPeak, 1 - kNearestPeak);
-    for (std::int64_t frame = 0; frame < gap.count; ++frame) {
-      const MutablePoseView pose = pose_at(*skeleton_, made, frame);
-      const float share = bump(moment_of(gap, frame), peak);
-      for (std::size_t i = 0; i < hinges.count; ++i) {
-        const Hinge& hinge = hinges.all[i];
-        Eigen::Quaternionf& local = pose.rotations[static_cast<std::size_t>(hinge.joint)];
-        set_in_hemisphere(local, Eigen::Quaternionf(Eigen::AngleAxisf(share * hinge.angle, hinge.axis)) * local);
-      }
+    corrections_.back().peak = std::clamp(moment_of(*gap_, worst->frame), kNearestPeak, 1 - kNearestPeak);
+    for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
+      apply(corrections_.back(), knots_[i].frame);
+      look(knots_[i]);
     }
   }
-  if (!best_is_last) each([](Eigen::Quaternionf& now, const Eigen::Quaternionf& kept) { now = kept; });
-  return round > 0;
+  if (best < corrections_.size()) {
+    corrections_.resize(best);
+    for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
+      const MutablePoseView pose = pose_of(knots_[i].frame);
+      const Eigen::Quaternionf* kept = kept_.data() + knots_[i].as_made;
+      for (const JointIndex joint : bent_) pose.rotations[static_cast<std::size_t>(joint)] = *kept++;
+      for (const Correction& correction : corrections_) apply(correction, knots_[i].frame);
+      look(knots_[i]);
+    }
+  }
+  return least > 0;
 }
 
 bool FingerGuard::mend(const Gap& gap, MutablePoses made) {
-  bool bent = false;
+  gap_ = &gap;
+  made_ = made;
+  const auto frames = static_cast<std::size_t>(gap.count + 2);
+  knots_.clear();
+  knots_.reserve(frames);
+  added_.reserve(frames);
+  kept_.clear();
+  kept_.reserve(frames * bent_.size());
+  corrections_.clear();
+  corrections_.reserve(3 * kRounds);
+  chains_.to_model_space(gap.left(), pose_);
+  places_.front().read(pose_, points_);
+  radii_ = finger_radii(points_);
+  allowed_.fill(kFingerDepthAllowed);
+  for (const std::int64_t border : {std::int64_t{-1}, gap.count}) {
+    look(knots_.emplace_back(Knot{.frame = border}));
+    const FingerDepths depths = finger_depths(pairs_);
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      allowed_[i] = std::max(allowed_[i], depths[i] + kFingerDepthAllowed);
+    }
+  }
+  refine();
   float least = 0;
   for (const Way by : {Way::nearest, Way::first, Way::other}) {
-    bent |= mend(gap, by, least, made);
-    if (!(least > 0)) break;
+    if (!lead_out(by, least)) break;
   }
-  return bent;
+  if (corrections_.empty()) return false;
+  std::size_t knot = 1;
+  for (std::int64_t frame = 0; frame < gap.count; ++frame) {
+    if (knots_[knot].frame == frame) {
+      ++knot;
+      continue;
+    }
+    for (const Correction& correction : corrections_) apply(correction, frame);
+  }
+  return true;
 }
 
 }  // namespace signweave

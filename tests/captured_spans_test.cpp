@@ -49,7 +49,8 @@ bool same_frames(const Motion& a, const Motion& b) {
 TEST(CapturedSpans, AreTheAnnotatedTransitionsOfTheSkeleton) {
   const Snapshot snapshot = two_recordings_corpus().snapshot();
   const auto skeleton = two_recordings_corpus().skeleton("meteo");
-  const CapturedSpans captured = captured_spans(snapshot, *skeleton, groups_of(two_recordings_corpus(), "meteo"));
+  const CapturedSpans captured =
+      captured_spans(snapshot, *skeleton, groups_of(two_recordings_corpus(), "meteo"), Needs::spans);
   EXPECT_EQ(captured.transitions, 32u + 21u);
   ASSERT_EQ(captured.model->libraries.size(), 1u);
   const std::vector<CapturedSpan>& spans = captured.model->libraries[0]->spans;
@@ -72,7 +73,7 @@ TEST(CapturedSpans, AreTheAnnotatedTransitionsOfTheSkeleton) {
 TEST(CapturedSpans, OfAnotherSkeletonThereAreNone) {
   const Motion other = testing_database::signing(10, 1);
   const CapturedSpans captured = captured_spans(two_recordings_corpus().snapshot(), other.skeleton(),
-                                                joint_groups(other.skeleton(), map_rig(other)));
+                                                joint_groups(other.skeleton(), map_rig(other)), Needs::spans);
   EXPECT_EQ(captured.transitions, 0u);
   EXPECT_TRUE(captured.model->libraries.empty());
 }

@@ -30,13 +30,16 @@ DatabaseInfo run_info(const Database& database, const std::function<std::vector<
                     .access_mode = database.access_mode(),
                     .tolerance = database.tolerance(),
                     .documents = database.document_storage(),
-                    .weights = {}};
+                    .weights = {},
+                    .residuals = {}};
   try {
     info.usage = usage();
   } catch (const Error& error) {
     listener.blame(error.what());
   }
-  info.weights = database.snapshot().learned()->weights;
+  const std::shared_ptr<const semantic_db::Learned> learned = database.snapshot().learned();
+  info.weights = learned->weights;
+  info.residuals = learned->residuals;
   return info;
 }
 
@@ -76,6 +79,7 @@ json json_of(const DatabaseInfo& info) {
           {"compact_mm", millimetres(info.tolerance)},
           {"documents", name_of(info.documents)},
           {"weights", json_of(info.weights)},
+          {"transitions", json_of(info.residuals)},
           {"recordings", std::move(recordings)}};
 }
 

@@ -24,6 +24,7 @@ struct DatabaseInfo {
   float tolerance = 0;
   DocumentStorage documents = DocumentStorage::document;  ///< of those to come
   JoinWeights weights;
+  ResidualModel residuals;  ///< what movements taught of transitions
 };
 
 /// `usage` looks at every entry: Database::usage, or usage_in_child. Its fault is told.

@@ -115,8 +115,8 @@ void remake(const Snapshot& snapshot, const RemakeJob& job, Motion& motion, std:
   const JointGroups groups = joint_groups(skeleton, signer.rig);
   const GapMethod& fill = *job.method.fill;
   CapturedSpans captured;
-  if (fill.needs_spans) {
-    captured = captured_spans(snapshot, skeleton, groups, job.info.name);
+  if (fill.needs == Needs::spans) {
+    captured = captured_spans(snapshot, skeleton, groups, fill.needs, job.info.name);
     if (captured.transitions == 0) {
       notices.push_back({"", fmt::format("no annotated transition of this skeleton in another recording of this "
                                          "database: '{}' goes by none, and makes the likeliest way",

@@ -133,12 +133,13 @@ TEST_P(Remake, MakesWhatTheEvaluationMakes) {
   const EvaluatedMotion whole = evaluated_motion(name, std::move(motion), rig, {}, contents->at(name).clock);
   BodyGuard guard(whole.motion.skeleton(), whole.signer, whole.groups);
   const TransitionMethod& method = *find_transition_method(GetParam());
-  const CapturedSpans others = captured_spans(database().snapshot(), whole.motion.skeleton(), whole.groups, name);
+  const CapturedSpans others =
+      captured_spans(database().snapshot(), whole.motion.skeleton(), whole.groups, method.fill->needs, name);
   const FrameRange gap{100, 140};
   Regenerator regenerator;
   const Regenerator::Made expected =
       regenerator.make(*method.fill, gap_at(whole.motion, whole.groups, gap, gap.size()),
-                       method.fill->needs_spans ? *others.model : default_transition_model(), &guard);
+                       method.fill->needs == Needs::spans ? *others.model : default_transition_model(), &guard);
   // What is exported need not hold all that the method looks at.
   for (const auto& [from, to] : {std::pair<std::int64_t, std::int64_t>{500, 3500}, {1470, 1930}}) {
     const Exported made = exported({.from = from, .to = to, .remake = {"1500..1900"}, .transition = GetParam()});

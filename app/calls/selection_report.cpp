@@ -39,6 +39,28 @@ json json_of(const JoinWeights& weights) {
           {"wins", weights.wins},     {"default_wins", weights.default_wins}};
 }
 
+std::string describe(const ResidualModel& residuals) {
+  const std::string from = fmt::format("{} of {}", counted(residuals.movements, "captured movement"),
+                                       counted(residuals.recordings, "recording"));
+  if (residuals.folds == 0) return fmt::format("nothing learned from {}: too few to compare", from);
+  const std::string compared = fmt::format(
+      "wrists are off by {:.3f} of what the likeliest way is in the mean, {:.3f} in the median "
+      "({} left out in turn)",
+      residuals.mean_ratio, residuals.median_ratio, residuals.by_signer ? "signers" : "recordings");
+  if (residuals.centres.empty()) return fmt::format("nothing learned from {}: {}", from, compared);
+  return fmt::format("learned from {}: {}; --transition taught goes by it", from, compared);
+}
+
+json json_of(const ResidualModel& residuals) {
+  return {{"learned", !residuals.centres.empty()},
+          {"movements", residuals.movements},
+          {"recordings", residuals.recordings},
+          {"folds", residuals.folds},
+          {"left_out_by", residuals.by_signer ? "signer" : "recording"},
+          {"mean_ratio", residuals.mean_ratio},
+          {"median_ratio", residuals.median_ratio}};
+}
+
 json places_of(const Synthesized& made) {
   json places = json::array();
   for (std::size_t place = 0; place < made.choices.size(); ++place) {

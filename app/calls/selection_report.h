@@ -15,4 +15,9 @@ nlohmann::json json_of(const JoinWeights& weights);
 /// The same as one line: "learned from 92 pairs of recorded neighbours, …".
 std::string describe(const JoinWeights& weights);
 
+/// What captured movements taught of transitions.
+nlohmann::json json_of(const ResidualModel& residuals);
+/// The same as one line: "nothing learned from 12 movements of 2 recordings: too few to compare".
+std::string describe(const ResidualModel& residuals);
+
 }  // namespace signweave::calls

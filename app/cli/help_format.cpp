@@ -41,4 +41,15 @@ std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
   return wrapped(Formatter::make_option_desc(option), kWidth - get_column_width());
 }
 
+std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
+  // A list of words says itself what they are.
+  constexpr std::string_view kListed = " TEXT:{";
+  std::string text = Formatter::make_option_opts(option);
+  if (!text.starts_with(kListed)) return text;
+  text.replace(0, kListed.size(), " {");
+  constexpr std::size_t kMost = 80;  // beside the option's name
+  if (text.size() > kMost) text.insert(text.rfind(',', kMost - 1) + 1, "\n" + std::string(kIndent, ' '));
+  return text;
+}
+
 }  // namespace signweave::cli

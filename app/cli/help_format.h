@@ -10,7 +10,9 @@ namespace signweave::cli {
 class HelpFormat : public CLI::Formatter {
  public:
   static constexpr std::size_t kWidth = 100;
+  static constexpr std::size_t kIndent = 16;  ///< of what a long list of words goes on with
   std::string make_option_desc(const CLI::Option* option) const override;
+  std::string make_option_opts(const CLI::Option* option) const override;
 };
 
 /// The text in lines of at most so many letters, broken at blanks. What an indented line goes on

@@ -82,6 +82,7 @@ void info_of_database(const std::string& folder, Io& io) {
   }
   if (kinds.size() > 1) io.out << format_table(kinds);
   io.out << fmt::format("weights of joins: {}\n", describe(found.weights));
+  io.out << fmt::format("transitions: {}\n", describe(found.residuals));
   for (const std::string& fault : contents.faults) io.err << "signweave: " << fault << '\n';
   if (!contents.faults.empty()) io.status = 1;
 }

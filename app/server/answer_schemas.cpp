@@ -12,7 +12,7 @@ constexpr const char* kDatabaseAnswers = R"json({
         "declarations": {"$ref": "#/components/schemas/Declarations"}}}}}},
   "Database": {"type": "object",
     "required": ["engine", "engine_version", "entries", "bytes_on_disk", "bytes_free", "layout", "usage", "access_mode", "compact_mm",
-                 "weights", "recordings"],
+                 "weights", "transitions", "recordings"],
     "properties": {
       "engine": {"type": "string"}, "engine_version": {"type": "string"}, "entries": {"type": "integer"},
       "bytes_on_disk": {"type": "integer"},
@@ -21,6 +21,11 @@ constexpr const char* kDatabaseAnswers = R"json({
       "compact_mm": {"type": "number", "description": "0: motions are kept to the bit"},
       "documents": {"enum": ["document", "node"], "description": "how annotation is stored that is imported later"},
       "weights": {"$ref": "#/components/schemas/Weights"},
+      "transitions": {"type": "object", "description": "what captured movements taught of transitions (docs/synthesis.md)",
+        "required": ["learned", "movements", "recordings", "folds", "left_out_by", "mean_ratio", "median_ratio"], "properties": {
+          "learned": {"type": "boolean"}, "movements": {"type": "integer"}, "recordings": {"type": "integer"},
+          "folds": {"type": "integer"}, "left_out_by": {"enum": ["signer", "recording"]},
+          "mean_ratio": {"type": "number"}, "median_ratio": {"type": "number"}}},
       "usage": {"type": "array", "items": {"type": "object", "required": ["kind", "entries", "bytes"],
         "properties": {"kind": {"type": "string"}, "entries": {"type": "integer"}, "bytes": {"type": "integer"}}}},
       "recordings": {"type": "array", "items": {"type": "object",

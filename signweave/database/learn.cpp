@@ -86,12 +86,14 @@ semantic_db::Learned learn_from(const Snapshot& snapshot) {
     learned.durations = fit_durations(timed_transitions(snapshot));
   }
   count_signs(contents.segments, learned);
+  learned.residuals = learn_movements(snapshot);
   return learned;
 }
 
 bool nearly_same(const semantic_db::Learned& a, const semantic_db::Learned& b) noexcept {
   return nearly_same(a.weights, b.weights) && nearly_same(a.durations, b.durations) &&
-         a.phased_signs == b.phased_signs && a.unphased_signs == b.unphased_signs;
+         nearly_same(a.residuals, b.residuals) && a.phased_signs == b.phased_signs &&
+         a.unphased_signs == b.unphased_signs;
 }
 
 std::shared_ptr<const semantic_db::Learned> Snapshot::learned() const {

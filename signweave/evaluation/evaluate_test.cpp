@@ -116,7 +116,7 @@ void spill(const GapJob& job, MutablePoses out) noexcept {
 
 TEST(Regenerator, AMethodThatWritesPastTheGapIsCaught) {
   const EvaluatedMotion recording = lively("a", 0.1);
-  const GapMethod method{"spill", "", Offered::evaluation, false, spill};
+  const GapMethod method{"spill", "", Offered::evaluation, Needs::nothing, spill};
   const Gap gap = gap_at(recording.motion, recording.groups, {100, 120}, 20);
   Regenerator regenerator;
   EXPECT_EQ(regenerator.make(method, gap, default_transition_model()).changed, 1);

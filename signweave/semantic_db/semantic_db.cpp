@@ -55,6 +55,7 @@ void put_learned(kv::WriteTransaction& transaction, const Learned& learned) {
   encode(learned.durations, writer);
   writer.number(learned.phased_signs);
   writer.number(learned.unphased_signs);
+  encode(learned.residuals, writer);
   transaction.put(learned_key(), kv::sealed(writer.bytes()));
 }
 
@@ -70,6 +71,7 @@ std::optional<Learned> read_learned(const kv::ReadTransaction& snapshot) {
   learned.durations = decode_duration_fit(in);
   learned.phased_signs = in.number<std::uint64_t>();
   learned.unphased_signs = in.number<std::uint64_t>();
+  learned.residuals = decode_residual_model(in);
   in.finish();
   return learned;
 }

@@ -10,6 +10,7 @@
 #include "signweave/features/duration_fit.h"
 #include "signweave/features/join.h"
 #include "signweave/features/phase_features.h"
+#include "signweave/features/residual_model.h"
 #include "signweave/kv/kv_store.h"
 #include "signweave/semantic_db/documents.h"
 #include "signweave/semantic_db/segments.h"
@@ -41,6 +42,7 @@ struct Learned {
   /// Fitted on what the hands had to do in annotated transitions; its count is of those that it looked at. `median` is
   /// not used.
   DurationFit durations;
+  ResidualModel residuals;           ///< what movements teach of transitions; looked at only where it wins
   std::uint64_t phased_signs = 0;    ///< that have annotated phases
   std::uint64_t unphased_signs = 0;  ///< that have none
 };
@@ -51,7 +53,7 @@ void put_learned(kv::WriteTransaction& transaction, const Learned& learned);
 /// As it was put; none where there is none, or another version learned. Throws Error{corrupt}.
 std::optional<Learned> read_learned(const kv::ReadTransaction& snapshot);
 /// The number of the method of learning: count it up with any change that gives other numbers.
-inline constexpr std::uint16_t kLearnedVersion = 2;
+inline constexpr std::uint16_t kLearnedVersion = 3;
 
 /// What the record under a key is: "documents", "segments", "features", "segment tables" or "weights"; empty where it
 /// is none of this database's.

@@ -141,7 +141,9 @@ void GrowingUtterance::begin_header(const Stretch& stretch, const std::shared_pt
   const TransitionMethod* const method = synthesis.method != nullptr ? synthesis.method : &transition_methods().front();
   rig_ = base_.rig(open_.snapshot(), stretch.recording);
   fit_ = base_.durations(contents, synthesis.duration);
-  if (method->fill->needs_spans) spans_ = base_.spans(open_.snapshot(), stretch, *rig_);
+  if (method->fill->needs != Needs::nothing) {
+    spans_ = base_.spans(open_.snapshot(), stretch, *rig_, method->fill->needs);
+  }
   const JunctionSettings settings{.skeleton = stretch.source->skeleton(),
                                   .rate = synthesis.rate.value_or(stretch.source->rate()),
                                   .method = method,

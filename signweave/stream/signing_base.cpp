@@ -145,10 +145,13 @@ std::shared_ptr<const SignerRig> SigningBase::rig(const Snapshot& snapshot, cons
 }
 
 std::shared_ptr<const CapturedSpans> SigningBase::spans(const Snapshot& snapshot, const Stretch& stretch,
-                                                        const SignerRig& rig) {
+                                                        const SignerRig& rig, Needs needs) {
   return look_up<CapturedSpans>(
-      snapshot.shared_contents(), [&](Known & known) -> auto& { return known.spans[stretch.recording]; },
-      [&] { return captured_spans(snapshot, *stretch.source->skeleton(), rig.groups); });
+      snapshot.shared_contents(),
+      [&](Known & known) -> auto& {
+        return known.spans[{stretch.recording, needs}];
+      },
+      [&] { return captured_spans(snapshot, *stretch.source->skeleton(), rig.groups, needs); });
 }
 
 std::shared_ptr<const KnownRest> SigningBase::rest(const Snapshot& snapshot, const Stretch& stretch,

@@ -56,7 +56,8 @@ class SigningBase {
   /// As `signer_rig_of` for a recording.
   std::shared_ptr<const SignerRig> rig(const Snapshot& snapshot, const std::string& recording);
   /// As `captured_spans`, for the skeleton of a recording.
-  std::shared_ptr<const CapturedSpans> spans(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
+  std::shared_ptr<const CapturedSpans> spans(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig,
+                                             Needs needs);
   /// Where the signer of a recording rests, in one of the signer's recordings.
   std::shared_ptr<const KnownRest> rest(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
   /// How a recording's motion is put onto the skeleton of `onto`, which has other joints. Throws what `map_body`
@@ -83,7 +84,7 @@ class SigningBase {
     std::map<bool, std::shared_ptr<const DurationFit>> durations;  ///< by whether they may be fitted
     std::unordered_map<std::string, std::shared_ptr<const std::vector<Candidate>>> candidates;  ///< by the place
     std::map<std::string, std::shared_ptr<const SignerRig>> rigs;                               ///< by recording
-    std::map<std::string, std::shared_ptr<const CapturedSpans>> spans;                          ///< by recording
+    std::map<std::pair<std::string, Needs>, std::shared_ptr<const CapturedSpans>> spans;  ///< by recording and needs
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const BodyMapping>>
         mappings;                                         ///< by recording, and that whose skeleton it is put onto
     std::vector<std::shared_ptr<const KnownRest>> rests;  ///< few: of each signer one for each skeleton

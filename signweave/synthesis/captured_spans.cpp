@@ -64,9 +64,20 @@ bool add(const MotionSource& source, const JointGroups& groups, FrameRange frame
 
 }  // namespace
 
-CapturedSpans captured_spans(const Snapshot& snapshot, const Skeleton& skeleton, const JointGroups& groups,
+CapturedSpans captured_spans(const Snapshot& snapshot, const Skeleton& skeleton, const JointGroups& groups, Needs needs,
                              std::string_view without) {
   const Contents& contents = snapshot.contents();
+  SpanCollector collector;
+  CapturedSpans captured;
+  if (without.empty()) {
+    const std::shared_ptr<const semantic_db::Learned> learned = snapshot.learned();
+    captured.taught = !learned->residuals.centres.empty();
+    collector.set_residuals({learned, &learned->residuals});
+  }
+  if (needs != Needs::spans) {
+    captured.model = collector.take_model();
+    return captured;
+  }
   std::vector<std::uint32_t> recordings;
   for (std::uint32_t i = 0; i < contents.recordings.size(); ++i) {
     const RecordingInfo& info = contents.recordings[i];
@@ -77,8 +88,6 @@ CapturedSpans captured_spans(const Snapshot& snapshot, const Skeleton& skeleton,
   for (const std::uint32_t recording : spread(recordings, kMostSpanRecordings)) {
     std::ranges::copy(transitions_of(contents, recording), std::back_inserter(all));
   }
-  SpanCollector collector;
-  CapturedSpans captured;
   Motion memory;
   std::unique_ptr<MotionSource> source;  // of the recording before
   std::uint32_t of = 0;

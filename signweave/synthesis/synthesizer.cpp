@@ -94,14 +94,16 @@ void check_numbers(const JunctionChoices& named, std::size_t places) {
                                                                  : fmt::format("are {}, counted from 1", junctions)));
 }
 
-/// The first method of a junction that asks for captured spans, or null.
-const TransitionMethod* method_with_spans(const std::vector<Stretch>& stretches, const TransitionMethod& of_all) {
+/// The first method of a junction that needs something of the corpus, captured spans before all; or null.
+const TransitionMethod* method_with_needs(const std::vector<Stretch>& stretches, const TransitionMethod& of_all) {
+  const TransitionMethod* found = nullptr;
   for (std::size_t i = 1; i < stretches.size(); ++i) {
     const TransitionMethod* const own = stretches[i].junction.method;
     const TransitionMethod& method = own != nullptr ? *own : of_all;
-    if (method.fill->needs_spans) return &method;
+    if (method.fill->needs == Needs::spans) return &method;
+    if (method.fill->needs == Needs::teaching) found = &method;
   }
-  return nullptr;
+  return found;
 }
 
 /// `edited` names the recording that an edit starts from; empty for an utterance.
@@ -153,10 +155,15 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
   const SignerRig rig = signer_rig_of(snapshot, layout);
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
   CapturedSpans captured;
-  if (const TransitionMethod* const asking = method_with_spans(stretches, method)) {
-    captured = captured_spans(snapshot, *stretches[reference].source->skeleton(), rig.groups);
-    made.captured_transitions = captured.transitions;
-    if (captured.transitions == 0) {
+  if (const TransitionMethod* const asking = method_with_needs(stretches, method)) {
+    captured = captured_spans(snapshot, *stretches[reference].source->skeleton(), rig.groups, asking->fill->needs);
+    if (asking->fill->needs == Needs::teaching) {
+      if (!captured.taught) {
+        notices.push_back({"", fmt::format("this corpus teaches nothing of movements: '{}' makes the likeliest way; "
+                                           "'signweave info' says why",
+                                           asking->name)});
+      }
+    } else if (made.captured_transitions = captured.transitions; captured.transitions == 0) {
       notices.push_back(
           {"", fmt::format("no annotated transition of this skeleton in this database: '{}' goes by none, "
                            "and makes the likeliest way",

@@ -15,6 +15,7 @@ void fill_hermite(const GapJob& job, MutablePoses out) noexcept;
 void fill_quintic(const GapJob& job, MutablePoses out) noexcept;
 void fill_inertialize(const GapJob& job, MutablePoses out) noexcept;
 void fill_kriging(const GapJob& job, MutablePoses out) noexcept;
+void fill_taught(const GapJob& job, MutablePoses out) noexcept;
 void fill_learned(const GapJob& job, MutablePoses out) noexcept;
 void fill_recorded(const GapJob& job, MutablePoses out) noexcept;
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "signweave/features/residual_model.h"
 #include "signweave/transition/curves.h"
 #include "signweave/transition/model.h"
 
@@ -84,6 +85,7 @@ struct TransitionModel {
   Damping damping = undamped();
   std::vector<std::shared_ptr<const SpanLibrary>> libraries = {};  ///< one for each set of joints
   std::size_t purged = static_cast<std::size_t>(-1);               ///< spans of this recording are not looked at
+  std::shared_ptr<const ResidualModel> residuals = {};             ///< null: nobody taught any
 };
 
 /// How much of a border's velocity or acceleration goes on into a gap.

@@ -6,19 +6,26 @@ namespace signweave {
 namespace {
 
 constexpr GapMethod kMethods[] = {
-    {"kriging", "the likeliest way from a tenth of a second on either side", Offered::signing, false, fill_kriging},
-    {"learned", "the likeliest way, and what captured transitions bend from it", Offered::signing, false, fill_learned},
-    {"recorded", "bent as the captured spans are that begin and end most alike", Offered::signing, true, fill_recorded},
-    {"quintic", "place, velocity and acceleration at both borders", Offered::signing, false, fill_quintic},
-    {"hermite", "place and velocity at both borders", Offered::signing, false, fill_hermite},
-    {"inertialize", "what the left border is off the right side fades out", Offered::signing, false, fill_inertialize},
-    {"sine", "from rest to rest, along the shortest arc", Offered::signing, false, fill_sine},
-    {"gap", "each side coasts to rest while the two are cross-faded", Offered::signing, false, fill_coast},
-    {"slerp", "at one speed along the shortest arc", Offered::evaluation, false, fill_slerp},
-    {"crossfade", "both sides go on as they came, one fading into the other", Offered::evaluation, false,
+    {"kriging", "the likeliest way from a tenth of a second on either side", Offered::signing, Needs::nothing,
+     fill_kriging},
+    {"taught", "the likeliest way, bent as the corpus's own movements are", Offered::signing, Needs::teaching,
+     fill_taught},
+    {"learned", "the likeliest way, and what captured transitions bend from it", Offered::signing, Needs::nothing,
+     fill_learned},
+    {"recorded", "bent as the captured spans are that begin and end most alike", Offered::signing, Needs::spans,
+     fill_recorded},
+    {"quintic", "place, velocity and acceleration at both borders", Offered::signing, Needs::nothing, fill_quintic},
+    {"hermite", "place and velocity at both borders", Offered::signing, Needs::nothing, fill_hermite},
+    {"inertialize", "what the left border is off the right side fades out", Offered::signing, Needs::nothing,
+     fill_inertialize},
+    {"sine", "from rest to rest, along the shortest arc", Offered::signing, Needs::nothing, fill_sine},
+    {"gap", "each side coasts to rest while the two are cross-faded", Offered::signing, Needs::nothing, fill_coast},
+    {"slerp", "at one speed along the shortest arc", Offered::evaluation, Needs::nothing, fill_slerp},
+    {"crossfade", "both sides go on as they came, one fading into the other", Offered::evaluation, Needs::nothing,
      fill_crossfade},
-    {"recipe", "cut where poses are most alike, linear, mean of three frames", Offered::evaluation, false, fill_recipe},
-    {"hold", "stays at the left border, then leaps", Offered::evaluation, false, fill_hold},
+    {"recipe", "cut where poses are most alike, linear, mean of three frames", Offered::evaluation, Needs::nothing,
+     fill_recipe},
+    {"hold", "stays at the left border, then leaps", Offered::evaluation, Needs::nothing, fill_hold},
 };
 
 }  // namespace

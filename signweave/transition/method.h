@@ -10,6 +10,7 @@
 #include "signweave/motion/blend.h"
 #include "signweave/transition/gap.h"
 #include "signweave/transition/model.h"
+#include "signweave/transition/residual.h"
 
 namespace signweave {
 
@@ -49,6 +50,7 @@ struct GapScratch {
   std::vector<float> traits;                           ///< of the gap, as captured spans have them
   std::vector<std::pair<float, std::size_t>> nearest;  ///< distance and index of captured spans
   std::array<CoastingRotations, 4> coasting;
+  ArmScratch arms;
 };
 
 /// What a method fills: the joints and translations of some groups, in every frame of the gap.
@@ -65,12 +67,19 @@ enum class Offered : std::uint8_t {
   evaluation,  ///< a baseline: `evaluate` alone
 };
 
+/// What of a corpus a method goes by; without it, it does nothing of its own.
+enum class Needs : std::uint8_t {
+  nothing,
+  spans,     ///< captured ones: see SpanCollector
+  teaching,  ///< what the corpus teaches of movements: see ResidualModel
+};
+
 /// One way to fill a gap. `name` is what a user types.
 struct GapMethod {
   std::string_view name;
   std::string_view description;  ///< one line
   Offered offered = Offered::signing;
-  bool needs_spans = false;  ///< does nothing of its own where the model has no captured spans: see SpanCollector
+  Needs needs = Needs::nothing;
   /// Fills the job's groups in `out`, [frame of the gap], and leaves the others as they are. Frame 0 is the one after
   /// the left border. Quaternions keep one hemisphere from frame to frame, beginning with the left border's. Cannot
   /// fail: a joint whose numbers are not finite gets such, and the others are filled; where there is no memory left for

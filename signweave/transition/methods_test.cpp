@@ -127,7 +127,7 @@ TEST_P(EveryMethod, OtherGroupsKeepTheirBits) {
         const bool untouched = one.at(frame, joint).coeffs() == kUntouched.coeffs();
         EXPECT_EQ(untouched, of.of[joint] != group) << joint;
         // What is compared with captured spans is the group that is filled; all else is made joint by joint.
-        if (untouched || GetParam().needs_spans) continue;
+        if (untouched || GetParam().needs == Needs::spans) continue;
         EXPECT_EQ(one.at(frame, joint).coeffs(), all.at(frame, joint).coeffs()) << joint;
       }
     }

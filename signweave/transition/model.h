@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "signweave/core/time.h"
+#include "signweave/features/residual_model.h"
 #include "signweave/motion/motion.h"
 #include "signweave/transition/gap.h"
 
@@ -50,6 +51,8 @@ class SpanCollector {
   /// Adds a captured stretch, as TransitionTrainer::add does. False where it is left out: for numbers that are none, or
   /// because there are thousands already.
   bool add(const Gap& gap, PosesView captured);
+  /// What the model says of residuals.
+  void set_residuals(std::shared_ptr<const ResidualModel> residuals);
   /// The default model, with these spans. They go over into it: the collector is empty then.
   std::shared_ptr<const TransitionModel> take_model();
 

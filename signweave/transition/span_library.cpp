@@ -101,6 +101,7 @@ bool keep_span(std::size_t recording, const Gap& gap, PosesView captured, GapScr
 
 struct SpanCollector::State {
   std::vector<std::shared_ptr<SpanLibrary>> libraries;
+  std::shared_ptr<const ResidualModel> residuals;
   GapScratch scratch;
 };
 
@@ -111,10 +112,15 @@ bool SpanCollector::add(const Gap& gap, PosesView captured) {
   return keep_span(0, gap, captured, state_->scratch, state_->libraries);
 }
 
+void SpanCollector::set_residuals(std::shared_ptr<const ResidualModel> residuals) {
+  state_->residuals = std::move(residuals);
+}
+
 std::shared_ptr<const TransitionModel> SpanCollector::take_model() {
   auto model = std::make_shared<TransitionModel>(default_transition_model());
   model->libraries.assign(state_->libraries.begin(), state_->libraries.end());
   state_->libraries.clear();
+  model->residuals = state_->residuals;
   return model;
 }
 

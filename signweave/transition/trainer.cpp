@@ -116,6 +116,7 @@ float path_length(const std::vector<Eigen::Vector3f>& path) {
 struct TransitionTrainer::State {
   std::map<std::size_t, Sums> sums;  ///< [recording]
   std::vector<std::shared_ptr<SpanLibrary>> libraries;
+  std::vector<ResidualSpan> residuals;
   mutable bool given_out = false;  ///< a model has these libraries: they must stay as they are
   GapScratch scratch;
   Motion made;
@@ -270,6 +271,11 @@ std::shared_ptr<const TransitionModel> TransitionTrainer::State::model(std::opti
   model->libraries.assign(libraries.begin(), libraries.end());
   given_out = true;
   if (left_out) model->purged = *left_out;
+  std::vector<const ResidualSpan*> taught;
+  for (const ResidualSpan& span : residuals) {
+    if (span.fold != left_out) taught.push_back(&span);
+  }
+  model->residuals = std::make_shared<const ResidualModel>(fit_residuals(taught, kMostCentres));
   return model;
 }
 
@@ -295,6 +301,11 @@ void TransitionTrainer::add(std::size_t recording, const Gap& gap, PosesView cap
     state.given_out = false;
   }
   keep_span(recording, gap, captured, state.scratch, state.libraries);
+  fill_kriging({.gap = gap, .model = kUntaught, .scratch = state.scratch}, state.made.poses({0, gap.count}));
+  const PosesView kriged = view_of(state.made, {0, gap.count});
+  if (auto span = residual_span(recording, gap, captured, kriged, state.scratch.arms)) {
+    state.residuals.push_back(*std::move(span));
+  }
 }
 
 std::shared_ptr<const TransitionModel> TransitionTrainer::model() const {

@@ -96,9 +96,10 @@ Matches matches_of(const GapJob& job) {
 
 /// The kriged way, bent as the captured spans bend from theirs that begin and end most alike: so each of them is warped
 /// to the borders, with its velocities, too.
+template <class Kriged>
 struct Recorded {
   static constexpr bool kBeyondSides = true;
-  Kriging kriging;
+  Kriged kriging;
   const Matches& matches;
   std::span<const float> traits;  ///< of the gap
   std::int64_t count;             ///< frames of the gap
@@ -164,8 +165,12 @@ struct Recorded {
 void fill_recorded(const GapJob& job, MutablePoses out) noexcept {
   const Matches matches = matches_of(job);
   const GapTime time(job.gap);
-  fill_curves(job, out,
-              Recorded{Kriging(job.gap, time, job.scratch.numbers), matches, job.scratch.traits, job.gap.count}, time);
+  const auto bent = [&](auto kriged) {
+    return Recorded<decltype(kriged)>{std::move(kriged), matches, job.scratch.traits, job.gap.count};
+  };
+  fill_by_part(
+      job, [&](const GapJob& fingers) { fill_curves(fingers, out, bent(FingerCurves{}), time); },
+      [&](const GapJob& others) { fill_curves(others, out, bent(Kriging(job.gap, time, job.scratch.numbers)), time); });
 }
 
 }  // namespace signweave

@@ -33,9 +33,18 @@ class GroupSet {
             JointGroup::right_fingers};
   }
   constexpr bool has(JointGroup group) const noexcept { return (bits_ & bit(group)) != 0; }
+  constexpr bool empty() const noexcept { return bits_ == 0; }
+  /// Those that are in the other set, too; and those that are not.
+  constexpr GroupSet within(GroupSet other) const noexcept { return of_bits(bits_ & other.bits_); }
+  constexpr GroupSet without(GroupSet other) const noexcept { return of_bits(bits_ & ~other.bits_); }
   friend constexpr bool operator==(GroupSet, GroupSet) = default;
 
  private:
+  static constexpr GroupSet of_bits(int bits) noexcept {
+    GroupSet set;
+    set.bits_ = static_cast<std::uint8_t>(bits);
+    return set;
+  }
   static constexpr std::uint8_t bit(JointGroup group) noexcept {
     return static_cast<std::uint8_t>(1u << static_cast<unsigned>(group));
   }

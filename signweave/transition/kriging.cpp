@@ -163,9 +163,32 @@ void Kriging::coefficients(const Sides& sides, Eigen::Vector3f* out) const noexc
   for (std::size_t i = 0; i < right_; ++i) out[left_ + i] = sides.after[i * stride_];
 }
 
+void FingerCurves::row(double t, std::int64_t, float* out) const noexcept {
+  const double square = t * t;
+  const double risen = 3 * square - 2 * square * t;
+  const auto run = [](double since) {
+    const double x = since / kRun;
+    return x < 1 ? since * (1 - x) * (1 - x) : 0.0;
+  };
+  out[0] = static_cast<float>(1 - risen);
+  out[1] = static_cast<float>(risen);
+  out[2] = static_cast<float>(run(t));
+  out[3] = static_cast<float>(-run(1 - t));
+}
+
+void FingerCurves::coefficients(const Sides& sides, Eigen::Vector3f* out) const noexcept {
+  const auto seconds = static_cast<float>(sides.seconds);
+  out[0] = sides.left();
+  out[1] = sides.right();
+  out[2] = seconds * motion_before(sides.before, sides.hertz).velocity;
+  out[3] = seconds * motion_after(sides.after, sides.hertz).velocity;
+}
+
 void fill_kriging(const GapJob& job, MutablePoses out) noexcept {
   const GapTime time(job.gap);
-  fill_curves(job, out, Kriging(job.gap, time, job.scratch.numbers), time);
+  fill_by_part(
+      job, [&](const GapJob& fingers) { fill_curves(fingers, out, FingerCurves{}, time); },
+      [&](const GapJob& others) { fill_curves(others, out, Kriging(job.gap, time, job.scratch.numbers), time); });
 }
 
 }  // namespace signweave

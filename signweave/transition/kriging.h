@@ -50,6 +50,27 @@ class Kriging {
   const float* rows_ = nullptr;  ///< [frame][sample] of weights that are kept; null: they are not
 };
 
+/// How fingers go: from one border's pose to the other's, level at both; a border's velocity goes on and is used up
+/// within kRun of the gap. Kriged ways go on with a velocity for longer than fingers do (docs/evaluation.md). (ours)
+struct FingerCurves {
+  static constexpr double kRun = 0.7;
+
+  std::size_t terms() const noexcept { return 4; }
+  void row(double t, std::int64_t frame, float* out) const noexcept;
+  void coefficients(const Sides& sides, Eigen::Vector3f* out) const noexcept;
+};
+
+/// A job in two: that of its fingers and that of everything else, where there are such.
+template <class OfFingers, class OfOthers>
+void fill_by_part(const GapJob& job, const OfFingers& of_fingers, const OfOthers& of_others) {
+  constexpr GroupSet kFingerGroups{JointGroup::left_fingers, JointGroup::right_fingers};
+  const auto part = [&](GroupSet groups, const auto& fill) {
+    if (!groups.empty()) fill(GapJob{.gap = job.gap, .model = job.model, .groups = groups, .scratch = job.scratch});
+  };
+  part(job.groups.within(kFingerGroups), of_fingers);
+  part(job.groups.without(kFingerGroups), of_others);
+}
+
 inline constexpr double kKrigingContext = 0.1;  ///< seconds
 inline constexpr std::size_t kMostKept = 256;
 inline constexpr std::int64_t kMostKeptFrames = 128;  ///< of one gap; of longer ones nothing is kept

@@ -52,6 +52,33 @@ BorderMotion motion_after(std::span<const Eigen::Vector3f> path, double hertz) n
   return quadratic(path, 1.0 / hertz);
 }
 
+BorderVelocity::BorderVelocity(std::size_t samples, double hertz) noexcept {
+  const auto wanted = static_cast<std::size_t>(std::llround(kVelocityWindow * hertz));
+  last_ = std::min({samples - 1, std::max<std::size_t>(2, wanted), kMost});
+  if (last_ == 0) return;
+  if (last_ == 1) {
+    weights_[1] = static_cast<float>(hertz);
+    return;
+  }
+  double powers[5] = {};
+  for (std::size_t i = 0; i <= last_; ++i) {
+    double power = 1;
+    for (double& sum : powers) {
+      sum += power;
+      power *= static_cast<double>(i);
+    }
+  }
+  Eigen::Matrix3d normal;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) normal(r, c) = powers[r + c];
+  }
+  const Eigen::Matrix3d inverse = normal.inverse();
+  for (std::size_t i = 1; i <= last_; ++i) {
+    const auto t = static_cast<double>(i);
+    weights_[i] = static_cast<float>(hertz * (inverse(1, 0) + inverse(1, 1) * t + inverse(1, 2) * t * t));
+  }
+}
+
 GapTime::GapTime(const Gap& gap) noexcept
     : count_(static_cast<double>(gap.count + 1)),
       seconds_(gap.duration().count()),

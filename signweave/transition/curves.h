@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -43,6 +44,24 @@ inline constexpr double kVelocityWindow = 0.067;
 BorderMotion motion_before(std::span<const Eigen::Vector3f> path, double hertz) noexcept;
 /// `path[k]` is k frames on in time.
 BorderMotion motion_after(std::span<const Eigen::Vector3f> path, double hertz) noexcept;
+
+/// What motion_before and motion_after give as velocity, of many paths of one length: the fit is solved once.
+class BorderVelocity {
+ public:
+  /// Of paths of so many samples, the border first, at least one.
+  BorderVelocity(std::size_t samples, double hertz) noexcept;
+  /// Away from the gap, per second: minus what motion_before gives, and what motion_after gives.
+  Eigen::Vector3f of(std::span<const Eigen::Vector3f> path) const noexcept {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    for (std::size_t i = 1; i <= last_; ++i) sum += weights_[i] * (path[i] - path[0]);
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 255;  ///< no more samples are looked at: beyond 3,800 frames a second
+  std::size_t last_ = 0;
+  std::array<float, kMost + 1> weights_;  ///< [sample], the first is not used
+};
 
 /// When what happens in a gap, as curves see it. How far a curve swings out grows with its time: over a minute, a hand
 /// that goes on as it came turns about itself. So a gap that is longer than kLongestWay is filled as one of that length

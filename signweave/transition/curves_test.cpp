@@ -253,5 +253,23 @@ TEST(Learned, BetweenKnotsIsTheLogarithmAndBeyondThemTheNearest) {
   EXPECT_EQ(between_knots(std::nan("")).part, 0);
 }
 
+TEST(BorderVelocity, IsThatOfTheQuadratic) {
+  std::vector<Eigen::Vector3f> path;
+  for (int i = 0; i < 12; ++i) {
+    const auto t = static_cast<float>(i);
+    path.emplace_back(std::sin(0.3f * t), 0.02f * t * t, 1 - 0.1f * t);
+  }
+  for (const double hertz : {24.0, 30.0, 100.0, 120.0}) {
+    for (const std::size_t samples : {1u, 2u, 3u, 4u, 12u}) {
+      const auto seen = std::span(path).first(samples);
+      const BorderVelocity velocity(samples, hertz);
+      EXPECT_LT((velocity.of(seen) - motion_after(seen, hertz).velocity).norm(), 1e-4f) << hertz << ' ' << samples;
+      EXPECT_LT((velocity.of(seen) + motion_before(seen, hertz).velocity).norm(), 1e-4f) << hertz << ' ' << samples;
+    }
+  }
+  const std::vector<Eigen::Vector3f> many(2000, Eigen::Vector3f::Ones());
+  EXPECT_EQ(BorderVelocity(many.size(), 10000).of(many).norm(), 0) << "no more samples are looked at than it keeps";
+}
+
 }  // namespace
 }  // namespace signweave

@@ -169,7 +169,7 @@ void fill_recorded(const GapJob& job, MutablePoses out) noexcept {
     return Recorded<decltype(kriged)>{std::move(kriged), matches, job.scratch.traits, job.gap.count};
   };
   fill_by_part(
-      job, [&](const GapJob& fingers) { fill_curves(fingers, out, bent(FingerCurves{}), time); },
+      job, [&](const GapJob& fingers) { fill_curves(fingers, out, bent(FingerCurves(job.gap)), time); },
       [&](const GapJob& others) { fill_curves(others, out, bent(Kriging(job.gap, time, job.scratch.numbers)), time); });
 }
 

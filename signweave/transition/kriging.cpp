@@ -180,14 +180,14 @@ void FingerCurves::coefficients(const Sides& sides, Eigen::Vector3f* out) const 
   const auto seconds = static_cast<float>(sides.seconds);
   out[0] = sides.left();
   out[1] = sides.right();
-  out[2] = seconds * motion_before(sides.before, sides.hertz).velocity;
-  out[3] = seconds * motion_after(sides.after, sides.hertz).velocity;
+  out[2] = -seconds * before.of(sides.before);
+  out[3] = seconds * after.of(sides.after);
 }
 
 void fill_kriging(const GapJob& job, MutablePoses out) noexcept {
   const GapTime time(job.gap);
   fill_by_part(
-      job, [&](const GapJob& fingers) { fill_curves(fingers, out, FingerCurves{}, time); },
+      job, [&](const GapJob& fingers) { fill_curves(fingers, out, FingerCurves(job.gap), time); },
       [&](const GapJob& others) { fill_curves(others, out, Kriging(job.gap, time, job.scratch.numbers), time); });
 }
 

@@ -54,6 +54,11 @@ class Kriging {
 /// within kRun of the gap. Kriged ways go on with a velocity for longer than fingers do (docs/evaluation.md). (ours)
 struct FingerCurves {
   static constexpr double kRun = 0.7;
+  BorderVelocity before, after;
+
+  explicit FingerCurves(const Gap& gap) noexcept
+      : before(static_cast<std::size_t>(context_frames(gap.before, gap.rate)), gap.rate.hertz()),
+        after(static_cast<std::size_t>(context_frames(gap.after, gap.rate)), gap.rate.hertz()) {}
 
   std::size_t terms() const noexcept { return 4; }
   void row(double t, std::int64_t frame, float* out) const noexcept;

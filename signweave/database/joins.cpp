@@ -251,16 +251,14 @@ std::shared_ptr<const RecordingJoins> Snapshot::joins(std::size_t recording) con
 
 std::shared_ptr<const SignerModel> Snapshot::signer(const RecordingInfo& recording) const {
   const Database& database = *database_;
-  const std::unique_ptr<MotionSource> source = motion(recording);
-  const std::uint64_t generation = recording.motion->generation;
-  {
+  if (recording.motion) {
     const std::lock_guard guard(database.mutex_);
-    const auto at = database.signers_.find(generation);
+    const auto at = database.signers_.find(recording.motion->generation);
     if (database.contents_ == contents_ && at != database.signers_.end()) return at->second;
   }
-  auto made = std::make_shared<const SignerModel>(model_of(*source, recording.rig));
+  auto made = std::make_shared<const SignerModel>(model_of(*motion(recording), recording.rig));
   const std::lock_guard guard(database.mutex_);
-  if (database.contents_ == contents_) database.signers_[generation] = made;
+  if (database.contents_ == contents_) database.signers_[recording.motion->generation] = made;
   return made;
 }
 

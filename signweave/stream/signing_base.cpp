@@ -9,6 +9,7 @@
 #include "signweave/stream/open_recordings.h"
 #include "signweave/synthesis/missing_glosses.h"
 #include "signweave/synthesis/on_skeleton.h"
+#include "signweave/synthesis/synthesizer.h"
 
 namespace signweave {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "signweave/transition/fill.h"
+#include "signweave/transition/learned.h"
 
 namespace signweave {
 namespace {

@@ -223,14 +223,9 @@ bool BodyGuard::mend_arm(const Gap& gap, Side side, bool with_fingers, MutablePo
   refine();
   if (lead_out()) {
     bent = true;
-    std::size_t knot = 1;
-    for (std::int64_t frame = 0; frame < gap.count; ++frame) {
-      if (knots_[knot].frame == frame) {
-        ++knot;
-        continue;
-      }
+    for_each_between_knots(knots_, gap.count, [&](std::int64_t frame) {
       for (const Correction& correction : corrections_) apply(correction, frame);
-    }
+    });
   }
   FingerGuard& fingers = fingers_[static_cast<std::size_t>(side)];
   if (with_fingers && fingers.known()) bent |= fingers.mend(gap, made);

@@ -253,14 +253,9 @@ bool FingerGuard::mend(const Gap& gap, MutablePoses made) {
     if (!lead_out(by, least)) break;
   }
   if (corrections_.empty()) return false;
-  std::size_t knot = 1;
-  for (std::int64_t frame = 0; frame < gap.count; ++frame) {
-    if (knots_[knot].frame == frame) {
-      ++knot;
-      continue;
-    }
+  for_each_between_knots(knots_, gap.count, [&](std::int64_t frame) {
     for (const Correction& correction : corrections_) apply(correction, frame);
-  }
+  });
   return true;
 }
 

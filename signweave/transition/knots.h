@@ -41,4 +41,17 @@ bool refine_knots(std::vector<Knot>& knots, std::vector<Knot>& scratch, std::int
   return any;
 }
 
+/// Calls `use(frame)` for each of so many frames that is no knot.
+template <class Knot, class Use>
+void for_each_between_knots(const std::vector<Knot>& knots, std::int64_t count, const Use& use) {
+  std::size_t next = 1;  // the first is the left border
+  for (std::int64_t frame = 0; frame < count; ++frame) {
+    if (knots[next].frame == frame) {
+      ++next;
+    } else {
+      use(frame);
+    }
+  }
+}
+
 }  // namespace signweave

@@ -142,8 +142,8 @@ TEST_P(StreamWays, StreamsThatAreDueTogetherEachGetTheirOwn) {
     clients.back().say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
   }
   std::vector<std::size_t> places(clients.size());
-  std::vector<std::uint64_t> next(
-      clients.size());  // but for frames left out: fast streams fill their buffers while slow ones are read
+  // The frame that each waits for; some may be left out, for fast streams fill their buffers while slow ones are read.
+  std::vector<std::uint64_t> next(clients.size());
   for (int round = 0; round < 200; ++round) {
     for (std::size_t i = 0; i < clients.size(); ++i) {
       StreamMessage message = clients[i].next();

@@ -31,8 +31,9 @@ const Database& two_recordings_corpus() {
 }
 
 Synthesized sign_with(const Database& database, const char* utterance, const char* method) {
-  return synthesize(database, parse_utterance(utterance),
-                    {.method = find_transition_method(method), .duration = {.fitted = false}});
+  return synthesize(
+      database, parse_utterance(utterance),
+      {.method = method != nullptr ? find_transition_method(method) : nullptr, .duration = {.fitted = false}});
 }
 
 JointGroups groups_of(const Database& database, std::string_view recording) {
@@ -112,6 +113,26 @@ TEST(RecordedMethod, OtherMethodsAskForNone) {
   }
   EXPECT_FALSE(
       sign_with(two_recordings_corpus(), "VANNES", "recorded").captured_transitions.has_value());  // nothing to be made
+}
+
+TEST(TaughtMethod, BendsWhereMovementsTaughtSomething) {
+  const char* const utterance = "VANNES PLUIE MATIN";
+  ASSERT_FALSE(two_recordings_corpus().snapshot().learned()->residuals.centres.empty());
+  const Synthesized taught = sign_with(two_recordings_corpus(), utterance, nullptr);
+  EXPECT_EQ(taught.result.junctions[0].method, "taught");
+  EXPECT_FALSE(
+      same_frames(taught.result.motion, sign_with(two_recordings_corpus(), utterance, "kriging").result.motion));
+}
+
+TEST(TaughtMethod, WhereTheyTaughtNothingItMakesTheLikeliestWay) {
+  const TestFolder folder;
+  Database::create(folder / "db", {});
+  Database database(folder / "db", kv::Access::read_write);
+  database.put(recording_of("one", 1, {"A", "B", "C"}));
+  ASSERT_TRUE(database.snapshot().learned()->residuals.centres.empty());
+  const Synthesized taught = sign_with(database, "C A", nullptr);
+  EXPECT_TRUE(taught.result.notices.empty());
+  EXPECT_TRUE(same_frames(taught.result.motion, sign_with(database, "C A", "kriging").result.motion));
 }
 
 TEST(RecordedMethod, WithoutAnnotatedTransitionsItMakesTheLikeliestWayAndSaysSo) {

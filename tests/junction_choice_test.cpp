@@ -67,7 +67,7 @@ TEST(Junctions, ThatAreNamedAreMadeBetweenRecordedNeighbours) {
   EXPECT_EQ(made.result.junctions[0].from, "MATIN");
   EXPECT_EQ(made.result.junctions[0].to, "NUAGES");
   EXPECT_EQ(made.result.junctions[0].method, "hermite");
-  EXPECT_EQ(made.result.junctions[1].method, "kriging");
+  EXPECT_EQ(made.result.junctions[1].method, "taught");
   EXPECT_EQ(made.result.stretches.size(), 3u);
   ASSERT_EQ(made.result.notices.size(), 1u);
   EXPECT_EQ(made.result.notices[0].where, "meteo");

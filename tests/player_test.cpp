@@ -11,7 +11,7 @@ namespace signweave {
 namespace {
 
 struct Case {
-  std::string method = "kriging";
+  std::string method = "taught";
   double tempo = 1;
   std::optional<FrameRate> rate;
   Alignment alignment = Alignment::automatic;

@@ -48,7 +48,7 @@ std::string describe(const ResidualModel& residuals) {
       "({} left out in turn)",
       residuals.mean_ratio, residuals.median_ratio, residuals.by_signer ? "signers" : "recordings");
   if (residuals.centres.empty()) return fmt::format("nothing learned from {}: {}", from, compared);
-  return fmt::format("learned from {}: {}; --transition taught goes by it", from, compared);
+  return fmt::format("learned from {}: {}; transitions go by it", from, compared);
 }
 
 json json_of(const ResidualModel& residuals) {

@@ -73,7 +73,7 @@ TEST(ControlMessage, WhatIsWrongIsSaidWithItsId) {
       {R"({"type":"open","pace":"slow"})", "one of live, fast"},
       {R"({"type":"open","look_ahead":17})", "1 to 16"},
       {R"({"type":"open","rate":0})", "1 to 2000 frames a second"},
-      {R"({"type":"open","transition":"jump"})", "there are kriging"},
+      {R"({"type":"open","transition":"jump"})", "there are taught"},
       {R"({"type":"open","duration":"soon"})", "fitted, corpus"},
       {R"({"type":"ping","id":{"a":1}})", "'id' must be a text or a number"},
   };

@@ -71,7 +71,6 @@ CapturedSpans captured_spans(const Snapshot& snapshot, const Skeleton& skeleton,
   CapturedSpans captured;
   if (without.empty()) {
     const std::shared_ptr<const semantic_db::Learned> learned = snapshot.learned();
-    captured.taught = !learned->residuals.centres.empty();
     collector.set_residuals({learned, &learned->residuals});
   }
   if (needs != Needs::spans) {

@@ -21,7 +21,6 @@ inline constexpr Seconds kLongestSpan{3.0};
 struct CapturedSpans {
   std::shared_ptr<const TransitionModel> model;  ///< the default one, with these spans and what movements taught
   std::size_t transitions = 0;                   ///< that they are of
-  bool taught = false;                           ///< movements taught something
 };
 
 /// The annotated transitions (see transitions_in) of recordings with the same joints as `skeleton`, whose groups these

@@ -39,7 +39,7 @@ TEST(ParseJunction, FaultsSayWhatIsExpected) {
   for (const char* number : {"0", "", "-1", "two", "1.5", "99999999999999999999"}) {
     EXPECT_THAT(fault_of({std::string(number) + "=hermite"}), HasSubstr("counted from 1")) << number;
   }
-  EXPECT_THAT(fault_of({"1=hermit"}), HasSubstr("'hermit' is no method (kriging, overlap, gap, "));
+  EXPECT_THAT(fault_of({"1=hermit"}), HasSubstr("'hermit' is no method (taught, overlap, gap, "));
   EXPECT_THAT(fault_of({"1=hermit"}), HasSubstr("did you mean hermite?"));
   EXPECT_THAT(fault_of({"1=450"}), HasSubstr("'450': a duration has its unit with it, as in 450ms"));
   EXPECT_THAT(fault_of({"1=0.4s"}), HasSubstr("as in 450ms"));

@@ -157,17 +157,14 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
   CapturedSpans captured;
   if (const TransitionMethod* const asking = method_with_needs(stretches, method)) {
     captured = captured_spans(snapshot, *stretches[reference].source->skeleton(), rig.groups, asking->fill->needs);
-    if (asking->fill->needs == Needs::teaching) {
-      if (!captured.taught) {
-        notices.push_back({"", fmt::format("this corpus teaches nothing of movements: '{}' makes the likeliest way; "
-                                           "'signweave info' says why",
-                                           asking->name)});
+    if (asking->fill->needs == Needs::spans) {
+      made.captured_transitions = captured.transitions;
+      if (captured.transitions == 0) {
+        notices.push_back(
+            {"", fmt::format("no annotated transition of this skeleton in this database: '{}' goes by none, "
+                             "and makes the likeliest way",
+                             asking->name)});
       }
-    } else if (made.captured_transitions = captured.transitions; captured.transitions == 0) {
-      notices.push_back(
-          {"", fmt::format("no annotated transition of this skeleton in this database: '{}' goes by none, "
-                           "and makes the likeliest way",
-                           asking->name)});
     }
   }
   made.result = concatenate(stretches,

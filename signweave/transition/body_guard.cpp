@@ -14,6 +14,10 @@ using Eigen::Vector3f;
 /// An elbow is swivelled no farther in one round. Radians.
 constexpr float kMostSwivel = 0.3f;
 
+/// A hand is led out of the other one no farther, about its breadth: where that does not suffice, as of hands that were
+/// captured inside each other, it stays nearer to where it was made. Metres.
+constexpr float kMostApart = 0.1f;
+
 constexpr auto kOtherHand = static_cast<std::size_t>(Meeting::hand_hand);
 
 /// Frames between two are not examined where the arm moves so little that it cannot be a millimetre deeper there:
@@ -67,6 +71,7 @@ void BodyGuard::begin(const Gap& gap, Side side) {
   knots_.reserve(frames);
   added_.reserve(frames);
   apart_.setZero();
+  led_apart_ = 0;
   allowed_.fill(kDepthAllowed);
   wrists_[static_cast<std::size_t>(side)].begin(scene_, side);
   hand_reach_ = 0;
@@ -130,7 +135,9 @@ BodyGuard::Correction BodyGuard::way_out(const Knot& deepest, float beyond, std:
       apart_ = beside - beside.dot(along) * along;
       apart_ = apart_.norm() > 0.01f ? Vector3f(apart_.normalized()) : depth.out;
     }
-    correction.shift = needed * apart_;
+    const float step = std::min(needed, kMostApart - led_apart_);
+    led_apart_ += step;
+    correction.shift = step * apart_;
     return correction;
   }
   scene_.place(side_, deepest.frame);
@@ -198,7 +205,9 @@ bool BodyGuard::lead_out() {
         continue;
       }
       if (round++ == kRounds) break;
-      corrections_.push_back(way_out(*worst, beyond, worst_meeting));
+      const Correction correction = way_out(*worst, beyond, worst_meeting);
+      if (correction.shift.isZero() && correction.swivel == 0) break;
+      corrections_.push_back(correction);
       for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
         apply(corrections_.back(), knots_[i].frame);
         look(knots_[i]);

@@ -30,8 +30,9 @@ class BodyGuard {
   ///   where it is deepest, or the elbow swivelled where that leads a forearm farther, fading out smoothly to nothing
   ///   at both borders, so that position and velocity are kept there. The hand keeps its orientation, but for the
   ///   limits of its wrist. Repeated until no frame is too deep, at most kRounds times; of all rounds that one stays
-  ///   whose deepest frame is least deep. Where some frame still is too deep, the hand at least is led out of head and
-  ///   trunk, by as many rounds that look at nothing else.
+  ///   whose deepest frame is least deep. A hand is led no farther than a hand's breadth out of the other one. Where
+  ///   some frame still is too deep, the hand at least is led out of head and trunk, by as many rounds that look at
+  ///   nothing else.
   /// - Fingers that cross are bent apart (see FingerGuard).
   ///
   /// Not every frame is examined. Between two that are, others are skipped where the arm moves less than the distance
@@ -80,9 +81,10 @@ class BodyGuard {
   const Gap* gap_ = nullptr;
   Side side_ = Side::left;
   std::array<float, kMeetings> allowed_{};
-  Eigen::Vector3f passing_;          ///< from border to border, of this hand as the other sees it; metres, model space
-  Eigen::Vector3f apart_;            ///< unit, the way that the hands were led apart at first; zero: they were not
-  float hand_reach_ = 0;             ///< from the wrist to what is farthest of the hand at a border, metres
+  Eigen::Vector3f passing_;  ///< from border to border, of this hand as the other sees it; metres, model space
+  Eigen::Vector3f apart_;    ///< unit, the direction in which the hands were led apart at first; zero: they were not
+  float led_apart_ = 0;      ///< so far in that direction, metres
+  float hand_reach_ = 0;     ///< from the wrist to what is farthest of the hand at a border, metres
   std::vector<Knot> knots_, added_;  ///< by frame, both borders among them
   std::vector<Correction> corrections_;
 };

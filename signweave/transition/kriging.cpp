@@ -18,27 +18,55 @@ double matern(double distance, double length) noexcept {
   return (1 + r + r * r / 3) * std::exp(-r);
 }
 
-/// How long a way remembers itself: longer in longer gaps, whose movements are slower. Found on captured spans
-/// (docs/evaluation.md). Below ten frames a second it is three frames, or they would tell nothing of each other.
+/// How long a trajectory remembers itself: longer in longer gaps, whose movements are slower. Found on captured spans
+/// (docs/decisions/transitions.md, 226). Below ten frames a second it is three frames, or they would say nothing of
+/// each other.
 double length_for(double seconds, double frame_time) noexcept {
   return std::max(0.3 * std::max(1.0, seconds), 3 * frame_time);
 }
 
-/// Variance of what the samples are off, in the covariance's own unit.
+/// Variance of what the samples are off, in the covariance's own unit: that of a clean capture, for each squared radian
+/// of noise, and at most. The border itself is met whatever the noise.
 constexpr double kNoise = 1e-5;
+constexpr double kNoiseBySquare = 10;
+constexpr double kMostNoise = 50 * kNoise;
 constexpr double kBorderNoise = 1e-9;
+
+/// Mean variance of shoulders and elbows on both sides, in squared radians.
+double arm_noise(const Gap& gap) noexcept {
+  double sum = 0;
+  int count = 0;
+  for (const CaptureNoise* noise : {gap.noise_before, gap.noise_after}) {
+    for (std::size_t joint = 0; joint < gap.groups->roles.size(); ++joint) {
+      const JointRole role = gap.groups->roles[joint];
+      if (role != JointRole::shoulder && role != JointRole::elbow) continue;
+      const double deviation = noise != nullptr ? static_cast<double>(noise->rotations[joint]) : 0.0;
+      sum += deviation * deviation;
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+/// In steps of a half octave, so that gaps between many recordings are of few kinds.
+double noise_for(const Gap& gap) noexcept {
+  const double noise = std::clamp(kNoiseBySquare * arm_noise(gap), kNoise, kMostNoise);
+  return kNoise * std::exp2(std::round(2 * std::log2(noise / kNoise)) / 2);
+}
 
 /// All that weights depend on.
 struct Kind {
   double hertz = 0;
   double pause = 0;  ///< seconds
+  double noise = 0;
   std::int64_t frames = 0;
   std::size_t left = 0;
   std::size_t right = 0;
   friend bool operator==(const Kind&, const Kind&) = default;
 
   std::size_t hash() const noexcept {
-    std::uint64_t mixed = std::bit_cast<std::uint64_t>(hertz) ^ std::rotl(std::bit_cast<std::uint64_t>(pause), 21);
+    std::uint64_t mixed = std::bit_cast<std::uint64_t>(hertz) ^ std::rotl(std::bit_cast<std::uint64_t>(pause), 21) ^
+                          std::rotl(std::bit_cast<std::uint64_t>(noise), 42);
     for (const std::uint64_t number : {static_cast<std::uint64_t>(frames), std::uint64_t{left}, std::uint64_t{right}}) {
       mixed = (mixed ^ number) * 0x9E3779B97F4A7C15u;
       mixed ^= mixed >> 29;
@@ -82,7 +110,10 @@ Place place_of(const Kind& kind) noexcept {
 }  // namespace
 
 Kriging::Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memory, Weights weights)
-    : hertz_(gap.rate.hertz()), seconds_(time.seconds()), length_(length_for(seconds_, 1.0 / hertz_)) {
+    : hertz_(gap.rate.hertz()),
+      seconds_(time.seconds()),
+      length_(length_for(seconds_, 1.0 / hertz_)),
+      noise_(noise_for(gap)) {
   const auto wanted = std::max<std::size_t>(3, static_cast<std::size_t>(std::llround(kKrigingContext * hertz_)) + 1);
   stride_ = (wanted + kMostSamples - 1) / kMostSamples;
   const auto count = [&](const PosesView& side) {
@@ -94,8 +125,12 @@ Kriging::Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memor
   memory.resize(2 * samples() * samples() + 2 * samples());
   Place place;
   if (weights == Weights::kept) {
-    place =
-        place_of({.hertz = hertz_, .pause = gap.pause.count(), .frames = gap.count, .left = left_, .right = right_});
+    place = place_of({.hertz = hertz_,
+                      .pause = gap.pause.count(),
+                      .noise = noise_,
+                      .frames = gap.count,
+                      .left = left_,
+                      .right = right_});
   }
   if (place.known != nullptr) {
     rows_ = place.known->rows.data();
@@ -121,7 +156,7 @@ void Kriging::solve(std::vector<double>& memory) {
       covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = matern(time_of(i) - time_of(j), length_);
     }
     covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) +=
-        i == 0 || i == left_ ? kBorderNoise : kNoise;
+        i == 0 || i == left_ ? kBorderNoise : noise_;
   }
   // In place: nothing is allocated.
   Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(covariance);

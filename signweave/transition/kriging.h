@@ -10,7 +10,8 @@ namespace signweave {
 
 /// The best linear guess of a joint's way from what lies within kKrigingContext of both borders, if ways are random
 /// functions with an unknown mean and a Matérn covariance of smoothness 5/2 (ordinary kriging; Stein, Interpolation of
-/// Spatial Data, 1999): it has place, velocity and acceleration at the borders as far as the samples can be trusted.
+/// Spatial Data, 1999): it has place, velocity and acceleration at the borders as far as the samples can be trusted,
+/// which is less the more the captures shake (Gap::noise_before and noise_after).
 class Kriging {
  public:
   static constexpr std::size_t kMostSamples = 10;  ///< a side
@@ -40,6 +41,7 @@ class Kriging {
   double hertz_;
   double seconds_;
   double length_;
+  double noise_;  ///< variance of the samples but the borders, in the covariance's own unit
   std::size_t left_ = 0;
   std::size_t right_ = 0;
   std::size_t stride_ = 1;
@@ -76,7 +78,7 @@ void fill_by_part(const GapJob& job, const OfFingers& of_fingers, const OfOthers
   part(job.groups.without(kFingerGroups), of_others);
 }
 
-inline constexpr double kKrigingContext = 0.1;  ///< seconds
+inline constexpr double kKrigingContext = 1.0 / 15;  ///< seconds
 inline constexpr std::size_t kMostKept = 256;
 inline constexpr std::int64_t kMostKeptFrames = 128;  ///< of one gap; of longer ones nothing is kept
 

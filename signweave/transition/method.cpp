@@ -6,11 +6,11 @@ namespace signweave {
 namespace {
 
 constexpr GapMethod kMethods[] = {
-    {"kriging", "the likeliest way from a tenth of a second on either side", Offered::signing, Needs::nothing,
-     fill_kriging},
-    {"taught", "the likeliest way, bent as the corpus's own movements are", Offered::signing, Needs::teaching,
+    {"taught", "the likeliest trajectory, bent as the corpus's own movements are", Offered::signing, Needs::teaching,
      fill_taught},
-    {"learned", "the likeliest way, and what captured transitions bend from it", Offered::signing, Needs::nothing,
+    {"kriging", "the likeliest trajectory from what is seen on both sides", Offered::signing, Needs::nothing,
+     fill_kriging},
+    {"learned", "the likeliest trajectory, and how captured transitions bend from it", Offered::signing, Needs::nothing,
      fill_learned},
     {"recorded", "bent as the captured spans are that begin and end most alike", Offered::signing, Needs::spans,
      fill_recorded},

@@ -7,6 +7,7 @@ export interface Method {
 
 /** In the order of the command line, the default first. */
 export const kMethods: readonly Method[] = [
+  { method: 'taught', kind: 'signing' },
   { method: 'kriging', kind: 'signing' },
   { method: 'learned', kind: 'signing' },
   { method: 'recorded', kind: 'signing' },

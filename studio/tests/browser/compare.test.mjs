@@ -33,7 +33,7 @@ async function setUp({ methods = ['hermite', 'sine'], trials = 4, still = true, 
   await forget()
   await page.reload()
   await button('Set up the study').waitFor()
-  for (const method of ['kriging', 'gap']) if (!methods.includes(method)) await page.getByRole('checkbox', { name: method, exact: true }).uncheck()
+  for (const method of ['taught', 'gap']) if (!methods.includes(method)) await page.getByRole('checkbox', { name: method, exact: true }).uncheck()
   for (const method of methods) await page.getByRole('checkbox', { name: method, exact: true }).check()
   await page.getByLabel('Trials for each viewer').fill(String(trials))
   await more()

@@ -28,8 +28,9 @@ void widen(BendLimit& limit, float border) {
 }  // namespace
 
 WristLimits human_wrist() noexcept {
-  // Means of 76°, 75°, 22° and 36°, standard deviations of 6.3°, 6.4°, 4.0° and 3.8° (D. C. Boone and S. P. Azen,
-  // Normal range of motion of joints in male subjects, J. Bone Joint Surg. 61-A, 1979).
+  // Freely as far as men of 18 to 54 years in the mean: 76°, 75°, 22° and 36° (D. C. Boone and S. P. Azen, Normal range
+  // of motion of joints in male subjects, J. Bone Joint Surg. 61-A, 1979). At most 13° and 8° farther (ours): women of
+  // 18 to 59 years reach 93°, 86°, 18° and 41° in the mean (Macedo and Magee).
   return {.flexion = {76 * kDegree, 89 * kDegree},
           .extension = {75 * kDegree, 88 * kDegree},
           .radial = {22 * kDegree, 30 * kDegree},

@@ -21,7 +21,7 @@ struct BendLimit {
 };
 
 /// How far wrists bend: freely as far as those of men do in the mean (Boone and Azen 1979: 76°, 75°, 22°, 36°; the
-/// norms of the AAOS are 80°, 70°, 20°, 30°), and never more than two standard deviations farther.
+/// norms of the AAOS are 80°, 70°, 20°, 30°), and never more than 13°, to the sides 8°, farther (ours).
 struct WristLimits {
   BendLimit flexion;
   BendLimit extension;

@@ -23,10 +23,28 @@ using Lanes4 = float __attribute__((vector_size(16)));
 using Lanes8 = float __attribute__((vector_size(32)));
 using Lanes16 = float __attribute__((vector_size(64)));
 
-/// `ends` is [value][lane]. Two sums go on beside each other, so that none waits for the other's addition.
+/// Halves are compared, so that no lane waits for the one before it.
+[[gnu::always_inline]] inline float least_of(Lanes4 lanes) noexcept {
+  const float even = std::min(lanes[0], lanes[2]);
+  const float odd = std::min(lanes[1], lanes[3]);
+  return std::min(even, odd);
+}
+[[gnu::always_inline]] inline float least_of(Lanes8 lanes) noexcept {
+  const Lanes4 low = __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3);
+  const Lanes4 high = __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
+  return least_of(low < high ? low : high);
+}
+[[gnu::always_inline]] inline float least_of(Lanes16 lanes) noexcept {
+  const Lanes8 low = __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3, 4, 5, 6, 7);
+  const Lanes8 high = __builtin_shufflevector(lanes, lanes, 8, 9, 10, 11, 12, 13, 14, 15);
+  return least_of(low < high ? low : high);
+}
+
+/// `ends` is [value][lane]. Four sums go on beside each other, so that none waits for another's addition.
 template <typename Lanes>
-[[gnu::always_inline]] inline void costs_by(const float* ends, const float* begin, const Weights& weights,
-                                            float* out) noexcept {
+[[gnu::always_inline]] inline float costs_by(const float* ends, const float* begin, const Weights& weights,
+                                             float* out) noexcept {
+  Lanes least;
   for (std::size_t lane = 0; lane < JoinEnds::kLanes; lane += sizeof(Lanes) / sizeof(float)) {
     Lanes at[kHands];
     for (std::size_t value = 0; value < kHands; ++value) {
@@ -38,43 +56,49 @@ template <typename Lanes>
     const Lanes none = {};
     const Lanes fast_left = left * weights.per_way - 1.0f;
     const Lanes fast_right = right * weights.per_way - 1.0f;
-    Lanes sum = weights.place * (left + right) + weights.speed * (fast_left > none ? fast_left : none);
-    Lanes other = weights.speed * (fast_right > none ? fast_right : none);
-    static_assert(JoinPoint::kSize % 2 == 0 && kHands % 2 == 0);
-    for (std::size_t value = kHands; value < JoinPoint::kSize; value += 2) {
-      Lanes one;
-      Lanes next;
-      std::memcpy(&one, ends + value * JoinEnds::kLanes + lane, sizeof(Lanes));
-      std::memcpy(&next, ends + (value + 1) * JoinEnds::kLanes + lane, sizeof(Lanes));
-      one -= begin[value];
-      next -= begin[value + 1];
-      sum += one * one;
-      other += next * next;
+    const auto square = [&](std::size_t value) {
+      Lanes off;
+      std::memcpy(&off, ends + value * JoinEnds::kLanes + lane, sizeof(Lanes));
+      off -= begin[value];
+      return off * off;
+    };
+    Lanes first = weights.place * (left + right) + square(kHands);
+    Lanes second = weights.speed * (fast_left > none ? fast_left : none) + square(kHands + 1);
+    Lanes third = weights.speed * (fast_right > none ? fast_right : none);
+    Lanes fourth = none;
+    static_assert((JoinPoint::kSize - kHands) % 4 == 2);
+    for (std::size_t value = kHands + 2; value < JoinPoint::kSize; value += 4) {
+      first += square(value);
+      second += square(value + 1);
+      third += square(value + 2);
+      fourth += square(value + 3);
     }
     Lanes all;
     std::memcpy(&all, weights.before + lane, sizeof(Lanes));
     all += weights.to;
-    all += sum + other;
+    all += (first + second) + (third + fourth);
     std::memcpy(out + lane, &all, sizeof(Lanes));
+    least = lane == 0 ? all : (all < least ? all : least);
   }
+  return least_of(least);
 }
 
 // Compiled for each width of vectors. All give the same bits, since each lane's sum has its own order and no operation
 // is joined with another (-ffp-contract=off).
-using BlockCosts = void (*)(const float* ends, const float* begin, const Weights& weights, float* out) noexcept;
+using BlockCosts = float (*)(const float* ends, const float* begin, const Weights& weights, float* out) noexcept;
 
 #if defined(__x86_64__)
-__attribute__((target("avx512f"))) void costs_by_sixteens(const float* ends, const float* begin, const Weights& weights,
-                                                          float* out) noexcept {
-  costs_by<Lanes16>(ends, begin, weights, out);
+__attribute__((target("avx512f"))) float costs_by_sixteens(const float* ends, const float* begin,
+                                                           const Weights& weights, float* out) noexcept {
+  return costs_by<Lanes16>(ends, begin, weights, out);
 }
-__attribute__((target("avx2"))) void costs_by_eights(const float* ends, const float* begin, const Weights& weights,
-                                                     float* out) noexcept {
-  costs_by<Lanes8>(ends, begin, weights, out);
+__attribute__((target("avx2"))) float costs_by_eights(const float* ends, const float* begin, const Weights& weights,
+                                                      float* out) noexcept {
+  return costs_by<Lanes8>(ends, begin, weights, out);
 }
 #endif
-void costs_by_fours(const float* ends, const float* begin, const Weights& weights, float* out) noexcept {
-  costs_by<Lanes4>(ends, begin, weights, out);
+float costs_by_fours(const float* ends, const float* begin, const Weights& weights, float* out) noexcept {
+  return costs_by<Lanes4>(ends, begin, weights, out);
 }
 
 /// The one for the widest vectors that this machine has.
@@ -113,14 +137,13 @@ void JoinLanes::lay(const JoinEnds& ends, std::span<const std::uint32_t> order, 
   speed_ = terms[static_cast<std::size_t>(JoinTerm::speed)];
   const float way = static_cast<float>(std::max(scale.transition, kShortestJoin).count()) * scale.weights.speed_limit;
   per_way_ = 1.0f / (way * way);
-  blocks_ = (order.size() + JoinEnds::kLanes - 1) / JoinEnds::kLanes;
-  values_.resize(blocks_ * JoinEnds::kLanes * JoinPoint::kSize);
-  for (std::size_t at = 0; at < blocks_ * JoinEnds::kLanes; ++at) {
+  values_.resize((order.size() + JoinEnds::kLanes - 1) / JoinEnds::kLanes);
+  for (std::size_t at = 0; at < values_.size() * JoinEnds::kLanes; ++at) {
     const JoinPoint& point = ends.end(order[std::min(at, order.size() - 1)]);
-    float* const lane =
-        values_.data() + at / JoinEnds::kLanes * JoinEnds::kLanes * JoinPoint::kSize + at % JoinEnds::kLanes;
-    for (std::size_t value = 0; value < JoinPoint::kSize; ++value)
-      lane[value * JoinEnds::kLanes] = roots_[value] * point.values[value];
+    Block& block = values_[at / JoinEnds::kLanes];
+    for (std::size_t value = 0; value < JoinPoint::kSize; ++value) {
+      block.values[value][at % JoinEnds::kLanes] = roots_[value] * point.values[value];
+    }
   }
 }
 
@@ -131,14 +154,9 @@ void JoinLanes::compare_with(const JoinPoint& begin) noexcept {
 float JoinLanes::costs(std::size_t block, std::span<const float, JoinEnds::kLanes> before, float to,
                        std::span<float, JoinEnds::kLanes> out) const noexcept {
   static const BlockCosts block_costs = widest();
-  block_costs(values_.data() + block * JoinEnds::kLanes * JoinPoint::kSize, begin_.data(),
-              {.before = before.data(), .to = to, .place = place_, .speed = speed_, .per_way = per_way_}, out.data());
-  std::array<float, JoinEnds::kLanes / 2> least{};
-  for (std::size_t lane = 0; lane < least.size(); ++lane) least[lane] = std::min(out[lane], out[lane + least.size()]);
-  for (std::size_t half = least.size() / 2; half > 0; half /= 2) {
-    for (std::size_t lane = 0; lane < half; ++lane) least[lane] = std::min(least[lane], least[lane + half]);
-  }
-  return least[0];
+  return block_costs(values_[block].values[0], begin_.data(),
+                     {.before = before.data(), .to = to, .place = place_, .speed = speed_, .per_way = per_way_},
+                     out.data());
 }
 
 }  // namespace signweave

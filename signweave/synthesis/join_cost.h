@@ -47,7 +47,7 @@ class JoinLanes {
  public:
   /// `order` names candidates of `ends`; lanes beyond them hold the last one again.
   void lay(const JoinEnds& ends, std::span<const std::uint32_t> order, const JoinScale& scale);
-  std::size_t blocks() const noexcept { return blocks_; }
+  std::size_t blocks() const noexcept { return values_.size(); }
   /// The begin that `costs` is about from now on.
   void compare_with(const JoinPoint& begin) noexcept;
   /// What leads to a block's ends, `before`, with `to` and with their joins to that begin, which are
@@ -56,13 +56,16 @@ class JoinLanes {
               std::span<float, JoinEnds::kLanes> out) const noexcept;
 
  private:
-  std::vector<float> values_;                    ///< [block][value][lane], times their roots
+  /// Ends of kLanes candidates, times their roots. A value's lanes do not straddle two lines of the cache.
+  struct alignas(64) Block {
+    float values[JoinPoint::kSize][JoinEnds::kLanes];
+  };
+  std::vector<Block> values_;
   std::array<float, JoinPoint::kSize> roots_{};  ///< of the weights
   std::array<float, JoinPoint::kSize> begin_{};  ///< times the roots
   float place_ = 0;
   float speed_ = 0;
   float per_way_ = 0;  ///< 1 / (the way that a hand goes at the limit, shoulder widths)²
-  std::size_t blocks_ = 0;
 };
 
 }  // namespace signweave

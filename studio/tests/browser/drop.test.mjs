@@ -17,26 +17,17 @@ const mouseOf = async (on, { paths = [], text, x = 640, y = 400 } = {}) => {
   const session = await on.context().newCDPSession(on)
   const data = { items: text ? [{ mimeType: 'text/plain', data: text }] : [], files: paths, dragOperationsMask: 1 }
   const does = (type) => session.send('Input.dispatchDragEvent', { type, x, y, data })
-  let dragging = false,
-    reports = Promise.resolve()
-  const report = async () => {
-    while (dragging) {
-      await new Promise((resolve) => setTimeout(resolve, 200))
-      if (dragging && !on.isClosed()) await does('dragOver')
-    }
-  }
+  let reports
   const ends = async (type) => {
-    dragging = false
-    await reports
+    clearInterval(reports)
     await does(type)
   }
   return {
     over: async () => {
       await does('dragEnter')
       await does('dragOver')
-      dragging = true
-      // A page that closes under the mouse ends the drag.
-      reports = report().catch(() => (dragging = false))
+      // Until it ends, or the page closes under the mouse.
+      reports = setInterval(() => does('dragOver').catch(() => clearInterval(reports)), 200)
     },
     drop: () => ends('drop'),
     leave: () => ends('dragCancel'),

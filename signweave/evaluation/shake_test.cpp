@@ -55,6 +55,7 @@ TEST(Shake, LetsTheFramesBesideSpansShakeAndNothingElse) {
 TEST(Shake, NoiseThatIsKnownMakesWristsBetter) {
   EXPECT_LT(wrist_error("kriging", true), 0.8 * wrist_error("kriging", false));
   EXPECT_LT(wrist_error("kriging", true), wrist_error("sine", true));
+  EXPECT_LT(wrist_error("kriging", true), wrist_error("hermite", true));
 }
 
 }  // namespace

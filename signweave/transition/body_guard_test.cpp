@@ -85,6 +85,53 @@ TEST(BodyGuardOfATestPerson, GuardsHandsWithAndWithoutFingers) {
   }
 }
 
+/// Both arms forward and raised by an angle, with forearms turned inwards by another.
+Motion arms_forward(const ThroughTheTrunk& person, float raised, float inwards, std::int64_t frames) {
+  Motion motion(person.skeleton, {100, 1}, frames);
+  for (std::int64_t frame = 0; frame < frames; ++frame) {
+    for (const float side : {1.0f, -1.0f}) {
+      const auto turn = [&](Part part, float up, float in) {
+        motion.pose(frame).rotations[static_cast<std::size_t>(person.signer.rig[part].joint)] =
+            Quaternionf(AngleAxisf(-up, Vector3f::UnitX())) * Quaternionf(AngleAxisf(-side * in, Vector3f::UnitY()));
+      };
+      turn(side > 0 ? Part::left_upper_arm : Part::right_upper_arm, raised, 1.5f);
+      turn(side > 0 ? Part::left_forearm : Part::right_forearm, 0, inwards);
+    }
+  }
+  return motion;
+}
+
+Vector3f wrist_of(const ThroughTheTrunk& person, const Motion& motion, Part hand) {
+  return position_of(person.signer.rig[hand], to_model_space(*person.skeleton, motion.pose(motion.frame_count() / 2)));
+}
+
+/// How far a guard leads the left hand that lies in the right one, wrists so far apart, between borders at which hands
+/// are beside each other. Metres.
+float led_apart(float wrists) {
+  ThroughTheTrunk person(true);
+  float inwards = 0;
+  const auto apart = [&] {
+    const Motion motion = arms_forward(person, 0, inwards, 1);
+    return (wrist_of(person, motion, Part::left_hand) - wrist_of(person, motion, Part::right_hand)).norm();
+  };
+  while (apart() > wrists && inwards < 1.5f) inwards += 0.01f;
+  EXPECT_LT(inwards, 1.5f);
+  person.before = arms_forward(person, -0.5f, 0, 8);
+  person.after = arms_forward(person, 0.5f, 0, 8);
+  person.gap.before = view_of(person.before, {0, 8});
+  person.gap.after = view_of(person.after, {0, 8});
+  const Motion inside = arms_forward(person, 0, inwards, person.gap.count);
+  Motion made = inside;
+  BodyGuard guard(*person.skeleton, person.signer, person.groups);
+  guard.mend(person.gap, {JointGroup::left_arm}, made.poses({0, made.frame_count()}));
+  return (wrist_of(person, made, Part::left_hand) - wrist_of(person, inside, Part::left_hand)).norm();
+}
+
+TEST(BodyGuardOfATestPerson, LeadsAHandNoFartherOutOfTheOtherThanItsBreadth) {
+  EXPECT_GT(led_apart(0.23f), 0.02f);
+  for (const float wrists : {0.23f, 0.2f}) EXPECT_LT(led_apart(wrists), 0.101f) << wrists;
+}
+
 TEST(BodyGuardOfATestPerson, TheSecondGapAllocatesNothing) {
   const ThroughTheTrunk through(true);
   BodyGuard guard(*through.skeleton, through.signer, through.groups);

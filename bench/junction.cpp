@@ -185,7 +185,7 @@ void on_a_signer(int rounds) {
 int main(int argc, char** argv) {
   const bool quick = argc > 1 && std::string_view(argv[1]) == "--quick";
   const int rounds = quick ? 5 : 31;
-  for (const TransitionMethod& method : transition_methods().first(quick ? 3 : transition_methods().size())) {
+  for (const TransitionMethod& method : transition_methods().first(quick ? 4 : transition_methods().size())) {
     const std::string name(method.name);
     junction_against_slerp(name.c_str(), rounds);
     long_against_short(name.c_str(), rounds);

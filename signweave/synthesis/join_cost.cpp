@@ -24,27 +24,29 @@ using Lanes8 = float __attribute__((vector_size(32)));
 using Lanes16 = float __attribute__((vector_size(64)));
 
 /// Halves are compared, so that no lane waits for the one before it.
-[[gnu::always_inline]] inline float least_of(Lanes4 lanes) noexcept {
+[[gnu::always_inline]] inline float least_of(const Lanes4& lanes) noexcept {
   const float even = std::min(lanes[0], lanes[2]);
   const float odd = std::min(lanes[1], lanes[3]);
   return std::min(even, odd);
 }
-[[gnu::always_inline]] inline float least_of(Lanes8 lanes) noexcept {
+[[gnu::always_inline]] inline float least_of(const Lanes8& lanes) noexcept {
   const Lanes4 low = __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3);
   const Lanes4 high = __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
-  return least_of(low < high ? low : high);
+  const Lanes4 less = low < high ? low : high;
+  return least_of(less);
 }
-[[gnu::always_inline]] inline float least_of(Lanes16 lanes) noexcept {
+[[gnu::always_inline]] inline float least_of(const Lanes16& lanes) noexcept {
   const Lanes8 low = __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3, 4, 5, 6, 7);
   const Lanes8 high = __builtin_shufflevector(lanes, lanes, 8, 9, 10, 11, 12, 13, 14, 15);
-  return least_of(low < high ? low : high);
+  const Lanes8 less = low < high ? low : high;
+  return least_of(less);
 }
 
-/// `ends` is [value][lane]. Four sums go on beside each other, so that none waits for another's addition.
+/// `ends` is [value][lane]. Two sums go on beside each other, so that none waits for the other's addition.
 template <typename Lanes>
 [[gnu::always_inline]] inline float costs_by(const float* ends, const float* begin, const Weights& weights,
                                              float* out) noexcept {
-  Lanes least;
+  Lanes least = {};
   for (std::size_t lane = 0; lane < JoinEnds::kLanes; lane += sizeof(Lanes) / sizeof(float)) {
     Lanes at[kHands];
     for (std::size_t value = 0; value < kHands; ++value) {
@@ -56,27 +58,23 @@ template <typename Lanes>
     const Lanes none = {};
     const Lanes fast_left = left * weights.per_way - 1.0f;
     const Lanes fast_right = right * weights.per_way - 1.0f;
-    const auto square = [&](std::size_t value) {
-      Lanes off;
-      std::memcpy(&off, ends + value * JoinEnds::kLanes + lane, sizeof(Lanes));
-      off -= begin[value];
-      return off * off;
-    };
-    Lanes first = weights.place * (left + right) + square(kHands);
-    Lanes second = weights.speed * (fast_left > none ? fast_left : none) + square(kHands + 1);
-    Lanes third = weights.speed * (fast_right > none ? fast_right : none);
-    Lanes fourth = none;
-    static_assert((JoinPoint::kSize - kHands) % 4 == 2);
-    for (std::size_t value = kHands + 2; value < JoinPoint::kSize; value += 4) {
-      first += square(value);
-      second += square(value + 1);
-      third += square(value + 2);
-      fourth += square(value + 3);
+    Lanes sum = weights.place * (left + right) + weights.speed * (fast_left > none ? fast_left : none);
+    Lanes other = weights.speed * (fast_right > none ? fast_right : none);
+    static_assert(JoinPoint::kSize % 2 == 0 && kHands % 2 == 0);
+    for (std::size_t value = kHands; value < JoinPoint::kSize; value += 2) {
+      Lanes one;
+      Lanes next;
+      std::memcpy(&one, ends + value * JoinEnds::kLanes + lane, sizeof(Lanes));
+      std::memcpy(&next, ends + (value + 1) * JoinEnds::kLanes + lane, sizeof(Lanes));
+      one -= begin[value];
+      next -= begin[value + 1];
+      sum += one * one;
+      other += next * next;
     }
     Lanes all;
     std::memcpy(&all, weights.before + lane, sizeof(Lanes));
     all += weights.to;
-    all += (first + second) + (third + fourth);
+    all += sum + other;
     std::memcpy(out + lane, &all, sizeof(Lanes));
     least = lane == 0 ? all : (all < least ? all : least);
   }

@@ -52,7 +52,7 @@ CaptureNoise capture_noise(const Motion& motion) {
   const auto length = std::clamp<std::int64_t>(std::llround(kNoiseWindow * motion.rate().hertz()), 6, ShortFit::kMost);
   const std::int64_t windows = std::min(kMostWindows, motion.frame_count() / length);
   if (windows == 0) return noise;
-  const ShortFit fit(static_cast<std::size_t>(length));
+  const ShortFit& fit = ShortFit::of(static_cast<std::size_t>(length));
   std::array<Eigen::Vector3f, ShortFit::kMost> path;
   std::vector<WindowFit> fits(static_cast<std::size_t>(windows));
   const auto measure = [&](auto value_at) {

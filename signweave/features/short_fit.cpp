@@ -2,11 +2,20 @@
 
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace signweave {
 
-ShortFit::ShortFit(std::size_t samples) noexcept : samples_(samples) {
+const ShortFit& ShortFit::of(std::size_t samples) noexcept {
+  static const auto all = []<std::size_t... i>(std::index_sequence<i...>) {
+    return std::array{ShortFit(kTerms + i)...};
+  }
+  (std::make_index_sequence<kMost - kTerms + 1>());
   assert(samples >= kTerms && samples <= kMost);
+  return all[samples - kTerms];
+}
+
+ShortFit::ShortFit(std::size_t samples) noexcept : samples_(samples) {
   const double middle = 0.5 * static_cast<double>(samples - 1);
   std::array<std::array<double, kMost>, kTerms> made{};
   for (std::size_t term = 0; term < kTerms; ++term) {

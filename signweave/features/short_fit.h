@@ -15,8 +15,8 @@ class ShortFit {
   static constexpr std::size_t kMost = 32;  ///< samples
   using Terms = std::array<Eigen::Vector3f, kTerms>;
 
-  /// Of so many samples, 4 to kMost.
-  explicit ShortFit(std::size_t samples) noexcept;
+  /// Of so many samples, kTerms to kMost. Made once for all; threads may ask at the same time.
+  static const ShortFit& of(std::size_t samples) noexcept;
 
   std::size_t samples() const noexcept { return samples_; }
   /// The value of a polynomial at a sample.
@@ -25,7 +25,9 @@ class ShortFit {
   Terms terms_of(std::span<const Eigen::Vector3f> path) const noexcept;
 
  private:
-  std::size_t samples_;
+  explicit ShortFit(std::size_t samples) noexcept;
+
+  std::size_t samples_ = 0;
   std::array<std::array<float, kMost>, kTerms> values_{};
 };
 

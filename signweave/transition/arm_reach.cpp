@@ -8,9 +8,10 @@
 namespace signweave {
 namespace {
 
-/// An elbow is neither bent nor stretched farther than this by being shifted. Radians between the bones.
-constexpr float kMostBent = 0.5f;
-constexpr float kMostStretched = 3.1f;
+/// An elbow is neither bent nor stretched farther than this by being shifted: cosines of 0.5 and 3.1 radians between
+/// the bones.
+constexpr float kMostBent = 0.87758f;
+constexpr float kMostStretched = -0.99914f;
 
 std::size_t slot(JointIndex joint) {
   return static_cast<std::size_t>(joint);
@@ -19,6 +20,16 @@ std::size_t slot(JointIndex joint) {
 Eigen::Quaternionf parent_rotation(const Skeleton& skeleton, const ModelPose& model, JointIndex joint) {
   const JointIndex parent = skeleton.joint(joint).parent;
   return parent == kNoJoint ? Eigen::Quaternionf::Identity() : model.rotations[slot(parent)];
+}
+
+/// About an axis by the difference of two angles in [0, π] whose cosines are given.
+Eigen::Quaternionf turn_by_difference(float of, float without, const Eigen::Vector3f& axis) noexcept {
+  const float sine_of = std::sqrt(1 - of * of);
+  const float sine_without = std::sqrt(1 - without * without);
+  const float half = std::sqrt(std::max(0.0f, 0.5f * (1 + of * without + sine_of * sine_without)));  // its cosine
+  if (half < 1e-3f) return Eigen::Quaternionf(Eigen::AngleAxisf(std::acos(of) - std::acos(without), axis));
+  const Eigen::Vector3f turned = (sine_of * without - of * sine_without) / (2 * half) * axis;
+  return {half, turned.x(), turned.y(), turned.z()};
 }
 
 }  // namespace
@@ -43,22 +54,22 @@ void shift_wrist(const Skeleton& skeleton, const ArmJoints& arm, const ModelPose
   const float a = upper.norm();
   const float b = fore.norm();
   if (a < 1e-4f || b < 1e-4f) return;
-  // Between the bones, seen from the elbow.
-  const float angle = std::acos(std::clamp(-upper.dot(fore) / (a * b), -1.0f, 1.0f));
+  // The cosine between the bones, seen from the elbow. Angles themselves are never needed.
+  const float cosine = std::clamp(-upper.dot(fore) / (a * b), -1.0f, 1.0f);
   const auto distance_at = [&](float between) {
-    return std::sqrt(std::max(0.0f, a * a + b * b - 2 * a * b * std::cos(between)));
+    return std::sqrt(std::max(0.0f, a * a + b * b - 2 * a * b * between));
   };
   const Eigen::Vector3f goal = upper + fore + by;  // from the shoulder
-  const float farthest = distance_at(std::max(kMostStretched, angle));
-  const float nearest = distance_at(std::min(kMostBent, angle));
+  const float farthest = distance_at(std::min(kMostStretched, cosine));
+  const float nearest = distance_at(std::max(kMostBent, cosine));
   const float distance = std::clamp(goal.norm(), nearest, farthest);
   if (distance < 1e-4f || goal.norm() < 1e-4f) return;
-  const float wanted = std::acos(std::clamp((a * a + b * b - distance * distance) / (2 * a * b), -1.0f, 1.0f));
+  const float wanted = std::clamp((a * a + b * b - distance * distance) / (2 * a * b), -1.0f, 1.0f);
   Eigen::Vector3f axis = upper.cross(fore);  // turning the forearm about it bends the elbow more
   if (axis.norm() < 1e-4f * a * b) axis = upper.cross(goal);
   if (axis.norm() < 1e-6f) axis = upper.unitOrthogonal();
   axis.normalize();
-  const Eigen::Quaternionf bend(Eigen::AngleAxisf(angle - wanted, axis));
+  const Eigen::Quaternionf bend = turn_by_difference(cosine, wanted, axis);
   const Eigen::Vector3f reached = upper + bend * fore;
   const Eigen::Quaternionf turn = turn_between(reached, goal);
 

@@ -1,6 +1,8 @@
 #include "signweave/transition/curve_loops.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 
 #include "signweave/core/vector_loops.h"
 #include "signweave/transition/curves.h"
@@ -83,83 +85,175 @@ SIGNWEAVE_VECTOR_CLONES void see_rotations(const float* q, const float* middles,
   }
 }
 
-SIGNWEAVE_VECTOR_CLONES void add_up(std::span<const float> row, const float* ways, std::size_t width,
-                                    float* out) noexcept {
-  constexpr std::size_t kBlock = 16;
-  std::size_t begin = 0;
-  for (; begin + kBlock <= width; begin += kBlock) {
-    float sum[kBlock] = {};
-    for (std::size_t term = 0; term < row.size(); ++term) {
-      const float* const way = ways + term * width + begin;
-      for (std::size_t i = 0; i < kBlock; ++i) sum[i] += row[term] * way[i];
+SIGNWEAVE_VECTOR_CLONES void see_farthest(std::span<const float> seen, std::size_t count, std::size_t width,
+                                          float* farthest) noexcept {
+  for (const float* at = seen.data(); at != seen.data() + seen.size(); at += 3 * width) {
+    SIGNWEAVE_INDEPENDENT
+    for (std::size_t i = 0; i < count; ++i) {
+      const float x = at[i];
+      const float y = at[width + i];
+      const float z = at[2 * width + i];
+      const float square = x * x + (y * y + z * z);
+      farthest[i] = farthest[i] < square ? square : farthest[i];
     }
-    std::copy_n(sum, kBlock, out + begin);
-  }
-  for (; begin < width; ++begin) {
-    float sum = 0;
-    for (std::size_t term = 0; term < row.size(); ++term) sum += row[term] * ways[term * width + begin];
-    out[begin] = sum;
   }
 }
 
-SIGNWEAVE_VECTOR_CLONES void keep_within(const JointReach* reaches, std::size_t count, std::size_t width,
-                                         float* vectors) noexcept {
-  float* const vx = vectors;
-  float* const vy = vectors + width;
-  float* const vz = vectors + 2 * width;
-  SIGNWEAVE_INDEPENDENT
-  for (std::size_t i = 0; i < count; ++i) {
-    const float x = vx[i];
-    const float y = vy[i];
-    const float z = vz[i];
-    const float scale = reaches[i].scale(x * x + y * y + z * z);
-    vx[i] = scale * x;
-    vy[i] = scale * y;
-    vz[i] = scale * z;
+SIGNWEAVE_VECTOR_CLONES void add_differences(std::span<const float> weights, const float* seen, std::size_t width,
+                                             float factor, float* out) noexcept {
+  std::fill_n(out, width, 0.0f);
+  for (std::size_t sample = 1; sample < weights.size(); ++sample) {
+    const float weight = weights[sample];
+    const float* const at = seen + sample * width;
+    SIGNWEAVE_INDEPENDENT
+    for (std::size_t i = 0; i < width; ++i) out[i] += weight * (at[i] - seen[i]);
+  }
+  for (std::size_t i = 0; i < width; ++i) out[i] *= factor;
+}
+
+SIGNWEAVE_VECTOR_CLONES void add_up(std::span<const float> row, const float* ways, std::size_t stride,
+                                    std::size_t width, float* out) noexcept {
+  if (width < kLanes) {
+    for (std::size_t i = 0; i < width; ++i) {
+      float sum = 0;
+      for (std::size_t term = 0; term < row.size(); ++term) sum += row[term] * ways[term * stride + i];
+      out[i] = sum;
+    }
+    return;
+  }
+  std::fill_n(out, width, 0.0f);
+  for (std::size_t term = 0; term < row.size(); ++term) {
+    const float* const way = ways + term * stride;
+    SIGNWEAVE_INDEPENDENT
+    for (std::size_t i = 0; i < width; ++i) out[i] += row[term] * way[i];
   }
 }
 
-SIGNWEAVE_VECTOR_CLONES void turn_by(const float* vectors, const float* middles, std::size_t count, std::size_t width,
-                                     float* q) noexcept {
-  const auto [mx, my, mz, mw] = planes_of(middles, count);
-  const float* const vx = vectors;
-  const float* const vy = vectors + width;
-  const float* const vz = vectors + 2 * width;
-  float* const ox = q;
-  float* const oy = q + count;
-  float* const oz = q + 2 * count;
-  float* const ow = q + 3 * count;
-  int far = 0;
-  SIGNWEAVE_INDEPENDENT
-  for (std::size_t i = 0; i < count; ++i) {
-    const float x = vx[i];
-    const float y = vy[i];
-    const float z = vz[i];
-    const float square = 0.0625f * (x * x + y * y + z * z);  // of a quarter of the angle
-    far |= static_cast<int>(!(square <= kSeriesQuarter));
-    // Sine (over the quarter angle) and cosine by their series, off by less than 3e-8, and the half angle's from them.
-    const float sine =
-        1 - square * (1.0f / 6) * (1 - square * (1.0f / 20) * (1 - square * (1.0f / 42) * (1 - square * (1.0f / 72))));
-    const float cosine =
-        1 - square * (1.0f / 2) *
-                (1 - square * (1.0f / 12) *
-                         (1 - square * (1.0f / 30) * (1 - square * (1.0f / 56) * (1 - square * (1.0f / 90)))));
-    const float w = 1 - 2 * square * sine * sine;
-    const float factor = 0.5f * sine * cosine;
-    const float tx = factor * x;
-    const float ty = factor * y;
-    const float tz = factor * z;
-    ox[i] = mw[i] * tx + mx[i] * w + my[i] * tz - mz[i] * ty;
-    oy[i] = mw[i] * ty + my[i] * w + mz[i] * tx - mx[i] * tz;
-    oz[i] = mw[i] * tz + mz[i] * w + mx[i] * ty - my[i] * tx;
-    ow[i] = mw[i] * w - mx[i] * tx - my[i] * ty - mz[i] * tz;
+namespace {
+
+/// One number of each joint of a block.
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+using Answers = int __attribute__((vector_size(kLanes * sizeof(int))));  // of comparisons: 0 or −1
+
+[[gnu::always_inline]] inline void read(const float* from, Lanes& out) noexcept {
+  std::memcpy(&out, from, sizeof out);
+}
+[[gnu::always_inline]] inline void write(const Lanes& lanes, float* to) noexcept {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+[[gnu::always_inline]] inline bool any(const Answers& answers) noexcept {
+  std::uint64_t pairs[kLanes / 2];
+  std::memcpy(pairs, &answers, sizeof pairs);
+  return ((pairs[0] | pairs[1]) | (pairs[2] | pairs[3])) != 0;
+}
+
+/// Rotation vectors of one block.
+struct Block {
+  Lanes x;
+  Lanes y;
+  Lanes z;
+};
+
+[[gnu::always_inline]] inline void add_up_block(std::span<const float> row, const float* ways, std::size_t width,
+                                                Block& out) noexcept {
+  out = {};
+  for (const float weight : row) {
+    Lanes x;
+    Lanes y;
+    Lanes z;
+    read(ways, x);
+    read(ways + width, y);
+    read(ways + 2 * width, z);
+    out.x += weight * x;
+    out.y += weight * y;
+    out.z += weight * z;
+    ways += 3 * width;
   }
-  if (far == 0) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3f vector(vectors[i], vectors[width + i], vectors[2 * width + i]);
+}
+
+/// Most blocks are within their reaches: roots and quotients are had for the others alone.
+[[gnu::always_inline]] inline void keep_within(const float* seen, const float* margins, Block& block) noexcept {
+  Lanes least;
+  Lanes margin;
+  read(seen, least);
+  read(margins, margin);
+  const Lanes square = block.x * block.x + block.y * block.y + block.z * block.z;
+  const Lanes none = {};
+  if (!any((square > least * least) & (margin > none))) return;
+  float squares[kLanes];
+  float scales[kLanes];
+  write(square, squares);
+  SIGNWEAVE_INDEPENDENT
+  for (std::size_t i = 0; i < kLanes; ++i) scales[i] = JointReach{seen[i], margins[i]}.scale(squares[i]);
+  Lanes scale;
+  read(scales, scale);
+  block.x *= scale;
+  block.y *= scale;
+  block.z *= scale;
+}
+
+/// Returns whether some angle is too large for the series.
+[[gnu::always_inline]] inline bool turn_block(const Block& block, const Planes& middles, std::size_t count,
+                                              float* q) noexcept {
+  const Lanes& x = block.x;
+  const Lanes& y = block.y;
+  const Lanes& z = block.z;
+  const Lanes square = 0.0625f * (x * x + y * y + z * z);  // of a quarter of the angle
+  // Sine (over the quarter angle) and cosine by their series, off by less than 3e-8, and the half angle's from them.
+  const Lanes sine =
+      1 - square * (1.0f / 6) * (1 - square * (1.0f / 20) * (1 - square * (1.0f / 42) * (1 - square * (1.0f / 72))));
+  const Lanes cosine =
+      1 - square * (1.0f / 2) *
+              (1 - square * (1.0f / 12) *
+                       (1 - square * (1.0f / 30) * (1 - square * (1.0f / 56) * (1 - square * (1.0f / 90)))));
+  const Lanes w = 1 - 2 * square * sine * sine;
+  const Lanes factor = 0.5f * sine * cosine;
+  const Lanes tx = factor * x;
+  const Lanes ty = factor * y;
+  const Lanes tz = factor * z;
+  Lanes mx;
+  Lanes my;
+  Lanes mz;
+  Lanes mw;
+  read(middles.x, mx);
+  read(middles.y, my);
+  read(middles.z, mz);
+  read(middles.w, mw);
+  const Lanes qx = mw * tx + mx * w + my * tz - mz * ty;
+  const Lanes qy = mw * ty + my * w + mz * tx - mx * tz;
+  const Lanes qz = mw * tz + mz * w + mx * ty - my * tx;
+  const Lanes qw = mw * w - mx * tx - my * ty - mz * tz;
+  write(qx, q);
+  write(qy, q + count);
+  write(qz, q + 2 * count);
+  write(qw, q + 3 * count);
+  const Lanes most = Lanes{} + kSeriesQuarter;
+  return any(~(square <= most));
+}
+
+[[gnu::noinline]] void turn_far_ones(const Block& block, const Planes& middles, std::size_t count, float* q) noexcept {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const auto lane = static_cast<int>(i);
+    const Eigen::Vector3f vector(block.x[lane], block.y[lane], block.z[lane]);
     if (0.0625f * vector.squaredNorm() <= kSeriesQuarter) continue;
-    const Eigen::Quaternionf turn = Eigen::Quaternionf(mw[i], mx[i], my[i], mz[i]) * rotation_of(vector);
+    const Eigen::Quaternionf turn =
+        Eigen::Quaternionf(middles.w[i], middles.x[i], middles.y[i], middles.z[i]) * rotation_of(vector);
     for (Eigen::Index axis = 0; axis < 4; ++axis) q[static_cast<std::size_t>(axis) * count + i] = turn.coeffs()[axis];
+  }
+}
+
+}  // namespace
+
+SIGNWEAVE_VECTOR_CLONES void make_turns(std::span<const float> row, const Turns& turns, float* q) noexcept {
+  for (std::size_t begin = 0; begin < turns.count; begin += kLanes) {
+    Block block;
+    add_up_block(row, turns.ways + begin, turns.width, block);
+    keep_within(turns.reaches.seen.data() + begin, turns.reaches.margins.data() + begin, block);
+    const Planes middles = planes_of(turns.middles, turns.count);
+    const Planes of_block = {middles.x + begin, middles.y + begin, middles.z + begin, middles.w + begin};
+    if (turn_block(block, of_block, turns.count, q + begin)) {
+      turn_far_ones(block, of_block, turns.count, q + begin);
+    }
   }
 }
 

@@ -134,16 +134,6 @@ Eigen::Quaternionf rotation_of(const Eigen::Vector3f& vector) noexcept {
   return {std::cos(half), axis.x(), axis.y(), axis.z()};
 }
 
-JointReach reach_of(const Sides& sides) noexcept {
-  float square = 0;
-  for (const auto& side : {sides.before, sides.after}) {
-    for (const Eigen::Vector3f& vector : side) square = std::max(square, vector.squaredNorm());
-  }
-  // Radians: about 10° for fingers, 25° for an elbow or a wrist, 45° for a shoulder.
-  const float margin = sides.role == JointRole::finger ? 0.17f : sides.role == JointRole::shoulder ? 0.8f : 0.45f;
-  return {std::sqrt(square), margin};
-}
-
 Eigen::Quaternionf middle_of(const Eigen::Quaternionf& left, const Eigen::Quaternionf& right) noexcept {
   const float sign = left.dot(right) < 0 ? -1.0f : 1.0f;
   Eigen::Quaternionf middle;
@@ -230,6 +220,8 @@ void see_all(const GapJob& job) {
   for (std::size_t joint = 0; joint < gap.before.joints(); ++joint) {
     if (job.groups.has(gap.groups->of[joint])) scratch.taken.push_back(joint);
   }
+  scratch.joints = scratch.taken.size();
+  while (scratch.taken.size() % curve_loops::kLanes != 0) scratch.taken.push_back(scratch.taken.back());
   scratch.turned = scratch.taken.size();
   for (std::size_t i = 0; i < gap.before.moved(); ++i) {
     if (job.groups.has(gap.groups->of_translation[i])) scratch.taken.push_back(i);
@@ -272,26 +264,57 @@ Sides sides_of(const GapJob& job, std::size_t taken, double seconds) {
           .rotation = rotation};
 }
 
+void set_reaches(const GapJob& job) {
+  GapScratch& scratch = job.scratch;
+  auto& [seen, margins] = scratch.reaches;
+  seen.assign(scratch.turned, 0.0f);
+  margins.resize(scratch.turned);
+  for (const std::vector<float>& side : scratch.seen) {
+    curve_loops::see_farthest(side, scratch.turned, scratch.taken.size(), seen.data());
+  }
+  for (std::size_t i = 0; i < scratch.turned; ++i) {
+    seen[i] = std::sqrt(seen[i]);
+    const JointRole role = job.gap.groups->roles[scratch.taken[i]];
+    // Radians: about 10° for fingers, 25° for an elbow or a wrist, 45° for a shoulder.
+    margins[i] = role == JointRole::finger ? 0.17f : role == JointRole::shoulder ? 0.8f : 0.45f;
+  }
+}
+
+void fill_blocks(const GapScratch& scratch, std::span<float> rows) noexcept {
+  for (float* row = rows.data(); row != rows.data() + rows.size(); row += scratch.taken.size()) {
+    for (std::size_t i = scratch.joints; i < scratch.turned; ++i) row[i] = row[scratch.joints - 1];
+  }
+}
+
 void make_frame(const GapJob& job, std::int64_t frame, MutablePoses out) noexcept {
   const Gap& gap = job.gap;
   GapScratch& scratch = job.scratch;
   const std::size_t taken = scratch.taken.size();
   const std::size_t turned = scratch.turned;
-  scratch.made.resize(3 * taken + 4 * turned);
-  float* const vectors = scratch.made.data();
-  float* const turns = vectors + 3 * taken;
-  curve_loops::add_up(scratch.row, scratch.ways.data(), 3 * taken, vectors);
-  curve_loops::keep_within(scratch.reaches.data(), turned, taken, vectors);
-  curve_loops::turn_by(vectors, scratch.middles.data(), turned, taken, turns);
+  const std::size_t moved = taken - turned;
+  scratch.made.resize(4 * turned + moved);
+  float* const turns = scratch.made.data();
+  curve_loops::make_turns(scratch.row,
+                          {.ways = scratch.ways.data(),
+                           .reaches = scratch.reaches,
+                           .middles = scratch.middles.data(),
+                           .count = turned,
+                           .width = taken},
+                          turns);
   Eigen::Quaternionf* const rotations = out.rotations.data() + static_cast<std::size_t>(frame) * gap.before.joints();
-  for (std::size_t i = 0; i < turned; ++i) {
+  for (std::size_t i = 0; i < scratch.joints; ++i) {
     rotations[scratch.taken[i]].coeffs() = {turns[i], turns[turned + i], turns[2 * turned + i], turns[3 * turned + i]};
   }
-  for (std::size_t i = turned; i < taken; ++i) {
-    const std::size_t at = scratch.taken[i];
-    const Eigen::Vector3f middle = 0.5f * (gap.left().translations[at] + gap.right().translations[at]);
-    out.translations[static_cast<std::size_t>(frame) * gap.before.moved() + at] =
-        middle + Eigen::Vector3f(vectors[i], vectors[taken + i], vectors[2 * taken + i]);
+  if (moved == 0) return;
+  Eigen::Vector3f* const translations = out.translations.data() + static_cast<std::size_t>(frame) * gap.before.moved();
+  float* const shifts = turns + 4 * turned;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    curve_loops::add_up(scratch.row, scratch.ways.data() + axis * taken + turned, 3 * taken, moved, shifts);
+    const auto on = static_cast<Eigen::Index>(axis);
+    for (std::size_t i = 0; i < moved; ++i) {
+      const std::size_t at = scratch.taken[turned + i];
+      translations[at][on] = 0.5f * (gap.left().translations[at][on] + gap.right().translations[at][on]) + shifts[i];
+    }
   }
 }
 

@@ -56,6 +56,8 @@ class BorderVelocity {
     for (std::size_t i = 1; i <= last_; ++i) sum += weights_[i] * (path[i] - path[0]);
     return sum;
   }
+  /// What each sample's difference from the first one is taken times for that; the first weight is not used.
+  std::span<const float> weights() const noexcept { return {weights_.data(), last_ + 1}; }
 
  private:
   static constexpr std::size_t kMost = 255;  ///< no more samples are looked at: beyond 3,800 frames a second
@@ -104,14 +106,15 @@ Eigen::Quaternionf see_joint(const Gap& gap, std::size_t joint, GapScratch& scra
 /// The same for a translation, seen from the place midway.
 Eigen::Vector3f see_translation(const Gap& gap, std::size_t translation, GapScratch& scratch);
 
-/// Of a joint whose sides are seen.
-JointReach reach_of(const Sides& sides) noexcept;
-
 /// Sees all joints and translations of a job at once: fills `taken`, `turned`, `middles` and `seen` of its scratch. Of
 /// each joint it sees what see_joint does, up to rounding.
 void see_all(const GapJob& job);
 /// The sides of one of them, in `scratch.before` and `scratch.after`, after see_all.
 Sides sides_of(const GapJob& job, std::size_t taken, double seconds);
+/// How far joints may go from what is seen of both sides: fills `reaches`.
+void set_reaches(const GapJob& job);
+/// Gives the joints that only fill blocks, in rows of as many numbers as are `taken`, what the last joint has.
+void fill_blocks(const GapScratch& scratch, std::span<float> rows) noexcept;
 /// Makes one frame: of each way the terms' vectors in `scratch.ways`, each times its number in `scratch.row`, kept
 /// within `scratch.reaches` and turned by `scratch.middles`.
 void make_frame(const GapJob& job, std::int64_t frame, MutablePoses out) noexcept;
@@ -120,6 +123,8 @@ void make_frame(const GapJob& job, std::int64_t frame, MutablePoses out) noexcep
 ///   std::size_t terms() const                                  how many functions of time
 ///   void row(double t, std::int64_t frame, float* out) const   their values at a frame, at t in (0, 1) of the curve
 ///   void coefficients(const Sides&, Eigen::Vector3f* out)      a joint's vectors, one a term
+/// or, where these are sums of what is seen, the same for all joints,
+///   void ways(const GapScratch&, double seconds, float* out)   all joints' vectors, [term][x y z][taken]
 /// and, where it has seen more than the sides and so may bend joints farther than JointReach lets it,
 ///   static constexpr bool kBeyondSides = true
 template <class Family>
@@ -133,19 +138,24 @@ void fill_curves(const GapJob& job, MutablePoses out, Family&& family, const Gap
   const std::size_t terms = family.terms();
   const std::size_t all_terms = terms + (quiet ? 2 : 0);  // the offsets of the borders, which fade out
   const std::size_t taken = scratch.taken.size();
-  scratch.coefficients.resize(terms);
   scratch.row.resize(all_terms);
   scratch.ways.resize(all_terms * 3 * taken);
-  scratch.reaches.resize(scratch.turned);
-  for (std::size_t i = 0; i < taken; ++i) {
-    const Sides sides = sides_of(job, i, time.seconds());
-    if (sides.rotation) scratch.reaches[i] = kBeyondSides ? JointReach{} : reach_of(sides);
-    family.coefficients(sides, scratch.coefficients.data());
-    for (std::size_t term = 0; term < terms; ++term) {
-      float* const way = scratch.ways.data() + term * 3 * taken + i;
-      for (Eigen::Index axis = 0; axis < 3; ++axis)
-        way[static_cast<std::size_t>(axis) * taken] = scratch.coefficients[term][axis];
+  set_reaches(job);
+  if (kBeyondSides) std::ranges::fill(scratch.reaches.margins, 0.0f);
+  if constexpr (requires { family.ways(scratch, 0.0, scratch.ways.data()); }) {
+    family.ways(scratch, time.seconds(), scratch.ways.data());
+  } else {
+    scratch.coefficients.resize(terms);
+    for (std::size_t i = 0; i < taken; ++i) {
+      if (scratch.fills_block(i)) continue;
+      family.coefficients(sides_of(job, i, time.seconds()), scratch.coefficients.data());
+      for (std::size_t term = 0; term < terms; ++term) {
+        float* const way = scratch.ways.data() + term * 3 * taken + i;
+        for (Eigen::Index axis = 0; axis < 3; ++axis)
+          way[static_cast<std::size_t>(axis) * taken] = scratch.coefficients[term][axis];
+      }
     }
+    fill_blocks(scratch, std::span(scratch.ways).first(terms * 3 * taken));
   }
   for (std::size_t side = 0; quiet && side < 2; ++side) {
     std::ranges::copy(scratch.offsets[side],

@@ -162,7 +162,7 @@ TEST(Curves, JointsSeenTogetherAreSeenAsEachAlone) {
     GapScratch alone;
     const GapJob job{.gap = gap, .model = default_transition_model(), .scratch = scratch};
     see_all(job);
-    for (std::size_t i = 0; i < scratch.turned; ++i) {
+    for (std::size_t i = 0; i < scratch.joints; ++i) {
       const Sides sides = sides_of(job, i, 1);
       see_joint(gap, sides.joint, alone);
       ASSERT_EQ(sides.before.size(), alone.before.size());
@@ -174,9 +174,37 @@ TEST(Curves, JointsSeenTogetherAreSeenAsEachAlone) {
   }
 }
 
+TEST(Curves, WaysOfAllJointsAreThoseOfEach) {
+  const JointGroups of = groups();
+  for (const std::uint32_t hertz : {24u, 100u, 500u}) {
+    const Motion motion = lively(1.9, {hertz, 1}, 4 * hertz);
+    const Gap gap = cut(motion, of, {hertz, 2 * hertz});
+    const GapTime time(gap);
+    GapScratch scratch;
+    const GapJob job{.gap = gap, .model = default_transition_model(), .scratch = scratch};
+    see_all(job);
+    std::vector<double> memory;
+    const auto compare = [&](const auto& family) {
+      const std::size_t width = 3 * scratch.taken.size();
+      std::vector<float> ways(family.terms() * width);
+      family.ways(scratch, time.seconds(), ways.data());
+      std::vector<Eigen::Vector3f> own(family.terms());
+      for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
+        family.coefficients(sides_of(job, i, time.seconds()), own.data());
+        for (std::size_t k = 0; k < own.size() * 3; ++k) {
+          const float way = ways[k / 3 * width + k % 3 * scratch.taken.size() + i];
+          EXPECT_NEAR(way, own[k / 3][static_cast<Eigen::Index>(k % 3)], 1e-5f) << hertz << ' ' << i << ' ' << k;
+        }
+      }
+    };
+    compare(Kriging(gap, time, memory));
+    compare(FingerCurves(gap));
+  }
+}
+
 TEST(Curves, VectorsOfAnyLengthBecomeTheirRotations) {
   std::vector<float> vectors;  // [x y z][joint]
-  constexpr std::size_t kCount = 37;
+  constexpr std::size_t kCount = 5 * curve_loops::kLanes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < kCount; ++i) {
       vectors.push_back(0.17f * static_cast<float>(i) * std::array{0.6f, -0.64f, 0.48f}[axis]);
@@ -189,7 +217,11 @@ TEST(Curves, VectorsOfAnyLengthBecomeTheirRotations) {
                 middle.coeffs()[static_cast<Eigen::Index>(axis)]);
   }
   std::vector<float> turned(4 * kCount);
-  curve_loops::turn_by(vectors.data(), middles.data(), kCount, kCount, turned.data());
+  const JointReaches free{std::vector<float>(kCount), std::vector<float>(kCount)};
+  curve_loops::make_turns(
+      std::array{1.0f},
+      {.ways = vectors.data(), .reaches = free, .middles = middles.data(), .count = kCount, .width = kCount},
+      turned.data());
   for (std::size_t i = 0; i < kCount; ++i) {
     const Eigen::Quaternionf expected =
         middle * rotation_of({vectors[i], vectors[kCount + i], vectors[2 * kCount + i]});

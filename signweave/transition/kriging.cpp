@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 
+#include "signweave/transition/curve_loops.h"
 #include "signweave/transition/fill.h"
 
 namespace signweave {
@@ -198,6 +199,15 @@ void Kriging::coefficients(const Sides& sides, Eigen::Vector3f* out) const noexc
   for (std::size_t i = 0; i < right_; ++i) out[left_ + i] = sides.after[i * stride_];
 }
 
+void Kriging::ways(const GapScratch& scratch, double, float* out) const noexcept {
+  const std::size_t width = 3 * scratch.taken.size();
+  const auto take = [&](const std::vector<float>& seen, std::size_t samples) {
+    for (std::size_t i = 0; i < samples; ++i) out = std::copy_n(seen.data() + i * stride_ * width, width, out);
+  };
+  take(scratch.seen[0], left_);
+  take(scratch.seen[1], right_);
+}
+
 void FingerCurves::row(double t, std::int64_t, float* out) const noexcept {
   const double square = t * t;
   const double risen = 3 * square - 2 * square * t;
@@ -217,6 +227,15 @@ void FingerCurves::coefficients(const Sides& sides, Eigen::Vector3f* out) const 
   out[1] = sides.right();
   out[2] = -seconds * before.of(sides.before);
   out[3] = seconds * after.of(sides.after);
+}
+
+void FingerCurves::ways(const GapScratch& scratch, double seconds, float* out) const noexcept {
+  const std::size_t width = 3 * scratch.taken.size();
+  const auto over = static_cast<float>(seconds);
+  std::copy_n(scratch.seen[0].data(), width, out);
+  std::copy_n(scratch.seen[1].data(), width, out + width);
+  curve_loops::add_differences(before.weights(), scratch.seen[0].data(), width, -over, out + 2 * width);
+  curve_loops::add_differences(after.weights(), scratch.seen[1].data(), width, over, out + 3 * width);
 }
 
 void fill_kriging(const GapJob& job, MutablePoses out) noexcept {

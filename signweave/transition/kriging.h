@@ -29,6 +29,7 @@ class Kriging {
   std::size_t terms() const noexcept { return samples(); }
   void row(double t, std::int64_t frame, float* out) const noexcept;
   void coefficients(const Sides& sides, Eigen::Vector3f* out) const noexcept;
+  void ways(const GapScratch& scratch, double seconds, float* out) const noexcept;
 
  private:
   void solve(std::vector<double>& memory);
@@ -65,6 +66,7 @@ struct FingerCurves {
   std::size_t terms() const noexcept { return 4; }
   void row(double t, std::int64_t frame, float* out) const noexcept;
   void coefficients(const Sides& sides, Eigen::Vector3f* out) const noexcept;
+  void ways(const GapScratch& scratch, double seconds, float* out) const noexcept;
 };
 
 /// A job in two: that of its fingers and that of everything else, where there are such.

@@ -29,28 +29,37 @@ struct JointReach {
   }
 };
 
+/// Those of some joints.
+struct JointReaches {
+  std::vector<float> seen;
+  std::vector<float> margins;
+};
+
 /// Memory that methods use; kept from gap to gap, so that nothing is allocated once it has grown. How far it grows
 /// depends on the joints, the frames within kContext and the spans of the model, never on how long a gap is.
 struct GapScratch {
   std::vector<Eigen::Vector3f> before;        ///< one joint's way up to the left border, backwards from it
   std::vector<Eigen::Vector3f> after;         ///< and from the right border on
   std::vector<Eigen::Vector3f> coefficients;  ///< [term] of one joint or translation
-  std::vector<std::size_t> taken;             ///< the joints and then the translations that are made
-  std::size_t turned = 0;                     ///< how many of them are joints
+  std::vector<std::size_t> taken;  ///< joints, the last of them as often as fills their blocks, then translations
+  std::size_t joints = 0;          ///< how many of them are joints
+  std::size_t turned = 0;          ///< and how many with those that only fill blocks: see curve_loops::kLanes
   std::array<std::vector<float>, 2> seen;     ///< before, after: [frame from the border][x y z][taken]
   std::array<std::vector<float>, 2> offsets;  ///< before, after: [x y z][taken] how far a border is off, see quieten
   std::vector<float> last;                    ///< [x y z w][taken joint], while they are seen
   std::vector<float> ways;                    ///< [term][x y z][taken]
   std::vector<float> middles;                 ///< [x y z w][taken joint]
-  std::vector<float> made;                    ///< [x y z][taken] of one frame, then [x y z w][taken joint]
+  std::vector<float> made;                    ///< of one frame: [x y z w][taken joint], then of one axis [translation]
   std::vector<Eigen::Quaternionf> turns;      ///< what `gap` has of both borders
   std::vector<float> row;                     ///< [term]
-  std::vector<JointReach> reaches;            ///< [taken joint]
+  JointReaches reaches;                       ///< [taken joint]
   std::vector<double> numbers;
   std::vector<float> traits;                           ///< of the gap, as captured spans have them
   std::vector<std::pair<float, std::size_t>> nearest;  ///< distance and index of captured spans
   std::array<CoastingRotations, 4> coasting;
   ArmScratch arms;
+
+  bool fills_block(std::size_t i) const noexcept { return i >= joints && i < turned; }
 };
 
 /// What a method fills: the joints and translations of some groups, in every frame of the gap.

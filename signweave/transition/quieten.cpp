@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "signweave/features/short_fit.h"
+#include "signweave/transition/curves.h"
 
 namespace signweave {
 namespace {
@@ -23,10 +24,11 @@ bool quieten_side(const GapScratch& scratch, const CaptureNoise& noise, std::vec
   const std::size_t width = scratch.taken.size();
   const std::size_t samples = width > 0 ? seen.size() / (3 * width) : 0;
   if (samples < ShortFit::kTerms || samples > ShortFit::kMost) return false;
-  const ShortFit fit(samples);
+  const ShortFit& fit = ShortFit::of(samples);
   std::array<Eigen::Vector3f, ShortFit::kMost> path;
   bool changed = false;
   for (std::size_t i = 0; i < width; ++i) {
+    if (scratch.fills_block(i)) continue;
     const float deviation =
         i < scratch.turned ? noise.rotations[scratch.taken[i]] : noise.translations[scratch.taken[i]];
     if (!(deviation > 0)) continue;
@@ -56,6 +58,8 @@ bool quieten_side(const GapScratch& scratch, const CaptureNoise& noise, std::vec
       }
     }
   }
+  fill_blocks(scratch, seen);
+  fill_blocks(scratch, offsets);
   return changed;
 }
 

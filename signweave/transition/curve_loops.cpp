@@ -156,7 +156,7 @@ struct Block {
 
 [[gnu::always_inline]] inline void add_up_block(std::span<const float> row, const float* ways, std::size_t width,
                                                 Block& out) noexcept {
-  out = {};
+  out = Block{};
   for (const float weight : row) {
     Lanes x;
     Lanes y;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "signweave/evaluation/compare.h"
 #include "signweave/evaluation/regenerate.h"
@@ -49,8 +50,13 @@ std::vector<MethodScores> make_all(std::span<const EvaluatedMotion> recordings, 
   }
   Regenerator regenerator;
   std::size_t done = 0;
+  std::shared_ptr<const TransitionModel> model;
+  std::optional<std::size_t> left_out;  // of the model
   for (const auto& [index, of_recording] : by_recording(spans)) {
-    const std::shared_ptr<const TransitionModel> model = trainer.model_without(folds.of[index]);
+    if (left_out != folds.of[index]) {
+      left_out = folds.of[index];
+      model = trainer.model_without(*left_out);
+    }
     Comparison comparison(recordings[index]);
     BodyGuard guard(recordings[index].motion.skeleton(), recordings[index].signer, recordings[index].groups);
     for (const std::size_t i : of_recording) {

@@ -141,6 +141,12 @@ TransitionCut CutChooser::choose(const std::vector<Weighted>& joints, const Tran
   // Ways add up over joints, and so does their noise.
   const double still = kStillness * std::sqrt(std::max(1.0, static_cast<double>(joints.size())));
   const double straight = static_cast<double>((right_.states.col(0) - left_.states.col(0)).norm());
+  ends_.clear();
+  for (Eigen::Index j = 0; j < rights; ++j) {
+    const auto b = right_.states.col(j);
+    const auto vb = right_.states.col(rights + j);
+    ends_.push_back({.place = b.squaredNorm(), .both = b.dot(vb), .speed = vb.squaredNorm()});
+  }
   for (Eigen::Index i = 0; i < lefts; ++i) {
     const auto a = left_.states.col(i);
     const auto va = left_.states.col(lefts + i);
@@ -150,18 +156,18 @@ TransitionCut CutChooser::choose(const std::vector<Weighted>& joints, const Tran
     for (Eigen::Index j = 0; j < rights; ++j) {
       const std::int64_t kept = left_.kept[static_cast<std::size_t>(i)] + right_.kept[static_cast<std::size_t>(j)];
       if (kept > most) break;
-      const auto b = right_.states.col(j);
-      const auto vb = right_.states.col(rights + j);
-      const double way_way = std::max(0.0, aa + static_cast<double>(b.squaredNorm() - 2.0f * products_(i, j)));
-      const double way_speeds = products_(lefts + i, j) + b.dot(vb) - a_va - products_(i, rights + j);
-      const double va_vb = products_(lefts + i, rights + j);
-      const double vb_vb = vb.squaredNorm();
+      const Squares& end = ends_[static_cast<std::size_t>(j)];
+      const double way_way = std::max(0.0, aa + static_cast<double>(end.place - 2.0f * products_(i, j)));
       const double way = std::sqrt(way_way);
       const double seconds = static_cast<double>(room.length - kept + 1) / room.frames_per_second;
       const double share = static_cast<double>(room.length - kept) / static_cast<double>(room.length);
       const double detour =
           (left_.way[static_cast<std::size_t>(i)] + way + right_.way[static_cast<std::size_t>(j)] - straight) /
           (straight + still);
+      if (detour + kMaking * share >= best_cost) continue;  // the other terms are never below 0
+      const double way_speeds = products_(lefts + i, j) + end.both - a_va - products_(i, rights + j);
+      const double va_vb = products_(lefts + i, rights + j);
+      const double vb_vb = end.speed;
       const double from_rest = 12.0 * std::max(way_way, still * still) / (seconds * seconds * seconds);
       const double turning = std::log1p(effort_of(way_way, way_speeds, va_va + va_vb + vb_vb, seconds) / from_rest);
       const double asked = std::pow(way / (straight + still), kHurryPower);

@@ -75,7 +75,14 @@ class CutChooser {
   std::array<std::vector<Weighted>, kTimed> joints_;
   Points left_, right_;
   Eigen::MatrixXf products_;
-  std::vector<float> signs_;  ///< [joint of the part] that brings `to` into the hemisphere of `from`
+  /// Of the states at one point: place by place, place by velocity, velocity by velocity.
+  struct Squares {
+    float place;
+    float both;
+    float speed;
+  };
+  std::vector<Squares> ends_;  ///< [point of the right side]
+  std::vector<float> signs_;   ///< [joint of the part] that brings `to` into the hemisphere of `from`
 };
 
 }  // namespace signweave

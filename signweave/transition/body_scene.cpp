@@ -209,14 +209,19 @@ Depth BodyScene::hand_in_hand(Side side, std::int64_t frame, const ArmPlace& her
   const Eigen::Quaternionf back = here.hand.conjugate();
   const Eigen::Quaternionf turned = back * other.hand;
   const ArmPlace seen{.wrist = back * (other.wrist - here.wrist)};
-  const float near = (hand.middle - (seen.wrist + turned * there.middle)).norm() - hand.reach - there.reach;
+  const Vector3f ball = seen.wrist + turned * there.middle;
+  const float near = (hand.middle - ball).norm() - hand.reach - there.reach;
   if (near > 0) return {.depth = -near, .by_shape = true};
   const CapsuleRow bars = moved(there.bars, turned.toRotationMatrix(), seen.wrist);
   float least = std::numeric_limits<float>::max();
   std::size_t own = 0;
   std::size_t other_bar = 0;
   CapsuleRow::Numbers clear;
+  // No bar is nearer to one of the other hand's than to the ball that has them all.
+  CapsuleRow::Numbers at_least;
+  clearances({ball, ball, there.reach}, hand.bars, 0, at_least);
   for (std::size_t i = 0; i < hand.bars.count; ++i) {
+    if (at_least[i] >= least) continue;
     clearances(hand.bars[i], bars, 0, clear);
     for (std::size_t k = 0; k < bars.count; ++k) {
       if (clear[k] >= least) continue;

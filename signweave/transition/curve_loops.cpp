@@ -131,32 +131,42 @@ SIGNWEAVE_VECTOR_CLONES void add_up(std::span<const float> row, const float* way
 
 namespace {
 
-/// One number of each joint of a block.
-using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
-using Answers = int __attribute__((vector_size(kLanes * sizeof(int))));  // of comparisons: 0 or −1
+/// One number of each joint of a block. In two blocks at once no sum waits for the one before it.
+using OneBlock = float __attribute__((vector_size(kLanes * sizeof(float))));
+using TwoBlocks = float __attribute__((vector_size(2 * kLanes * sizeof(float))));
+template <class Lanes>
+inline constexpr std::size_t kWidth = sizeof(Lanes) / sizeof(float);
 
+template <class Lanes>
 [[gnu::always_inline]] inline void read(const float* from, Lanes& out) noexcept {
   std::memcpy(&out, from, sizeof out);
 }
+template <class Lanes>
 [[gnu::always_inline]] inline void write(const Lanes& lanes, float* to) noexcept {
   std::memcpy(to, &lanes, sizeof lanes);
 }
+/// Whether a comparison is true of some lane.
+template <class Answers>
 [[gnu::always_inline]] inline bool any(const Answers& answers) noexcept {
-  std::uint64_t pairs[kLanes / 2];
+  std::uint64_t pairs[sizeof answers / sizeof(std::uint64_t)];
   std::memcpy(pairs, &answers, sizeof pairs);
-  return ((pairs[0] | pairs[1]) | (pairs[2] | pairs[3])) != 0;
+  std::uint64_t all = 0;
+  for (const std::uint64_t pair : pairs) all |= pair;
+  return all != 0;
 }
 
-/// Rotation vectors of one block.
+/// Rotation vectors.
+template <class Lanes>
 struct Block {
   Lanes x;
   Lanes y;
   Lanes z;
 };
 
+template <class Lanes>
 [[gnu::always_inline]] inline void add_up_block(std::span<const float> row, const float* ways, std::size_t width,
-                                                Block& out) noexcept {
-  out = Block{};
+                                                Block<Lanes>& out) noexcept {
+  out = Block<Lanes>{};
   for (const float weight : row) {
     Lanes x;
     Lanes y;
@@ -172,7 +182,8 @@ struct Block {
 }
 
 /// Most blocks are within their reaches: roots and quotients are had for the others alone.
-[[gnu::always_inline]] inline void keep_within(const float* seen, const float* margins, Block& block) noexcept {
+template <class Lanes>
+[[gnu::always_inline]] inline void keep_within(const float* seen, const float* margins, Block<Lanes>& block) noexcept {
   Lanes least;
   Lanes margin;
   read(seen, least);
@@ -180,11 +191,11 @@ struct Block {
   const Lanes square = block.x * block.x + block.y * block.y + block.z * block.z;
   const Lanes none = {};
   if (!any((square > least * least) & (margin > none))) return;
-  float squares[kLanes];
-  float scales[kLanes];
+  float squares[kWidth<Lanes>];
+  float scales[kWidth<Lanes>];
   write(square, squares);
   SIGNWEAVE_INDEPENDENT
-  for (std::size_t i = 0; i < kLanes; ++i) scales[i] = JointReach{seen[i], margins[i]}.scale(squares[i]);
+  for (std::size_t i = 0; i < kWidth<Lanes>; ++i) scales[i] = JointReach{seen[i], margins[i]}.scale(squares[i]);
   Lanes scale;
   read(scales, scale);
   block.x *= scale;
@@ -193,7 +204,8 @@ struct Block {
 }
 
 /// Returns whether some angle is too large for the series.
-[[gnu::always_inline]] inline bool turn_block(const Block& block, const Planes& middles, std::size_t count,
+template <class Lanes>
+[[gnu::always_inline]] inline bool turn_block(const Block<Lanes>& block, const Planes& middles, std::size_t count,
                                               float* q) noexcept {
   const Lanes& x = block.x;
   const Lanes& y = block.y;
@@ -231,8 +243,10 @@ struct Block {
   return any(~(square <= most));
 }
 
-[[gnu::noinline]] void turn_far_ones(const Block& block, const Planes& middles, std::size_t count, float* q) noexcept {
-  for (std::size_t i = 0; i < kLanes; ++i) {
+template <class Lanes>
+[[gnu::noinline]] void turn_far_ones(const Block<Lanes>& block, const Planes& middles, std::size_t count,
+                                     float* q) noexcept {
+  for (std::size_t i = 0; i < kWidth<Lanes>; ++i) {
     const auto lane = static_cast<int>(i);
     const Eigen::Vector3f vector(block.x[lane], block.y[lane], block.z[lane]);
     if (0.0625f * vector.squaredNorm() <= kSeriesQuarter) continue;
@@ -242,19 +256,23 @@ struct Block {
   }
 }
 
+template <class Lanes>
+[[gnu::always_inline]] inline void make_block(std::span<const float> row, const Turns& turns, std::size_t begin,
+                                              float* q) noexcept {
+  Block<Lanes> block;
+  add_up_block(row, turns.ways + begin, turns.width, block);
+  keep_within(turns.reaches.seen.data() + begin, turns.reaches.margins.data() + begin, block);
+  const Planes middles = planes_of(turns.middles, turns.count);
+  const Planes of_block = {middles.x + begin, middles.y + begin, middles.z + begin, middles.w + begin};
+  if (turn_block(block, of_block, turns.count, q + begin)) turn_far_ones(block, of_block, turns.count, q + begin);
+}
+
 }  // namespace
 
 SIGNWEAVE_VECTOR_CLONES void make_turns(std::span<const float> row, const Turns& turns, float* q) noexcept {
-  for (std::size_t begin = 0; begin < turns.count; begin += kLanes) {
-    Block block;
-    add_up_block(row, turns.ways + begin, turns.width, block);
-    keep_within(turns.reaches.seen.data() + begin, turns.reaches.margins.data() + begin, block);
-    const Planes middles = planes_of(turns.middles, turns.count);
-    const Planes of_block = {middles.x + begin, middles.y + begin, middles.z + begin, middles.w + begin};
-    if (turn_block(block, of_block, turns.count, q + begin)) {
-      turn_far_ones(block, of_block, turns.count, q + begin);
-    }
-  }
+  std::size_t begin = 0;
+  for (; begin + 2 * kLanes <= turns.count; begin += 2 * kLanes) make_block<TwoBlocks>(row, turns, begin, q);
+  for (; begin < turns.count; begin += kLanes) make_block<OneBlock>(row, turns, begin, q);
 }
 
 }  // namespace signweave::curve_loops

@@ -64,15 +64,22 @@ function(signweave_module name)
   signweave_tests(${name} LIBRARIES signweave::${name} SOURCES ${arg_TEST_SOURCES})
 endfunction()
 
-# signweave_tests(NAME [LABEL full] LIBRARIES …): one test program from every *_test.cpp of the folder it is called from. Its tests
-# are of the tier `quick` unless LABEL says otherwise (CONTRIBUTING.md). UNRUN: they are compiled, and not run.
+# signweave_tests(NAME [LABEL full] LIBRARIES …): one test program from every *_test.cpp of the folder it is called from and of
+# those below. Its tests are of the tier `quick` unless LABEL says otherwise (CONTRIBUTING.md). UNRUN: they are compiled, and not run.
 define_property(GLOBAL PROPERTY SIGNWEAVE_TEST_FILES BRIEF_DOCS "every *_test.cpp of a test program, whether this build makes it or not")
 function(signweave_tests name)
   cmake_parse_arguments(arg "UNRUN" "LABEL" "LIBRARIES;SOURCES" ${ARGN})
   if(NOT SIGNWEAVE_TESTS)
     return()
   endif()
-  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  file(GLOB_RECURSE tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  list(FILTER tests EXCLUDE REGEX "_wrong/")  # what a check of the tests is shown as wrong
+  # A folder below that has a CMakeLists.txt has its own.
+  file(GLOB_RECURSE below CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*/CMakeLists.txt)
+  foreach(list IN LISTS below)
+    get_filename_component(folder ${list} DIRECTORY)
+    list(FILTER tests EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${folder}/")
+  endforeach()
   if(NOT tests)
     return()
   endif()

@@ -4,9 +4,9 @@
 // Arguments: --quick takes 20 and 200 recordings in place of 100 and 10,000.
 
 #include "bench/measure.h"
+#include "signweave/choose/synthesizer.h"
 #include "signweave/database/test_signing.h"
-#include "signweave/synthesis/synthesizer.h"
-#include "signweave/synthesis/utterance.h"
+#include "signweave/notation/utterance.h"
 
 namespace {
 

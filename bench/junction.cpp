@@ -7,10 +7,10 @@
 #include <random>
 
 #include "bench/measure.h"
+#include "signweave/choose/concatenate.h"
+#include "signweave/choose/edit.h"
+#include "signweave/choose/synthesizer.h"
 #include "signweave/motion/blend.h"
-#include "signweave/synthesis/concatenate.h"
-#include "signweave/synthesis/edit.h"
-#include "signweave/synthesis/synthesizer.h"
 #include "tests/demo_database.h"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "bench/measure.h"
-#include "signweave/synthesis/select.h"
-#include "signweave/synthesis/utterance.h"
+#include "signweave/choose/select.h"
+#include "signweave/notation/utterance.h"
 #include "tests/demo_database.h"
 
 namespace {

@@ -16,7 +16,7 @@
 #include "bench/measure.h"
 #include "bench/stream_load/paced.h"
 #include "bench/stream_load/server.h"
-#include "signweave/synthesis/utterance.h"
+#include "signweave/notation/utterance.h"
 #include "tests/demo_database.h"
 
 namespace {

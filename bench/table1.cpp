@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "bench/measure.h"
+#include "signweave/choose/edit.h"
+#include "signweave/choose/synthesizer.h"
 #include "signweave/core/error.h"
-#include "signweave/synthesis/edit.h"
-#include "signweave/synthesis/synthesizer.h"
 #include "tests/demo_database.h"
 
 namespace {

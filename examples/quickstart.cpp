@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <iostream>
 
+#include "signweave/choose/synthesizer.h"
 #include "signweave/database/database.h"
 #include "signweave/database/import.h"
 #include "signweave/formats/bvh.h"
 #include "signweave/query/parse.h"
-#include "signweave/synthesis/synthesizer.h"
 
 int main(int argc, char** argv) {
   using namespace signweave;

@@ -15,8 +15,8 @@
 
 #include "signweave/core/error.h"
 #include "signweave/formats/bvh.h"
-#include "signweave/stream/frame_codec.h"
-#include "signweave/synthesis/utterance.h"
+#include "signweave/live/frame_codec.h"
+#include "signweave/notation/utterance.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "signweave/choose/edit.h"
 #include "signweave/core/error.h"
-#include "signweave/synthesis/edit.h"
-#include "signweave/synthesis/utterance.h"
+#include "signweave/notation/utterance.h"
 
 using namespace signweave;
 

@@ -13,10 +13,10 @@
 #include <random>
 #include <set>
 
+#include "signweave/choose/synthesizer.h"
 #include "signweave/database/test_signing.h"
 #include "signweave/rig/signer_space.h"
 #include "signweave/semantic_db/semantic_db.h"
-#include "signweave/synthesis/synthesizer.h"
 #include "signweave/transition/method.h"
 #include "tests/demo_database.h"
 

@@ -5,12 +5,12 @@
 
 #include <set>
 
+#include "signweave/choose/captured_spans.h"
+#include "signweave/choose/synthesizer.h"
 #include "signweave/database/test_recording.h"
 #include "signweave/database/test_signing.h"
 #include "signweave/features/transition_stats.h"
 #include "signweave/semantic_db/semantic_db.h"
-#include "signweave/synthesis/captured_spans.h"
-#include "signweave/synthesis/synthesizer.h"
 #include "signweave/transition/learned.h"
 #include "tests/demo_database.h"
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <map>
 
+#include "signweave/choose/synthesizer.h"
 #include "signweave/database/test_signing.h"
 #include "signweave/features/hand_points.h"
-#include "signweave/synthesis/synthesizer.h"
 #include "tests/demo_database.h"
 
 namespace signweave {

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "signweave/choose/synthesizer.h"
 #include "signweave/core/error.h"
 #include "signweave/database/test_recording.h"
-#include "signweave/synthesis/synthesizer.h"
 #include "tests/demo_database.h"
 
 namespace signweave {

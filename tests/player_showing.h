@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "signweave/database/test_signing.h"
-#include "signweave/stream/player.h"
+#include "signweave/live/player.h"
 #include "tests/demo_database.h"
 
 /// For tests: players of the demo corpus, and what they show.

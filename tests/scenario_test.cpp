@@ -5,14 +5,14 @@
 #include <atomic>
 #include <thread>
 
+#include "signweave/choose/synthesizer.h"
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
 #include "signweave/database/test_recording.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/motion/kinematics.h"
 #include "signweave/rig/rig_map.h"
-#include "signweave/synthesis/provenance.h"
-#include "signweave/synthesis/synthesizer.h"
+#include "signweave/score/provenance.h"
 #include "tests/demo_database.h"
 
 namespace signweave {

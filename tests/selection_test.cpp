@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "signweave/choose/synthesizer.h"
 #include "signweave/database/check.h"
 #include "signweave/database/test_signing.h"
 #include "signweave/features/transition_stats.h"
 #include "signweave/semantic_db/semantic_db.h"
-#include "signweave/synthesis/synthesizer.h"
 #include "tests/demo_database.h"
 
 namespace signweave {

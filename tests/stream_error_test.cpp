@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "demo/corpus.h"
+#include "signweave/live/frame_codec.h"
 #include "signweave/motion/kinematics.h"
-#include "signweave/stream/frame_codec.h"
 
 namespace signweave {
 namespace {

@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "signweave/choose/on_skeleton.h"
+#include "signweave/choose/synthesizer.h"
 #include "signweave/core/error.h"
 #include "signweave/features/hand_points.h"
 #include "signweave/retarget/retargeted_source.h"
 #include "signweave/retarget/test_other_rig.h"
-#include "signweave/synthesis/on_skeleton.h"
-#include "signweave/synthesis/synthesizer.h"
 #include "tests/player_showing.h"
 #include "tests/retarget_figures.h"
 

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "signweave/choose/missing_glosses.h"
 #include "signweave/query/parse.h"
-#include "signweave/synthesis/missing_glosses.h"
 
 namespace signweave::calls {
 

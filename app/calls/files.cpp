@@ -20,7 +20,7 @@
 #include "signweave/formats/gltf_character.h"
 #include "signweave/formats/positions_csv.h"
 #include "signweave/formats/rotations_csv.h"
-#include "signweave/synthesis/provenance.h"
+#include "signweave/score/provenance.h"
 
 namespace signweave::calls {
 namespace {

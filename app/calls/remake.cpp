@@ -6,10 +6,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "signweave/choose/captured_spans.h"
 #include "signweave/core/text.h"
 #include "signweave/evaluation/regenerate.h"
 #include "signweave/features/from_source.h"
-#include "signweave/synthesis/captured_spans.h"
 
 namespace signweave::calls {
 namespace {

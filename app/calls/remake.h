@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "signweave/database/database.h"
-#include "signweave/synthesis/transition.h"
+#include "signweave/score/transition.h"
 
 namespace signweave::calls {
 

@@ -7,12 +7,12 @@
 #include <cstring>
 
 #include "app/calls/export_call.h"
+#include "signweave/choose/captured_spans.h"
 #include "signweave/core/error.h"
 #include "signweave/database/test_signing.h"
 #include "signweave/evaluation/evaluation.h"
 #include "signweave/evaluation/regenerate.h"
 #include "signweave/features/phase_features.h"
-#include "signweave/synthesis/captured_spans.h"
 
 namespace signweave::calls {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/calls/table.h"
-#include "signweave/synthesis/target_cost.h"
+#include "signweave/choose/target_cost.h"
 
 namespace signweave::calls {
 

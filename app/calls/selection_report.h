@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "signweave/synthesis/synthesizer.h"
+#include "signweave/choose/synthesizer.h"
 
 namespace signweave::calls {
 

@@ -6,8 +6,8 @@
 
 #include "app/calls/selection_report.h"
 #include "app/calls/synthesis_report.h"
+#include "signweave/choose/missing_glosses.h"
 #include "signweave/core/text.h"
-#include "signweave/synthesis/missing_glosses.h"
 
 namespace signweave::calls {
 

@@ -8,7 +8,7 @@
 #include "app/calls/files.h"
 #include "app/calls/json.h"
 #include "app/calls/motion_writing.h"
-#include "signweave/synthesis/synthesizer.h"
+#include "signweave/choose/synthesizer.h"
 
 namespace signweave::calls {
 

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "signweave/synthesis/concatenate.h"
+#include "signweave/choose/concatenate.h"
 
 namespace signweave::calls {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "signweave/core/error.h"
-#include "signweave/stream/player.h"
+#include "signweave/live/player.h"
 
 namespace signweave::server {
 

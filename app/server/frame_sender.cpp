@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "app/server/stream_text.h"
+#include "signweave/choose/missing_glosses.h"
 #include "signweave/core/prefetch.h"
-#include "signweave/synthesis/missing_glosses.h"
 
 namespace signweave::server {
 namespace {

@@ -12,9 +12,9 @@
 #include "app/server/control_message.h"
 #include "app/server/served_database.h"
 #include "app/server/stream_socket.h"
+#include "signweave/live/frame_codec.h"
+#include "signweave/live/player.h"
 #include "signweave/retarget/retarget.h"
-#include "signweave/stream/frame_codec.h"
-#include "signweave/stream/player.h"
 
 namespace signweave::server {
 

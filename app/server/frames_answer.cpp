@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "app/server/stream_text.h"
-#include "signweave/stream/frame_codec.h"
+#include "signweave/live/frame_codec.h"
 
 namespace signweave::server {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "app/calls/characters.h"
 #include "signweave/database/database.h"
-#include "signweave/stream/player.h"
+#include "signweave/live/player.h"
 
 namespace signweave::server {
 

@@ -7,7 +7,7 @@
 
 #include "app/calls/fault_json.h"
 #include "app/server/control_message.h"
-#include "signweave/stream/player.h"
+#include "signweave/live/player.h"
 
 namespace signweave::server {
 

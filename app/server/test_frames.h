@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/server/api.h"
+#include "signweave/live/frame_codec.h"
 #include "signweave/motion/motion.h"
-#include "signweave/stream/frame_codec.h"
 
 namespace signweave::server {
 

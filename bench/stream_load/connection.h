@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "signweave/stream/frame_codec.h"
+#include "signweave/live/frame_codec.h"
 
 namespace signweave::bench {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "signweave/database/database.h"
-#include "signweave/synthesis/utterance.h"
+#include "signweave/notation/utterance.h"
 
 namespace signweave::bench {
 

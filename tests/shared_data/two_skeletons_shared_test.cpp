@@ -7,13 +7,13 @@
 #include <filesystem>
 
 #include "signweave/annotation/tier_name.h"
+#include "signweave/choose/on_skeleton.h"
+#include "signweave/choose/synthesizer.h"
 #include "signweave/features/hand_points.h"
 #include "signweave/formats/bvh.h"
 #include "signweave/formats/eaf.h"
 #include "signweave/kv/test_folder.h"
 #include "signweave/retarget/body_mapping.h"
-#include "signweave/synthesis/on_skeleton.h"
-#include "signweave/synthesis/synthesizer.h"
 #include "tests/retarget_figures.h"
 
 namespace signweave {

@@ -16,11 +16,11 @@
 #include <string>
 #include <vector>
 
+#include "signweave/choose/synthesizer.h"
 #include "signweave/core/bytes.h"
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
-#include "signweave/stream/player.h"
-#include "signweave/synthesis/synthesizer.h"
+#include "signweave/live/player.h"
 
 namespace {
 

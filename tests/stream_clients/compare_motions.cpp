@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "signweave/formats/bvh.h"
-#include "signweave/stream/frame_codec.h"
+#include "signweave/live/frame_codec.h"
 
 namespace {
 

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "signweave/core/time.h"
+#include "signweave/features/duration_fit.h"
+#include "signweave/score/result.h"
+#include "signweave/score/stretch.h"
+
+namespace signweave {
+
+/// How stretches from other recordings are brought to where the signer of the reference stretch stands.
+enum class Alignment {
+  automatic,  ///< `ground` for stretches of other recordings than the reference, none for its own
+  ground,     ///< every stretch: shift on the ground and turn about the vertical
+  none,       ///< all sources come from one session
+};
+
+/// Measured over at most kBodyFrames of a stretch's core.
+SignerRig signer_rig_of(const Stretch& stretch);
+
+/// A day of signing at a hundred frames a second. Frame rates come from files: a wrong one must not ask for a terabyte.
+inline constexpr std::int64_t kMostFrames = std::int64_t{24} * 60 * 60 * 100;
+
+struct ConcatenateOptions {
+  const TransitionMethod* method = nullptr;  ///< null: the default
+  Milliseconds duration{0};                  ///< of each transition at tempo 1, without pauses
+  /// Where given, tells the duration of each transition from what the hands have to do. Borrowed.
+  const DurationFit* fit = nullptr;
+  /// What the method has learned, and the captured spans that it may need; null: the default. Borrowed.
+  const TransitionModel* model = nullptr;
+  const SignerRig* rig = nullptr;  ///< of the reference; null: told from its frames and names. Borrowed
+  double tempo = 1;                ///< above 1 is faster; positive
+  FrameRate rate{0, 1};            ///< of the output; 0: the highest of the sources
+  Alignment alignment = Alignment::automatic;
+  std::int64_t most_frames = kMostFrames;  ///< a result that would have more is refused before a frame is read
+  std::size_t reference = 0;  ///< the stretch that gives skeleton and standing: in an edit, one of the edited recording
+};
+
+/// Joins stretches (the paper's Algorithm 1 between each two of them, for each part of the body with a cut of its own).
+/// Every core is kept as captured: at the source's own rate and tempo 1 its rotations have the source's bits, up to the
+/// quaternion's sign and the root's alignment; else they are the source interpolated at the stated frame. Alignment
+/// always goes to where the reference's signer stands, so nothing drifts. The result has the reference's skeleton.
+///
+/// Scalar tracks come along: a track that one of the sources has is in the result, at 0 where a source lacks it, and
+/// goes over in each transition from where it was to where it will be.
+///
+/// `used` is an older result whose memory may be used again. Throws Error{bad_input} where skeletons differ in more
+/// than offsets (naming the joint; see put_on_skeleton), or nothing is to be joined; Error{corrupt} where frames are
+/// damaged.
+Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOptions& options, Synthesis used = {});
+
+}  // namespace signweave

@@ -1,0 +1,110 @@
+#include "signweave/choose/junction_timer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "signweave/transition/duration.h"
+
+namespace signweave {
+namespace {
+
+/// No more is kept of a retraction or a preparation where the cut is chosen.
+constexpr Seconds kLongestKept{1.5};
+
+std::int64_t frames_in(Seconds time, FrameRate rate) {
+  return std::llround(time.count() * rate.hertz());
+}
+
+/// Frames counted from the core's first.
+void read(const JunctionSettings& settings, const Laid& laid, FrameRange frames, Motion& out) {
+  Laid alone = laid;
+  alone.core = 0;
+  out.reset(settings.skeleton, settings.rate, frames.size());
+  read_frames(alone, frames, out.poses({0, frames.size()}));
+}
+
+/// What lies around two cuts.
+struct Sides {
+  CutSide from, to;
+};
+
+/// The same, before it is known where the cuts come to lie: at most `most` frames beside each stroke, and kContext of
+/// the strokes themselves.
+Sides read(const JunctionSettings& settings, const Laid& a, const Laid& b, std::int64_t most,
+           JunctionScratch& scratch) {
+  const std::int64_t context = std::max<std::int64_t>(1, frames_in(kContext, settings.rate));
+  const std::int64_t within_a = std::min(context, a.core_frames);
+  const std::int64_t within_b = std::min(context, b.core_frames);
+  const std::int64_t before = std::min(b.preparation, most);
+  read(settings, a, {a.core_frames - within_a, a.core_frames + std::min(a.retraction, most)}, scratch.left);
+  read(settings, b, {-before, within_b}, scratch.right);
+  return {.from = {view_of(scratch.left, {0, scratch.left.frame_count()}), within_a - 1},
+          .to = {view_of(scratch.right, {0, scratch.right.frame_count()}), before}};
+}
+
+}  // namespace
+
+JunctionTimer::JunctionTimer(const JunctionSettings& settings, const TransitionTiming& timing)
+    : settings_(settings), timing_(timing) {
+  if (settings.method->cut == nullptr) chooser_.emplace(*settings.skeleton, settings.rig->groups);
+}
+
+JunctionCuts JunctionTimer::cuts_between(const Laid& a, const Laid& b, Milliseconds pause, JunctionScratch& scratch) {
+  const JunctionChoice& own = b.stretch->junction;
+  const auto cut = method_of(settings_, b).cut;
+  const bool choose = cut == nullptr;
+  if (choose && !chooser_) chooser_.emplace(*settings_.skeleton, settings_.rig->groups);
+  const bool fitted = !own.duration && timing_.fit != nullptr && !timing_.fit->weights.empty();
+  Seconds duration = own.duration             ? Seconds(*own.duration)
+                     : timing_.fit != nullptr ? timing_.fit->mean
+                                              : Seconds(timing_.duration);
+  Sides sides;
+  if (choose || fitted) {
+    sides = read(settings_, a, b, choose ? frames_in(kLongestKept, settings_.rate) : 0, scratch);
+  }
+  if (fitted) {
+    // The transition as it is where nothing of it is kept.
+    const Gap whole{.skeleton = settings_.skeleton.get(),
+                    .groups = &settings_.rig->groups,
+                    .rate = settings_.rate,
+                    .before = view_of(scratch.left, {0, sides.from.stroke + 1}),
+                    .after = view_of(scratch.right, {sides.to.stroke, scratch.right.frame_count()}),
+                    .count = 1};
+    TransitionTask task = task_of(whole, settings_.rig->signer);
+    for (HandTask& hand : task.hands) {  // as at tempo 1
+      const auto tempo = static_cast<float>(timing_.tempo);
+      hand.speed_before /= tempo;
+      hand.speed_after /= tempo;
+      hand.approach /= tempo;
+    }
+    duration = duration_of(*timing_.fit, task);
+  }
+  const double seconds = (duration / own.tempo.value_or(1.0) + Seconds(pause)).count() / timing_.tempo;
+  const double hertz = settings_.rate.hertz();
+  const TransitionRoom room{.length = std::max<std::int64_t>(1, std::llround(seconds * hertz)),
+                            .retraction = a.retraction,
+                            .preparation = b.preparation,
+                            .frames_per_second = hertz,
+                            .pause = pause > Milliseconds(0),
+                            .pause_frames = std::llround(Seconds(pause).count() / timing_.tempo * hertz)};
+  JunctionCuts cuts{.parts = {}, .tracks = choose ? cut_with_gap(room) : cut(room)};
+  if (!choose) {
+    cuts.parts.fill(cuts.tracks);
+    return cuts;
+  }
+  TransitionRoom known = room;  // what was read
+  known.retraction = sides.from.frames.frames - 1 - sides.from.stroke;
+  known.preparation = sides.to.stroke;
+  cuts.parts = chooser_->choose(known, sides.from, sides.to);
+  return cuts;
+}
+
+void lay_after(Laid& a, Laid& b, const JunctionCuts& cuts) {
+  for (const TransitionCut& cut : cuts.parts) {
+    a.after = std::max(a.after, cut.retraction_frames);
+    b.before = std::max(b.before, cut.preparation_frames);
+  }
+  b.core = a.core_end() + cuts.tracks.length;
+}
+
+}  // namespace signweave

@@ -1,0 +1,137 @@
+#include "signweave/choose/missing_glosses.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "signweave/core/text.h"
+
+namespace signweave {
+namespace {
+
+constexpr std::size_t kMostWordsOfAGloss = 4;
+constexpr std::size_t kMostNamed = 8;  // in one line
+
+using FoldedGlosses = std::unordered_map<std::string, std::vector<std::string>>;  // by their loose form
+
+bool is_there(const Place& place, const Segments& segments) {
+  if (place.kind != Place::Kind::gloss) return true;
+  const std::string form = match_form(place.gloss.gloss);
+  return std::ranges::any_of(segments.members(), [&](const Segments::Member& member) {
+    const std::uint32_t label = member.table.find_text(form);
+    if (label == SegmentTable::kNone) return false;
+    const std::span<const RowId> rows = member.table.with_label(RowKind::sign, label);
+    return std::ranges::any_of(
+        rows, [&](RowId row) { return member.numbers[member.table.recording(row)] != Segments::kNone; });
+  });
+}
+
+/// Whether a place may be a word of a gloss of several: nothing was said of it but its word.
+bool is_word(const Place& place, bool first) {
+  return place.kind == Place::Kind::gloss && place.gloss.token == 0 && (first || place.pause_before == Milliseconds(0));
+}
+
+/// The longest gloss of several places from this one on of which one at least is missing, or nothing.
+MissingGloss joined_from(const Utterance& utterance, std::size_t place, const std::vector<bool>& there,
+                         const FoldedGlosses& folded) {
+  MissingGloss best;
+  std::string words;
+  bool missing = false;
+  for (std::size_t i = place; i < std::min(place + kMostWordsOfAGloss, utterance.places.size()); ++i) {
+    if (!is_word(utterance.places[i], i == place)) break;
+    if (i > place) words += ' ';
+    words += utterance.places[i].gloss.gloss;
+    missing = missing || !there[i];
+    if (i == place || !missing) continue;
+    const auto found = folded.find(loose_form(words));
+    if (found != folded.end()) best = {place, i + 1 - place, words, found->second, true};
+  }
+  return best;
+}
+
+std::vector<MissingGloss> missing_of(const Utterance& utterance, const Segments& segments) {
+  std::vector<bool> there;
+  for (const Place& place : utterance.places) there.push_back(is_there(place, segments));
+  std::vector<MissingGloss> missing;
+  if (std::ranges::find(there, false) == there.end()) return missing;
+  const std::vector<std::string> glosses = segments.glosses();
+  FoldedGlosses folded;
+  for (const std::string& gloss : glosses) folded[loose_form(gloss)].push_back(gloss);
+  for (std::size_t i = 0; i < utterance.places.size();) {
+    if (MissingGloss joined = joined_from(utterance, i, there, folded); !joined.matches.empty()) {
+      i += joined.places;
+      missing.push_back(std::move(joined));
+      continue;
+    }
+    if (!there[i]) {
+      MissingGloss one{i, 1, utterance.places[i].gloss.gloss, {}, false};
+      const auto found = folded.find(loose_form(one.gloss));
+      one.folds = found != folded.end();
+      one.matches = one.folds ? found->second : near_matches(one.gloss, glosses);
+      missing.push_back(std::move(one));
+    }
+    ++i;
+  }
+  return missing;
+}
+
+/// The utterance with the first match in place of what is missing; that of those without one stays.
+Utterance mended(const Utterance& utterance, const std::vector<MissingGloss>& missing) {
+  Utterance result;
+  auto next = missing.begin();
+  for (std::size_t i = 0; i < utterance.places.size(); ++i) {
+    result.places.push_back(utterance.places[i]);
+    if (next == missing.end() || next->place != i) continue;
+    if (!next->matches.empty()) result.places.back().gloss.gloss = next->matches.front();
+    i += next->places - 1;
+    ++next;
+  }
+  return result;
+}
+
+MissingGlosses error_of(const Utterance& utterance, std::vector<MissingGloss> missing) {
+  std::string names;
+  for (std::size_t i = 0; i < std::min(missing.size(), kMostNamed); ++i) {
+    if (i > 0) names += i + 1 == missing.size() ? " and " : ", ";
+    names += fmt::format("'{}'", printable(missing[i].gloss));
+  }
+  if (missing.size() > kMostNamed) names += fmt::format(" and {} more", missing.size() - kMostNamed);
+  std::string text = fmt::format("no sign{} {} in this database", missing.size() == 1 ? "" : "s", names);
+  const bool all = std::ranges::none_of(missing, [](const MissingGloss& one) { return one.matches.empty(); });
+  std::string suggestion = all ? to_string(mended(utterance, missing)) : std::string();
+  std::string meant;
+  if (missing.size() == 1 && missing.front().places == 1) {
+    meant = either_of(missing.front().matches);
+  } else if (all) {
+    meant = printable(suggestion);
+  } else {
+    for (const MissingGloss& one : missing) {
+      if (one.matches.empty() || meant.size() > 60) continue;
+      meant += fmt::format("{}{} for '{}'", meant.empty() ? "" : ", ", one.matches.front(), printable(one.gloss));
+    }
+  }
+  if (!meant.empty()) text += fmt::format("; did you mean {}?", meant);
+  return {text, std::move(missing), std::move(suggestion)};
+}
+
+}  // namespace
+
+void require_glosses(const Utterance& utterance, const Segments& segments) {
+  std::vector<MissingGloss> missing = missing_of(utterance, segments);
+  if (!missing.empty()) throw error_of(utterance, std::move(missing));
+}
+
+Utterance with_folded_glosses(const Utterance& utterance, const Segments& segments, std::vector<Notice>& notices) {
+  const std::vector<MissingGloss> missing = missing_of(utterance, segments);
+  std::vector<MissingGloss> unclear;
+  std::ranges::copy_if(missing, std::back_inserter(unclear),
+                       [](const MissingGloss& one) { return !one.folds || one.matches.size() != 1; });
+  if (!unclear.empty()) throw error_of(utterance, unclear);
+  for (const MissingGloss& one : missing) {
+    notices.push_back({"utterance", fmt::format("'{}' is signed as {}", printable(one.gloss), one.matches.front())});
+  }
+  return mended(utterance, missing);
+}
+
+}  // namespace signweave

@@ -1,0 +1,95 @@
+#include "signweave/choose/missing_glosses.h"
+
+#include <gmock/gmock.h>
+
+#include "signweave/annotation/document.h"
+
+namespace signweave {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+Segments corpus() {
+  AnnotationDocument document;
+  Tier tier;
+  tier.id = "Gloss";
+  std::vector<Sign> signs;
+  Milliseconds begin{0};
+  for (const char* gloss : {"VANNES", "MATIN", "LE MANS", "ÉTÉ", "DÉJÀ", "DEJA", "VANNES"}) {
+    Annotation annotation;
+    annotation.id = std::to_string(begin.count());
+    annotation.label = gloss;
+    annotation.span = {begin, begin + 90ms};
+    Sign sign;
+    sign.gloss = gloss;
+    sign.span = annotation.span;
+    sign.tier = tier.id;
+    sign.annotation = annotation.id;
+    sign.inferred = true;
+    sign.phases.push_back({PhaseKind::stroke, sign.span, "", ""});
+    tier.annotations.push_back(annotation);
+    signs.push_back(sign);
+    begin += 100ms;
+  }
+  document.tiers.push_back(tier);
+  const SegmentChunk chunk = segments_of(document, signs);
+  const std::vector<SegmentTable::Source> sources = {{"meteo", &chunk, ""}};
+  return Segments(SegmentTable(sources));
+}
+
+struct Fault {
+  std::string text, suggestion;
+};
+Fault fault_of(std::string_view utterance) {
+  try {
+    require_glosses(parse_utterance(utterance), corpus());
+  } catch (const MissingGlosses& error) {
+    EXPECT_EQ(error.code(), ErrorCode::not_found);
+    return {error.what(), error.suggestion};
+  }
+  return {};
+}
+
+TEST(MissingGlosses, NoneAreMissingWhereAllAreThere) {
+  EXPECT_NO_THROW(require_glosses(parse_utterance("VANNES MATIN#7 \"LE MANS\" \"meteo\"@0..10"), corpus()));
+}
+
+TEST(MissingGlosses, AllAreNamedWithWhatWasMeant) {
+  EXPECT_EQ(fault_of("VANES").text, "no sign 'VANES' in this database; did you mean VANNES?");
+  EXPECT_EQ(fault_of("vannes , matin").text,
+            "no signs 'vannes' and 'matin' in this database; did you mean VANNES , MATIN?");
+  EXPECT_EQ(fault_of("vannes , matin").suggestion, "VANNES , MATIN");
+  EXPECT_EQ(fault_of("deja").text, "no sign 'deja' in this database; did you mean DEJA or DÉJÀ?");
+  EXPECT_EQ(fault_of("soleil").text, "no sign 'soleil' in this database");
+  EXPECT_EQ(fault_of("soleil").suggestion, "");
+  EXPECT_EQ(fault_of("soleil ete VANNES").text,
+            "no signs 'soleil' and 'ete' in this database; did you mean ÉTÉ for 'ete'?");
+  EXPECT_EQ(fault_of("matin#2 VANNES").suggestion, "MATIN#2 VANNES");
+}
+
+TEST(MissingGlosses, WordsThatAreOneGlossAreTakenTogether) {
+  EXPECT_EQ(fault_of("MATIN LE MANS").text, "no sign 'LE MANS' in this database; did you mean MATIN \"LE MANS\"?");
+  EXPECT_EQ(fault_of("le mans , ete").suggestion, "\"LE MANS\" , ÉTÉ");
+  EXPECT_EQ(fault_of("le , mans").suggestion, "") << "a pause stands between";
+}
+
+TEST(MissingGlosses, AreFoldedWhereOneGlossIsTheSame) {
+  std::vector<Notice> notices;
+  const Utterance folded = with_folded_glosses(parse_utterance("vannes . le mans MATIN ete"), corpus(), notices);
+  EXPECT_EQ(to_string(folded), "VANNES . \"LE MANS\" MATIN ÉTÉ");
+  std::vector<std::string> said;
+  for (const Notice& notice : notices) said.push_back(notice.text);
+  EXPECT_THAT(said,
+              ElementsAre("'vannes' is signed as VANNES", "'le mans' is signed as LE MANS", "'ete' is signed as ÉTÉ"));
+  EXPECT_THROW(with_folded_glosses(parse_utterance("vanes"), corpus(), notices), MissingGlosses)
+      << "near is not the same";
+  EXPECT_THROW(with_folded_glosses(parse_utterance("deja"), corpus(), notices), MissingGlosses) << "of two glosses";
+  notices.clear();
+  EXPECT_EQ(to_string(with_folded_glosses(parse_utterance("MATIN"), corpus(), notices)), "MATIN");
+  EXPECT_THAT(notices, IsEmpty());
+}
+
+}  // namespace
+}  // namespace signweave

@@ -1,0 +1,39 @@
+#include "signweave/choose/on_skeleton.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "signweave/retarget/retargeted_source.h"
+
+namespace signweave {
+
+bool have_same_joints(const MotionSource& a, const MotionSource& b) {
+  return a.skeleton() == b.skeleton() || !difference(*a.skeleton(), *b.skeleton());
+}
+
+RecordedBody body_of(const Contents& contents, const std::string& recording, const MotionSource& source) {
+  return recorded_body(recording, source, contents.at(recording).rig);
+}
+
+void put_on_skeleton(std::vector<Stretch>& stretches, std::size_t reference, const Contents& contents,
+                     std::vector<Notice>& notices) {
+  const std::shared_ptr<const MotionSource> home = stretches.at(reference).source;
+  std::optional<RecordedBody> target;
+  std::map<std::string, std::shared_ptr<const MotionSource>> mapped;  // by recording
+  for (Stretch& stretch : stretches) {
+    if (stretch.source == home || have_same_joints(*stretch.source, *home)) continue;
+    std::shared_ptr<const MotionSource>& source = mapped[stretch.recording];
+    if (!source) {
+      if (!target) target = body_of(contents, stretches[reference].recording, *home);
+      const auto mapping =
+          std::make_shared<const BodyMapping>(map_body(body_of(contents, stretch.recording, *stretch.source), *target));
+      notices.insert(notices.end(), mapping->notices.begin(), mapping->notices.end());
+      source = std::make_shared<RetargetedSource>(stretch.source, mapping);
+    }
+    stretch.source = source;
+    stretch.noise = nullptr;
+  }
+}
+
+}  // namespace signweave

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "signweave/core/error.h"
+#include "signweave/database/database.h"
+#include "signweave/retarget/recorded_body.h"
+#include "signweave/score/stretch.h"
+
+namespace signweave {
+
+/// Where recordings have other joints than the reference stretch's, puts them onto its skeleton, frame by frame as they
+/// are read; a recording is looked at once. The stretches' sources must be of `contents`, one for each recording.
+/// Those with the reference's joints stay as they are. Adds what each mapping has to say to `notices`. Throws
+/// Error{bad_input} where a mapping is not safe (see match_bodies).
+void put_on_skeleton(std::vector<Stretch>& stretches, std::size_t reference, const Contents& contents,
+                     std::vector<Notice>& notices);
+
+/// True where the two are of one kind: motions of both can be joined as they are.
+bool have_same_joints(const MotionSource& a, const MotionSource& b);
+
+/// The body of a recording of `contents`, whose motion `source` is.
+RecordedBody body_of(const Contents& contents, const std::string& recording, const MotionSource& source);
+
+}  // namespace signweave

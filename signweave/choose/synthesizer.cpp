@@ -1,0 +1,247 @@
+#include "signweave/choose/synthesizer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "signweave/choose/captured_spans.h"
+#include "signweave/choose/missing_glosses.h"
+#include "signweave/choose/on_skeleton.h"
+#include "signweave/core/error.h"
+
+namespace signweave {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What the documents of the recordings used declare of themselves.
+std::vector<std::pair<std::string, std::string>> declarations_of(const Contents& contents,
+                                                                 const std::vector<Stretch>& stretches) {
+  std::set<std::pair<std::string, std::string>> declarations;
+  for (const Stretch& stretch : stretches) {
+    for (const auto& [name, value] : contents.at(stretch.recording).declarations) {
+      if (name != "signweave:synthesis") declarations.emplace(name, value);
+    }
+  }
+  return {declarations.begin(), declarations.end()};
+}
+
+/// Measures how long reading takes: the column "retrieval" of Table 1.
+class TimedSource : public MotionSource {
+ public:
+  TimedSource(std::unique_ptr<MotionSource> source, Seconds& spent) : source_(std::move(source)), spent_(spent) {}
+
+  const std::shared_ptr<const Skeleton>& skeleton() const noexcept override { return source_->skeleton(); }
+  FrameRate rate() const noexcept override { return source_->rate(); }
+  std::int64_t frame_count() const noexcept override { return source_->frame_count(); }
+  std::span<const std::string> tracks() const noexcept override { return source_->tracks(); }
+  void read(FrameRange frames, MutablePoses out) const override {
+    const auto start = Clock::now();
+    source_->read(frames, out);
+    spent_ += Clock::now() - start;
+  }
+  void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const override {
+    const auto start = Clock::now();
+    source_->read_tracks(frames, out);
+    spent_ += Clock::now() - start;
+  }
+
+ private:
+  std::unique_ptr<MotionSource> source_;
+  Seconds& spent_;
+};
+
+/// One selected candidate, or several that were neighbours in a recording and stay together.
+struct Part {
+  Candidate candidate;
+  std::size_t place = 0;  ///< the first of its places, and so the number of the junction before it
+};
+
+/// Of neighbours whose junction is named the transition is made: who tells how it is to be made wants it so.
+std::vector<Part> merge_neighbours(const Contents& contents, const std::vector<Choice>& choices,
+                                   const Selection& selection, const JunctionChoices& named,
+                                   std::vector<Notice>& notices) {
+  std::vector<Part> merged;
+  for (std::size_t place = 0; place < choices.size(); ++place) {
+    const Candidate& next = choices[place].candidates[selection.chosen[place]];
+    const bool goes_on = !merged.empty() && choices[place].pause_before == Milliseconds(0) &&
+                         are_neighbours(contents, merged.back().candidate, next);
+    if (goes_on && !named.contains(place)) {
+      go_on_with(merged.back().candidate, next);
+      continue;
+    }
+    if (goes_on) {
+      notices.push_back({contents.recordings[next.recording].name,
+                         fmt::format("'{}' and '{}' were signed one after the other: what lies between is made all the "
+                                     "same, for junction {} is named",
+                                     merged.back().candidate.signs.back().gloss, next.gloss(), place)});
+    }
+    merged.push_back({next, place});
+  }
+  return merged;
+}
+
+void check_numbers(const JunctionChoices& named, std::size_t places) {
+  if (named.empty() || named.rbegin()->first < places) return;
+  const std::size_t junctions = places - 1;
+  throw Error(ErrorCode::bad_input, fmt::format("no junction {}: there {}", named.rbegin()->first,
+                                                junctions == 0   ? "is none, for nothing is joined"
+                                                : junctions == 1 ? "is one alone, number 1"
+                                                                 : fmt::format("are {}, counted from 1", junctions)));
+}
+
+/// The first method of a junction that needs something of the corpus, captured spans before all; or null.
+const TransitionMethod* method_with_needs(const std::vector<Stretch>& stretches, const TransitionMethod& of_all) {
+  const TransitionMethod* found = nullptr;
+  for (std::size_t i = 1; i < stretches.size(); ++i) {
+    const TransitionMethod* const own = stretches[i].junction.method;
+    const TransitionMethod& method = own != nullptr ? *own : of_all;
+    if (method.fill->needs == Needs::spans) return &method;
+    if (method.fill->needs == Needs::teaching) found = &method;
+  }
+  return found;
+}
+
+/// `edited` names the recording that an edit starts from; empty for an utterance.
+Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::string_view edited,
+                const SynthesisOptions& options, Clock::time_point start, Synthesis used) {
+  const Contents& contents = snapshot.contents();
+  check(options);
+  check_numbers(options.junctions, choices.size());
+  Synthesized made;
+  made.contents = snapshot.shared_contents();
+  made.choices = std::move(choices);
+  const auto queried = Clock::now();
+  if (made.choices.size() > 1) made.durations = durations_of(contents, *snapshot.learned(), options.duration);
+  made.selection = select(snapshot, made.choices, {.transition = made.durations.mean, .explain = options.explain});
+  std::vector<Notice> notices;
+  std::vector<Part> parts = merge_neighbours(contents, made.choices, made.selection, options.junctions, notices);
+  const auto selected = Clock::now();
+
+  Seconds reading{0};
+  std::map<std::size_t, std::shared_ptr<const MotionSource>> sources;
+  std::vector<Stretch> stretches;
+  for (Part& part : parts) {
+    Candidate& candidate = part.candidate;
+    const auto named = options.junctions.find(part.place);
+    const RecordingInfo& info = contents.recordings[candidate.recording];
+    for (const Sign& sign : candidate.left_out) {
+      notices.push_back({info.name, fmt::format("'{}' at {} ms has no stroke and stands at a cut: it is left out",
+                                                sign.gloss, sign.span.begin.count())});
+    }
+    std::shared_ptr<const MotionSource>& source = sources[candidate.recording];
+    if (!source) source = std::make_shared<TimedSource>(snapshot.motion(info), reading);
+    stretches.push_back({.recording = info.name,
+                         .source = source,
+                         .whole = candidate.whole,
+                         .core = candidate.core,
+                         .clock = info.clock,
+                         .signs = std::move(candidate.signs),
+                         .pause_before = made.choices[part.place].pause_before,
+                         .junction = named == options.junctions.end() ? JunctionChoice{} : named->second,
+                         .noise = snapshot.joins(candidate.recording)->noise});
+  }
+
+  std::size_t reference = 0;
+  for (std::size_t i = stretches.size(); i-- > 0;) {
+    if (stretches[i].recording == edited) reference = i;
+  }
+  put_on_skeleton(stretches, reference, contents, notices);
+  const RecordingInfo& layout = contents.at(stretches[reference].recording);
+  const SignerRig rig = signer_rig_of(snapshot, layout);
+  const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
+  CapturedSpans captured;
+  if (const TransitionMethod* const asking = method_with_needs(stretches, method)) {
+    captured = captured_spans(snapshot, *stretches[reference].source->skeleton(), rig.groups, asking->fill->needs);
+    if (asking->fill->needs == Needs::spans) {
+      made.captured_transitions = captured.transitions;
+      if (captured.transitions == 0) {
+        notices.push_back(
+            {"", fmt::format("no annotated transition of this skeleton in this database: '{}' goes by none, "
+                             "and makes the likeliest way",
+                             asking->name)});
+      }
+    }
+  }
+  made.result = concatenate(stretches,
+                            {.method = &method,
+                             .fit = &made.durations,
+                             .model = captured.model.get(),
+                             .rig = &rig,
+                             .tempo = options.tempo,
+                             .rate = options.rate.value_or(FrameRate{0, 1}),
+                             .alignment = options.alignment,
+                             .most_frames = options.most_frames,
+                             .reference = reference},
+                            std::move(used));
+  for (std::size_t i = 0; i < made.result.junctions.size(); ++i) made.result.junctions[i].number = parts[i + 1].place;
+  made.result.notices = std::move(notices);
+  made.layout_from = stretches[reference].recording;
+  const bool timed =
+      std::ranges::any_of(made.result.junctions, [](const Junction& one) { return !one.chosen.duration; });
+  if (!options.duration.fixed && made.durations.count == 0 && timed) {
+    made.result.notices.push_back(
+        {"", fmt::format("no transition in this database to measure: {} ms taken; --duration sets it",
+                         std::llround(1000.0 * made.durations.mean.count()))});
+  }
+  made.result.declarations = declarations_of(contents, stretches);
+  const auto done = Clock::now();
+  made.timings = {.semantic_query = queried - start,
+                  .selection = selected - queried,
+                  .retrieval = reading,
+                  .concatenation = done - selected - reading,
+                  .total = done - start};
+  return made;
+}
+
+}  // namespace
+
+SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording) {
+  SignerModel signer = *snapshot.signer(recording);
+  JointGroups groups = joint_groups(*snapshot.motion(recording)->skeleton(), signer.rig);
+  return {std::move(signer), std::move(groups)};
+}
+
+void check(const SynthesisOptions& options) {
+  const auto check_tempo = [](double tempo) {
+    if (tempo >= kSlowestTempo && tempo <= kFastestTempo) return;
+    throw Error(ErrorCode::bad_input, fmt::format("tempo {} is outside {} to {}", tempo, kSlowestTempo, kFastestTempo));
+  };
+  const auto check_duration = [](Milliseconds duration) {
+    if (duration >= Milliseconds(0) && duration <= kLongestTransition) return;
+    throw Error(ErrorCode::bad_input,
+                fmt::format("a transition of {} ms is outside 0 to {}", duration.count(), kLongestTransition.count()));
+  };
+  check_tempo(options.tempo);
+  check_duration(options.duration.fixed.value_or(Milliseconds(0)));
+  for (const auto& [number, choice] : options.junctions) {
+    if (number == 0) throw Error(ErrorCode::bad_input, "no junction 0: they are counted from 1");
+    check_tempo(choice.tempo.value_or(1.0));
+    check_duration(choice.duration.value_or(Milliseconds(0)));
+  }
+}
+
+Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options,
+                       Synthesis used) {
+  const auto start = Clock::now();
+  const Snapshot snapshot = database.snapshot();
+  require_glosses(utterance, snapshot.contents().segments);
+  std::vector<Choice> choices;
+  for (const Place& place : utterance.places) {
+    choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});
+  }
+  return run(snapshot, std::move(choices), {}, options, start, std::move(used));
+}
+
+Synthesized synthesize(const Database& database, std::string_view recording, const Edit& edit,
+                       const SynthesisOptions& options, Synthesis used) {
+  const auto start = Clock::now();
+  const Snapshot snapshot = database.snapshot();
+  return run(snapshot, choices_for(snapshot.contents(), recording, edit), recording, options, start, std::move(used));
+}
+
+}  // namespace signweave

@@ -1,0 +1,159 @@
+#include "signweave/live/weaver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "signweave/core/error.h"
+#include "signweave/render/carry_tracks.h"
+
+namespace signweave {
+namespace {
+
+/// Memory of a thread for the junctions that it makes, whosever they are: it is large, and needed for a moment only.
+struct WeavingScratch {
+  JunctionScratch junction;
+  Motion window, core;
+  std::vector<ScalarTrack> tracks;
+};
+constexpr std::int64_t kKeptFrames = 2'048;  ///< what takes more memory gives it back
+WeavingScratch& scratch() {
+  thread_local WeavingScratch kept;
+  return kept;
+}
+
+/// Where the signer stands over the core of a stretch.
+Standing standing_of(const Laid& laid, const JunctionSettings& settings) {
+  Laid alone = laid;
+  alone.core = 0;
+  Motion& core = scratch().core;
+  const FrameRange frames{0, std::min(alone.core_frames, kStandingFrames)};
+  core.reset(settings.skeleton, settings.rate, frames.size());
+  read_frames(alone, frames, core.poses(frames));
+  Standing standing = standing_over(core, frames);
+  if (frames.size() > kKeptFrames) core = Motion();
+  return standing;
+}
+
+}  // namespace
+
+Weaver::Weaver(const JunctionSettings& settings, const TransitionTiming& timing, std::vector<std::string> tracks,
+               Alignment alignment, const Stretch& home)
+    : settings_(settings),
+      tempo_(timing.tempo),
+      tracks_(std::move(tracks)),
+      alignment_(alignment),
+      home_recording_(home.recording),
+      timer_(settings, timing),
+      filler_(settings) {
+  home_ = standing_of(lay(home, settings_.rate, tempo_), settings_);
+}
+
+void Weaver::lay_sign(Woven& woven) const {
+  if (woven.stretch.source->skeleton() != settings_.skeleton) {
+    if (const auto differs = difference(*settings_.skeleton, *woven.stretch.source->skeleton())) {
+      throw Error(
+          ErrorCode::bad_input,
+          fmt::format("recordings '{}' and '{}' have different skeletons: {}; only motions with the same joints "
+                      "can be joined",
+                      home_recording_, woven.stretch.recording, *differs));
+    }
+  }
+  woven.laid = lay(woven.stretch, settings_.rate, tempo_);
+  woven.aligned = alignment_ == Alignment::ground ||
+                  (alignment_ == Alignment::automatic && woven.stretch.recording != home_recording_);
+  woven.transform.reset();
+  woven.track_of.clear();
+  for (const std::string& name : woven.stretch.source->tracks()) {
+    const auto at = std::ranges::find(tracks_, name);
+    woven.track_of.push_back(at == tracks_.end() ? Woven::kNoTrack : static_cast<std::size_t>(at - tracks_.begin()));
+  }
+}
+
+void Weaver::lay_frames(Woven& woven) const {
+  lay_sign(woven);
+  woven.laid = lay(woven.stretch, settings_.rate, 1.0);
+  woven.aligned = false;
+}
+
+void Weaver::place(Woven& woven) {
+  if (!woven.aligned || woven.transform) return;
+  woven.transform = align(standing_of(woven.laid, settings_), home_);
+}
+
+JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
+  WeavingScratch& memory = scratch();
+  const JunctionCuts cuts = timer_.cuts_between(a.laid, b.laid, b.stretch.pause_before, memory.junction);
+  if (cuts.tracks.length > kMostMade) {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("a transition of {} frames is longer than {}; ask for a lower rate or a shorter duration",
+                            cuts.tracks.length, kMostMade));
+  }
+  a.laid.after = 0;
+  b.laid.before = 0;
+  lay_after(a.laid, b.laid, cuts);
+  place(b);
+  const std::int64_t context = filler_.context();
+  const FrameRange frames{std::max(a.laid.core, a.laid.core_end() - context),
+                          std::min(b.laid.core + context, b.laid.core_end())};
+  memory.window.reset(settings_.skeleton, settings_.rate, frames.size());
+  const OutputWindow window{memory.window, frames.begin};
+  const std::int64_t shared = JunctionFiller::shared(a.laid, b.laid);
+  const FrameRange of_a{frames.begin, a.laid.end()};
+  const FrameRange both{b.laid.begin(), b.laid.begin() + shared};
+  const FrameRange of_b{both.end, frames.end};
+  memory.junction.shared.reset(settings_.skeleton, settings_.rate, shared);
+  read_poses(a, of_a, window.poses(of_a));
+  read_poses(b, both, memory.junction.shared.poses({0, shared}));
+  read_poses(b, of_b, window.poses(of_b));
+  filler_.fill(a.laid, b.laid, cuts.parts, window, memory.junction);
+
+  const FrameRange between{a.laid.core_end(), b.laid.core};
+  made.reset(settings_.skeleton, settings_.rate, between.size());
+  const MutablePoses from = window.poses(between);
+  const MutablePoses to = made.poses({0, between.size()});
+  std::ranges::copy(from.rotations, to.rotations.begin());
+  std::ranges::copy(from.translations, to.translations.begin());
+  if (!tracks_.empty()) {
+    std::array laid = {a.laid, b.laid};
+    laid[0].after = cuts.tracks.retraction_frames;
+    laid[1].before = cuts.tracks.preparation_frames;
+    memory.tracks.resize(tracks_.size());
+    for (std::size_t i = 0; i < tracks_.size(); ++i) memory.tracks[i].name = tracks_[i];
+    carry_tracks(laid, frames, memory.tracks);
+    for (const ScalarTrack& track : memory.tracks) {
+      const float* const values = track.values.data() + (between.begin - frames.begin);
+      made.add_track({track.name, std::vector<float>(values, values + between.size())});
+    }
+  }
+  if (frames.size() > kKeptFrames) memory.window = Motion();
+  return cuts;
+}
+
+void Weaver::read_poses(const Woven& woven, FrameRange frames, MutablePoses out) const {
+  if (frames.empty()) return;
+  read_frames(woven.laid, frames, out);
+  if (!woven.transform) return;
+  const std::size_t joints = settings_.skeleton->joint_count();
+  const std::size_t moved = settings_.skeleton->translation_count();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(frames.size()); ++k) {
+    apply(*woven.transform, *settings_.skeleton,
+          {out.rotations.subspan(k * joints, joints), out.translations.subspan(k * moved, moved)});
+  }
+}
+
+void Weaver::read(const Woven& woven, FrameRange frames, MutablePoses out,
+                  std::span<const std::span<float>> tracks) const {
+  read_poses(woven, frames, out);
+  if (tracks.empty() || frames.empty()) return;
+  for (const std::span<float> track : tracks) std::ranges::fill(track, 0.0f);
+  std::vector<std::span<float>> of_source;
+  of_source.reserve(woven.track_of.size());
+  for (const std::size_t track : woven.track_of) {
+    of_source.push_back(track == Woven::kNoTrack ? std::span<float>() : tracks[track]);
+  }
+  read_tracks(woven.laid, frames, of_source);
+}
+
+}  // namespace signweave

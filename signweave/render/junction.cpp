@@ -1,0 +1,140 @@
+#include "signweave/render/junction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "signweave/motion/blend.h"
+
+namespace signweave {
+namespace {
+
+std::int64_t frames_in(Seconds time, FrameRate rate) {
+  return std::llround(time.count() * rate.hertz());
+}
+
+}  // namespace
+
+const TransitionMethod& method_of(const JunctionSettings& settings, const Laid& laid) noexcept {
+  const TransitionMethod* const own = laid.stretch->junction.method;
+  return own != nullptr ? *own : *settings.method;
+}
+
+JunctionFiller::JunctionFiller(const JunctionSettings& settings)
+    : settings_(settings), guard_(*settings_.skeleton, settings_.rig->signer, settings_.rig->groups) {}
+
+std::int64_t JunctionFiller::shared(const Laid& a, const Laid& b) noexcept {
+  return std::max<std::int64_t>(0, a.end() - b.begin());
+}
+
+std::int64_t JunctionFiller::context() const noexcept {
+  return std::max<std::int64_t>(1, frames_in(kContext, settings_.rate));
+}
+
+void JunctionFiller::fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window,
+                          JunctionScratch& scratch) {
+  Motion& shared = scratch.shared;
+  const bool as_one = std::ranges::all_of(cuts, [&](const TransitionCut& cut) { return cut == cuts.front(); });
+  turn_signs(a, b, cuts, window, shared);
+  if (cuts.front().overlap() > 0) {
+    crossfade(b, cuts.front().overlap(), window, shared);
+  } else if (shared.frame_count() > 0) {
+    take_over(b, cuts, window, shared);
+  }
+  // The body first: where it is, the arms' frames are those of whole poses.
+  for (std::size_t part = 0; part < (as_one ? 1 : kTimed); ++part) {
+    const FrameRange gap{a.core_end() + cuts[part].retraction_frames, b.core - cuts[part].preparation_frames};
+    if (gap.empty()) continue;
+    fill_gap(a, b, gap, as_one ? GroupSet::all() : groups_of(kAllTimed[part]), cuts[part], window, scratch.gap);
+  }
+  for (const Timed part : {Timed::left, Timed::right}) {
+    const TransitionCut& cut = cuts[static_cast<std::size_t>(part)];
+    const FrameRange made{a.core_end() + cut.kept_after(), b.core - cut.kept_before()};
+    if (!made.empty()) guard_.mend(gap_at(a, b, made, window), groups_of(part), window.poses(made));
+  }
+}
+
+/// Each stretch keeps its quaternions' signs from frame to frame, so one sign a joint makes the whole of it go on from
+/// the side before. It is chosen where the two meet: in the middle of a cross-fade, so that there the shorter arc is
+/// taken. Choosing anew for each frame would make a joint jump where the sides pass half a turn apart.
+void JunctionFiller::turn_signs(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window,
+                                Motion& shared) const {
+  const std::int64_t faded = cuts.front().overlap();
+  const std::int64_t own_begin = b.begin() + shared.frame_count();
+  const std::int64_t own_end = std::min(b.end(), window.frames().end);
+  const auto right_pose = [&](std::int64_t frame) {
+    return frame < own_begin ? PoseView(shared.pose(frame - b.begin())) : PoseView(window.pose(frame));
+  };
+  const JointGroups& groups = settings_.rig->groups;
+  for (std::size_t part = 0; part < kTimed; ++part) {
+    const TransitionCut& cut = cuts[part];
+    const std::int64_t begin = b.core - cut.preparation_frames;
+    const PoseView left = window.pose(faded > 0 ? begin + faded / 2 : a.core_end() + cut.retraction_frames - 1);
+    const PoseView right = right_pose(faded > 0 ? begin + faded / 2 : begin);
+    const GroupSet of_part = groups_of(kAllTimed[part]);
+    for (std::size_t joint = 0; joint < left.rotations.size(); ++joint) {
+      if (!of_part.has(groups.of[joint]) || left.rotations[joint].dot(right.rotations[joint]) >= 0) continue;
+      for (std::int64_t k = 0; k < shared.frame_count(); ++k) shared.pose(k).rotations[joint].coeffs() *= -1.0f;
+      for (std::int64_t frame = own_begin; frame < own_end; ++frame) {
+        window.pose(frame).rotations[joint].coeffs() *= -1.0f;
+      }
+    }
+  }
+}
+
+void JunctionFiller::crossfade(const Laid& b, std::int64_t frames, OutputWindow window, const Motion& shared) const {
+  for (std::int64_t k = 0; k < frames; ++k) {
+    const MutablePoseView pose = window.pose(b.begin() + k);
+    const PoseView other = shared.pose(k);
+    const float weight = crossfade_weight(k, frames);
+    slerp_as_signed(pose.rotations, other.rotations, weight, pose.rotations);
+    for (std::size_t t = 0; t < pose.translations.size(); ++t) {
+      pose.translations[t] += weight * (other.translations[t] - pose.translations[t]);
+    }
+  }
+}
+
+/// Where one part still shows the side before and another already this one.
+void JunctionFiller::take_over(const Laid& b, const TransitionCuts& cuts, OutputWindow window,
+                               const Motion& shared) const {
+  const JointGroups& groups = settings_.rig->groups;
+  for (std::int64_t k = 0; k < shared.frame_count(); ++k) {
+    const std::int64_t frame = b.begin() + k;
+    const auto has_begun = [&](JointGroup group) {
+      return frame >= b.core - cuts[static_cast<std::size_t>(timed_of(group))].preparation_frames;
+    };
+    const MutablePoseView pose = window.pose(frame);
+    const PoseView other = shared.pose(k);
+    for (std::size_t joint = 0; joint < pose.rotations.size(); ++joint) {
+      if (has_begun(groups.of[joint])) pose.rotations[joint] = other.rotations[joint];
+    }
+    for (std::size_t t = 0; t < pose.translations.size(); ++t) {
+      if (has_begun(groups.of_translation[t])) pose.translations[t] = other.translations[t];
+    }
+  }
+}
+
+/// The context reaches into the strokes, where it is only looked at, and no farther: what follows a stroke need not be
+/// known yet.
+Gap JunctionFiller::gap_at(const Laid& a, const Laid& b, FrameRange frames, OutputWindow window) const {
+  return {.skeleton = settings_.skeleton.get(),
+          .groups = &settings_.rig->groups,
+          .rate = settings_.rate,
+          .before = window.view({std::max(a.core, frames.begin - context()), frames.begin}),
+          .after = window.view({frames.end, std::min(frames.end + context(), b.core_end())}),
+          .count = frames.size(),
+          .noise_before = a.stretch->noise.get(),
+          .noise_after = b.stretch->noise.get()};
+}
+
+void JunctionFiller::fill_gap(const Laid& a, const Laid& b, FrameRange frames, GroupSet groups,
+                              const TransitionCut& cut, OutputWindow window, GapScratch& scratch) const {
+  static const GapMethod* const waiting =
+      find_gap_method("sine");  // from rest to rest, whatever noise the borders have
+  Gap gap = gap_at(a, b, frames, window);
+  gap.pause = static_cast<double>(cut.pause_frames) * gap.rate.frame_time();
+  const GapMethod& method = cut.waits ? *waiting : *method_of(settings_, b).fill;
+  const TransitionModel& model = settings_.model != nullptr ? *settings_.model : default_transition_model();
+  method.fill({.gap = gap, .model = model, .groups = groups, .scratch = scratch}, window.poses(frames));
+}
+
+}  // namespace signweave

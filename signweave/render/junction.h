@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "signweave/motion/motion.h"
+#include "signweave/render/laid.h"
+#include "signweave/score/stretch.h"
+#include "signweave/transition/body_guard.h"
+
+/// One junction at a time, from nothing but its two sides: `concatenate` makes all those of a result with it, and
+/// `Weaver` one after another while an utterance grows. So both make the same of the same stretches.
+namespace signweave {
+
+/// Where a signer stands in a stretch is told from no more of its frames.
+inline constexpr std::int64_t kStandingFrames = 16'384;
+
+/// What all junctions of a result have in common. Everything is borrowed.
+struct JunctionSettings {
+  std::shared_ptr<const Skeleton> skeleton;
+  FrameRate rate;
+  const TransitionMethod* method = nullptr;  ///< not null; of junctions that have none of their own
+  const SignerRig* rig = nullptr;            ///< not null
+  const TransitionModel* model = nullptr;    ///< null: the default
+};
+
+/// How the junction before a stretch that is laid is made.
+const TransitionMethod& method_of(const JunctionSettings& settings, const Laid& laid) noexcept;
+
+struct JunctionCuts {
+  TransitionCuts parts;
+  TransitionCut tracks;  ///< of the scalar tracks, which know no poses
+};
+
+/// Memory that junctions use; kept from one to the next, so that only the first ones allocate.
+struct JunctionScratch {
+  Motion left, right;  ///< what lies around the cuts
+  Motion shared;       ///< the frames of a stretch that the one before has too
+  GapScratch gap;
+};
+
+/// Output frames in memory, the first of them number `first`. Borrowed.
+struct OutputWindow {
+  Motion& motion;
+  std::int64_t first = 0;
+
+  FrameRange frames() const noexcept { return {first, first + motion.frame_count()}; }
+  MutablePoseView pose(std::int64_t frame) const noexcept { return motion.pose(frame - first); }
+  MutablePoses poses(FrameRange range) const noexcept { return motion.poses({range.begin - first, range.end - first}); }
+  PosesView view(FrameRange range) const noexcept { return view_of(motion, {range.begin - first, range.end - first}); }
+};
+
+/// Makes the frames of junctions.
+class JunctionFiller {
+ public:
+  explicit JunctionFiller(const JunctionSettings& settings);
+
+  /// Frames of b that a has too: of the whole body in a cross-fade, of one part here and another there where each has
+  /// its own cut.
+  static std::int64_t shared(const Laid& a, const Laid& b) noexcept;
+  /// As many frames beside a transition are looked at.
+  std::int64_t context() const noexcept;
+
+  /// The transition: Algorithm 1, lines 3 to 6. The window has what both sides keep of it already, and of both cores
+  /// `context()` frames or all; the frames that they share are there as a's, and in `scratch.shared` as b's.
+  /// Quaternions of b in the window may be turned to their negatives.
+  void fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, JunctionScratch& scratch);
+
+ private:
+  void turn_signs(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, Motion& shared) const;
+  void crossfade(const Laid& b, std::int64_t frames, OutputWindow window, const Motion& shared) const;
+  void take_over(const Laid& b, const TransitionCuts& cuts, OutputWindow window, const Motion& shared) const;
+  Gap gap_at(const Laid& a, const Laid& b, FrameRange frames, OutputWindow window) const;
+  void fill_gap(const Laid& a, const Laid& b, FrameRange frames, GroupSet groups, const TransitionCut& cut,
+                OutputWindow window, GapScratch& scratch) const;
+
+  JunctionSettings settings_;
+  BodyGuard guard_;
+};
+
+}  // namespace signweave

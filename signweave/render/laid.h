@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+
+#include "signweave/motion/blend.h"
+#include "signweave/score/stretch.h"
+
+/// Inside this module only.
+namespace signweave {
+
+/// A stretch on the output's time grid: its output frame k shows the recording's frame core.begin + k · step. Negative
+/// k are its preparation, k ≥ core_frames its retraction.
+struct Laid {
+  const Stretch* stretch = nullptr;
+  double step = 1;
+  std::int64_t last =
+      0;  ///< the recording's last frame that may be looked at: one beyond the stretch, where there is one
+  std::int64_t preparation = 0;  ///< output frames before the core that were captured
+  std::int64_t core_frames = 1;
+  std::int64_t retraction = 0;  ///< output frames after it
+
+  // Known once the transitions are cut.
+  std::int64_t before = 0;  ///< frames of the preparation that are used
+  std::int64_t after = 0;   ///< frames of the retraction that are used
+  std::int64_t core = 0;    ///< output frame of the core's first frame
+
+  std::int64_t begin() const noexcept { return core - before; }             ///< its first output frame
+  std::int64_t core_end() const noexcept { return core + core_frames; }     ///< output frame after its core
+  std::int64_t end() const noexcept { return core + core_frames + after; }  ///< output frame after its last
+  FrameRange all() const noexcept { return {begin(), end()}; }
+  bool captured_as_is() const noexcept { return step == 1.0; }
+  /// The recording's frame that is shown at an output frame.
+  double frame_at(std::int64_t output) const noexcept;
+  /// The output frame at which a frame of the recording is shown, as near as can be.
+  std::int64_t frame_of(std::int64_t recorded) const noexcept;
+};
+
+/// Lays a stretch on a grid of `rate` at a tempo.
+Laid lay(const Stretch& stretch, FrameRate rate, double tempo);
+
+/// Puts some of its output frames where they are wanted, as captured, or interpolated where its own grid is another.
+void read_frames(const Laid& laid, FrameRange output, MutablePoses out);
+/// The same of its scalar tracks: a span for each, empty where the track is not wanted.
+void read_tracks(const Laid& laid, FrameRange output, std::span<const std::span<float>> out);
+
+}  // namespace signweave

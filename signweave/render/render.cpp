@@ -1,0 +1,145 @@
+#include "signweave/render/render.h"
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+
+#include "signweave/motion/blend.h"
+#include "signweave/render/carry_tracks.h"
+
+namespace signweave {
+namespace {
+
+const std::string& name_at_end(const Stretch& stretch) {
+  return stretch.signs.empty() ? stretch.recording : stretch.signs.back().gloss;
+}
+const std::string& name_at_begin(const Stretch& stretch) {
+  return stretch.signs.empty() ? stretch.recording : stretch.signs.front().gloss;
+}
+
+/// Fills the output with the frames of the stretches, one after the other, and with what lies between them.
+class Filler {
+ public:
+  Filler(const Plan& plan, const JunctionSettings& settings, Synthesis& out)
+      : plan_(plan), junctions_(settings), out_(out) {}
+
+  /// Stretch i, and the transition before it.
+  void fill(std::size_t i) {
+    const Laid& now = plan_.laid[i];
+    const std::int64_t shared = i == 0 ? 0 : JunctionFiller::shared(plan_.laid[i - 1], now);
+    const FrameRange own{now.begin() + shared, now.end()};
+    scratch_.shared.reset(out_.motion.shared_skeleton(), out_.motion.rate(), shared);
+    read_frames(now, {now.begin(), own.begin}, scratch_.shared.poses({0, shared}));
+    read_frames(now, own, out_.motion.poses(own));
+    align_to_home(i, own);
+    if (i > 0) junctions_.fill(plan_.laid[i - 1], now, plan_.cuts[i - 1].parts, {out_.motion}, scratch_);
+    tell_sources(i);
+  }
+
+ private:
+  static FrameRange standing_frames(const Laid& laid) {
+    return {laid.core, std::min(laid.core_end(), laid.core + kStandingFrames)};
+  }
+
+  /// Where the reference's signer stands, while stretch i is filled: the frames that tell are there already, but for a
+  /// stretch before the reference.
+  const Standing& home(std::size_t i) {
+    if (home_) return *home_;
+    const Laid& reference = plan_.laid[plan_.reference];
+    if (plan_.reference <= i) {
+      home_ = standing_over(out_.motion, standing_frames(reference));
+    } else {
+      const MotionSource& source = *reference.stretch->source;
+      Motion core;
+      core.reset(source.skeleton(), source.rate(), reference.stretch->core.size());
+      source.read(reference.stretch->core, core.poses({0, core.frame_count()}));
+      home_ = standing_over(core, {0, core.frame_count()});
+    }
+    return *home_;
+  }
+
+  void align_to_home(std::size_t i, FrameRange own) {
+    if (!plan_.aligned[i]) return;
+    const Laid& now = plan_.laid[i];
+    const GroundTransform transform = align(standing_over(out_.motion, standing_frames(now)), home(i));
+    for (std::int64_t k = 0; k < scratch_.shared.frame_count(); ++k)
+      apply(transform, out_.motion.skeleton(), scratch_.shared.pose(k));
+    for (std::int64_t frame = own.begin; frame < own.end; ++frame)
+      apply(transform, out_.motion.skeleton(), out_.motion.pose(frame));
+  }
+
+  void tell_sources(std::size_t i) {
+    const Laid& now = plan_.laid[i];
+    const auto stretch = static_cast<std::int32_t>(i);
+    const bool last = i + 1 == plan_.laid.size();
+    const std::int64_t kept_before = i == 0 ? now.before : common_to(plan_.cuts[i - 1].parts).kept_before();
+    const std::int64_t kept_after = last ? now.after : common_to(plan_.cuts[i].parts).kept_after();
+    const auto at = [&](std::int64_t frame) -> FrameSource& { return out_.sources[static_cast<std::size_t>(frame)]; };
+    if (i > 0) {
+      const std::int64_t made_from = plan_.laid[i - 1].core_end() + common_to(plan_.cuts[i - 1].parts).kept_after();
+      for (std::int64_t frame = made_from; frame < now.core - kept_before; ++frame) {
+        at(frame) = {FrameSource::kNone, stretch - 1, 0};
+      }
+    }
+    const auto kept = [&](std::int64_t begin, std::int64_t end, std::int32_t junction) {
+      if (now.captured_as_is()) {
+        const std::int64_t shift = now.stretch->core.begin - now.core;
+        for (std::int64_t frame = begin; frame < end; ++frame) {
+          at(frame) = {stretch, junction, static_cast<double>(frame + shift)};
+        }
+      } else {
+        for (std::int64_t frame = begin; frame < end; ++frame) at(frame) = {stretch, junction, now.frame_at(frame)};
+      }
+    };
+    kept(now.core - kept_before, now.core, i > 0 ? stretch - 1 : FrameSource::kNone);
+    kept(now.core, now.core_end(), FrameSource::kNone);
+    kept(now.core_end(), now.core_end() + kept_after, last ? FrameSource::kNone : stretch);
+  }
+
+  const Plan& plan_;
+  JunctionFiller junctions_;
+  Synthesis& out_;
+  JunctionScratch scratch_;
+  std::optional<Standing> home_;
+};
+
+}  // namespace
+
+void render(const Plan& plan, const JunctionSettings& settings, Synthesis& out) {
+  std::vector<ScalarTrack> used_tracks = out.motion.take_tracks();
+  out.motion.reset(settings.skeleton, settings.rate, plan.frames);
+  out.sources.resize(static_cast<std::size_t>(plan.frames));
+  Filler filler(plan, settings, out);
+  for (std::size_t i = 0; i < plan.laid.size(); ++i) filler.fill(i);
+  out.stretches.clear();
+  out.junctions.clear();
+
+  for (std::size_t i = 0; i < plan.laid.size(); ++i) {
+    const Laid& laid = plan.laid[i];
+    const Stretch& stretch = *laid.stretch;
+    const FrameRange core{laid.core, laid.core_end()};
+    out.stretches.push_back({.recording = stretch.recording,
+                             .output = {i == 0 ? 0 : core.begin, i + 1 == plan.laid.size() ? plan.frames : core.end},
+                             .core = core,
+                             .first_frame = laid.frame_at(core.begin),
+                             .step = laid.step});
+    if (i == 0) continue;
+    out.junctions.push_back({.from = name_at_end(*plan.laid[i - 1].stretch),
+                             .to = name_at_begin(stretch),
+                             .frames = {plan.laid[i - 1].core_end(), laid.core},
+                             .cut = common_to(plan.cuts[i - 1].parts),
+                             .cuts = plan.cuts[i - 1].parts,
+                             .method = std::string(method_of(settings, plan.laid[i]).name),
+                             .number = i,
+                             .chosen = stretch.junction});
+    assert(out.junctions.back().frames.size() == plan.cuts[i - 1].tracks.length);
+  }
+  std::vector<Laid> laid_tracks = plan.laid;
+  for (std::size_t i = 0; i < plan.cuts.size(); ++i) {
+    laid_tracks[i].after = plan.cuts[i].tracks.retraction_frames;
+    laid_tracks[i + 1].before = plan.cuts[i].tracks.preparation_frames;
+  }
+  carry_tracks(laid_tracks, std::move(used_tracks), out.motion);
+}
+
+}  // namespace signweave

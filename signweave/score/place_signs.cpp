@@ -1,0 +1,130 @@
+#include "signweave/score/place_signs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signweave {
+namespace {
+
+Milliseconds time_of(std::int64_t frame, FrameRate rate) {
+  return Milliseconds(std::llround(static_cast<double>(frame) * 1000.0 * static_cast<double>(rate.denominator) /
+                                   static_cast<double>(rate.numerator)));
+}
+
+/// Where a stretch's signs may lie: between the middles of the transitions on both sides.
+struct Room {
+  TimeSpan span;
+  TimeSpan kept;               ///< where the frames are those of the recording
+  bool joined_before = false;  ///< a junction is there, not the begin of the result
+  bool joined_after = false;
+};
+
+/// Places a stretch's signs in output time. At a junction its first sign begins, and its last ends, with the room.
+void place_signs_of(const Stretch& stretch, const Placed& placed, std::size_t index, const Room& room, Synthesis& out) {
+  const FrameRate rate = out.motion.rate();
+  const auto output_time = [&](Milliseconds recorded) {
+    const double frame = stretch.clock.frame_at(recorded);
+    const double at = static_cast<double>(placed.core.begin) + (frame - placed.first_frame) / placed.step;
+    const Milliseconds time(std::llround(at * 1000.0 / rate.hertz()));
+    return std::clamp(time, room.span.begin, room.span.end);
+  };
+  for (std::size_t i = 0; i < stretch.signs.size(); ++i) {
+    const Sign& source = stretch.signs[i];
+    PlacedSign sign{.sign = source, .stretch = index, .recorded = source.span};
+    const auto recorded_stroke = source.stroke_span();
+    // Where the core begins or ends with the stroke. At a piece cut through a sign it does not: that sign stays as it
+    // was.
+    const auto meets = [&](Milliseconds recorded, std::int64_t frame) {
+      return std::abs(stretch.clock.frame_at(recorded) - static_cast<double>(frame)) <= 1.0;
+    };
+    const bool first = i == 0 && recorded_stroke && meets(recorded_stroke->begin, stretch.core.begin);
+    const bool last = i + 1 == stretch.signs.size() && recorded_stroke && meets(recorded_stroke->end, stretch.core.end);
+    sign.sign.span = {first && room.joined_before ? room.span.begin : output_time(source.span.begin),
+                      last && room.joined_after ? room.span.end : output_time(source.span.end)};
+    std::vector<Phase> phases;
+    if (!(first && room.joined_before) && !(last && room.joined_after)) {
+      // Nothing of it was made: it stays as it was annotated, holds and all.
+      for (const Phase& phase : source.phases) {
+        phases.push_back({phase.kind, {output_time(phase.span.begin), output_time(phase.span.end)}, phase.label, {}});
+        sign.sign.span = {std::min(sign.sign.span.begin, phases.back().span.begin),
+                          std::max(sign.sign.span.end, phases.back().span.end)};
+      }
+      std::erase_if(phases, [](const Phase& phase) { return phase.span.duration() <= Milliseconds(0); });
+      sign.sign.phases = std::move(phases);
+      out.signs.push_back(std::move(sign));
+      continue;
+    }
+    TimeSpan stroke{output_time(recorded_stroke->begin), output_time(recorded_stroke->end)};
+    if (first) stroke.begin = time_of(placed.core.begin, rate);
+    if (last) stroke.end = time_of(placed.core.end, rate);
+    stroke.end = std::max(stroke.end, stroke.begin + Milliseconds(1));  // shorter than a frame, but there
+    sign.sign.span = {std::min(sign.sign.span.begin, stroke.begin), std::max(sign.sign.span.end, stroke.end)};
+    const auto add = [&](PhaseKind kind, TimeSpan span, const std::string& label) {
+      if (span.begin < span.end) phases.push_back({kind, span, label, {}});
+    };
+    const auto label_of = [&](PhaseKind kind, const char* otherwise) {
+      for (const Phase& phase : source.phases) {
+        if (phase.kind == kind) return phase.label;
+      }
+      return std::string(otherwise);
+    };
+    // Preparation and retraction fill what was made; a hold that is kept in them stays a hold.
+    const auto surround = [&](PhaseKind kind, const std::string& label, TimeSpan all) {
+      Milliseconds from = all.begin;
+      for (const Phase& phase : source.phases) {
+        const bool inside = kind == PhaseKind::preparation ? phase.span.end <= recorded_stroke->begin
+                                                           : phase.span.begin >= recorded_stroke->end;
+        if (!inside || phase.kind == PhaseKind::preparation || phase.kind == PhaseKind::retraction) continue;
+        const TimeSpan hold{std::max({from, output_time(phase.span.begin), room.kept.begin}),
+                            std::min({all.end, output_time(phase.span.end), room.kept.end})};
+        if (hold.begin >= hold.end) continue;
+        add(kind, {from, hold.begin}, label);
+        add(phase.kind, hold, phase.label);
+        from = hold.end;
+      }
+      add(kind, {from, all.end}, label);
+    };
+    surround(PhaseKind::preparation, label_of(PhaseKind::preparation, "Preparation"),
+             {sign.sign.span.begin, stroke.begin});
+    Milliseconds at = stroke.begin;
+    for (const Phase& phase : source.phases) {
+      if (!recorded_stroke->contains(phase.span) || phase.span.duration() <= Milliseconds(0)) continue;
+      const bool closes = phase.span.end == recorded_stroke->end;
+      const Milliseconds end = closes ? stroke.end : std::min(output_time(phase.span.end), stroke.end);
+      add(phase.kind, {at, end}, source.inferred ? "Stroke" : phase.label);
+      at = std::max(at, end);
+    }
+    surround(PhaseKind::retraction, label_of(PhaseKind::retraction, "Retraction"), {stroke.end, sign.sign.span.end});
+    sign.sign.phases = std::move(phases);
+    out.signs.push_back(std::move(sign));
+  }
+}
+
+}  // namespace
+
+void place_signs(const std::vector<Stretch>& stretches, Synthesis& out) {
+  const FrameRate rate = out.motion.rate();
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    // The middle of what was made between two signs parts them.
+    const auto middle = [&](std::size_t junction) {
+      const Junction& one = out.junctions[junction];
+      const std::int64_t kept = one.cut.retraction_frames - one.cut.overlap();
+      return time_of(one.frames.begin + kept + (one.cut.overlap() + one.cut.gap()) / 2, rate);
+    };
+    const bool last = i + 1 == stretches.size();
+    const TimeSpan span{i == 0 ? Milliseconds(0) : middle(i - 1),
+                        last ? time_of(out.motion.frame_count(), rate) : middle(i)};
+    TimeSpan kept = span;
+    if (i > 0) {
+      const Junction& before = out.junctions[i - 1];
+      kept.begin = time_of(before.frames.end - before.cut.preparation_frames + before.cut.overlap(), rate);
+    }
+    if (!last) {
+      const Junction& after = out.junctions[i];
+      kept.end = time_of(after.frames.begin + after.cut.retraction_frames - after.cut.overlap(), rate);
+    }
+    place_signs_of(stretches[i], out.stretches[i], i, {span, kept, i > 0, !last}, out);
+  }
+}
+
+}  // namespace signweave

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "signweave/annotation/sign.h"
+#include "signweave/core/time.h"
+#include "signweave/features/hand_motion.h"
+#include "signweave/motion/motion_source.h"
+#include "signweave/score/junction_choice.h"
+#include "signweave/transition/joint_groups.h"
+
+namespace signweave {
+
+/// A stretch of a recording, ready to be joined. Its frames are read when they are needed, straight into the result.
+struct Stretch {
+  std::string recording;
+  std::shared_ptr<const MotionSource> source;  ///< the recording's motion
+  FrameRange whole;         ///< what may be used of it: the core with the first preparation and the last retraction
+  FrameRange core;          ///< the frames of the recording that are kept as they are; inside `whole`, not empty
+  FrameClock clock;         ///< of the recording
+  std::vector<Sign> signs;  ///< in the recording's annotation time
+  Milliseconds pause_before{0};
+  JunctionChoice junction{};  ///< of the junction before it
+  /// Of its motion, in the joints of `source`; null: not known, or shown on another skeleton.
+  std::shared_ptr<const CaptureNoise> noise = nullptr;
+};
+
+/// Which joint of the result is what.
+struct SignerRig {
+  SignerModel signer;
+  JointGroups groups;
+};
+}  // namespace signweave

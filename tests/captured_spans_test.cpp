@@ -59,7 +59,7 @@ TEST(CapturedSpans, AreTheAnnotatedTransitionsOfTheSkeleton) {
   const Contents& contents = snapshot.contents();
   std::size_t at = 0;
   for (std::uint32_t recording = 0; recording < 2; ++recording) {
-    for (const Transition& one : transitions_in(signs_of(contents.segments, recording))) {
+    for (const AnnotatedTransition& one : transitions_in(signs_of(contents.segments, recording))) {
       const double seconds = Seconds(one.span.duration()).count();
       EXPECT_NEAR(static_cast<double>(spans[at].seconds), seconds, 0.021);
       EXPECT_NEAR(static_cast<double>(spans[at + 1].seconds), seconds / 2, 0.031);

@@ -31,7 +31,7 @@ TEST(TransitionMotion, FromStoredFeaturesIsThatOfTheCapturedMotion) {
       for (const std::size_t place : places[sign]) phases.push_back(features.phases.at(place));
       return phases;
     };
-    for (const Transition& transition : transitions_in(signs)) {
+    for (const AnnotatedTransition& transition : transitions_in(signs)) {
       const auto found = motion_between(signs[transition.from], phases_of(transition.from), signs[transition.to],
                                         phases_of(transition.to), features.shoulder_width);
       ASSERT_TRUE(found.has_value());

@@ -28,7 +28,7 @@ MotionOf motion_of(const Database& database, const Contents& contents, std::uint
     }
     return phases;
   };
-  return [=](const Sign& from, const Sign& to, const Transition& transition) {
+  return [=](const Sign& from, const Sign& to, const AnnotatedTransition& transition) {
     return motion_between(from, phases_of(transition.from), to, phases_of(transition.to), features->shoulder_width);
   };
 }
@@ -108,7 +108,7 @@ std::string plot_of(const Counted& counted, const std::string& where) {
                           .inferred = summary.inferred};
     for (const RecordedTransition& one : of) {
       const auto ms = [](Milliseconds time) { return static_cast<double>(time.count()); };
-      const Transition& transition = one.transition;
+      const AnnotatedTransition& transition = one.transition;
       panel.bars.push_back({.from = one.from,
                             .to = one.to,
                             .begin = ms(transition.span.begin),

@@ -220,7 +220,7 @@ json json_of(const TransitionSummary& summary) {
 }
 
 json json_of(const RecordedTransition& transition) {
-  const Transition& of = transition.transition;
+  const AnnotatedTransition& of = transition.transition;
   json one = {{"from", transition.from},
               {"to", transition.to},
               {"begin_ms", of.span.begin.count()},

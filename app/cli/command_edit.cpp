@@ -20,7 +20,7 @@ Run edit(CLI::App& verb) {
     if (next == "transition") add_outputs(verb, options->delivery.outputs);
   });
   verb.get_option("--replace")->excludes(verb.get_option("--swap"));
-  add_timings(verb, options->delivery);
+  add_reports(verb, options->delivery);
   return [options](Io& io) {
     const calls::EditCall& call = options->call;
     // What is wrong with the words is told before anything is opened.

@@ -1,17 +1,27 @@
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "app/calls/synthesis_call.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/delivery.h"
+#include "signweave/core/atomic_file.h"
+#include "signweave/score/score_json.h"
 
 namespace signweave::cli {
+namespace {
+
+/// Bytes; a day of signing takes some 50 MB.
+constexpr std::size_t kLargestScore = std::size_t{256} << 20;
+
+}  // namespace
 
 Run sign(CLI::App& verb) {
   struct SignArguments {
     std::string folder;
     calls::SignCall call;
+    std::string from;
     Delivery delivery;
   };
   auto options = std::make_shared<SignArguments>();
@@ -19,14 +29,22 @@ Run sign(CLI::App& verb) {
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next == "transition") add_outputs(verb, options->delivery.outputs);
   });
-  add_timings(verb, options->delivery);
-  return [options](Io& io) {
-    const std::string title = title_of(options->call);  // also tells what is wrong with the words
+  CLI::Option* const utterance = verb.get_option("UTTERANCE")->required(false);
+  verb.add_option("--from", options->from,
+                  "render a score that --score wrote, instead of an utterance: nothing is chosen anew")
+      ->excludes(utterance);
+  add_reports(verb, options->delivery);
+  return [options, utterance](Io& io) {
+    if (options->from.empty() && utterance->empty()) throw CLI::RequiredError("UTTERANCE or --from");
+    std::optional<Score> score;
+    if (!options->from.empty()) score = score_from_json(read_file(options->from, kLargestScore), options->from);
+    // What is wrong with the words is told before anything is opened.
+    const std::string title = score ? options->from : title_of(options->call);
     const Database database(options->folder, kv::Access::read_only);
     report_damage(database, io);
     check_signing_space(options->call.how.signing_space, options->delivery.outputs);
     const calls::SharedCharacter character = character_of(options->call.how.character);
-    Synthesized made = calls::run(database, options->call);
+    Synthesized made = score ? synthesize(database, *score) : calls::run(database, options->call);
     if (character) show_on(made, stance_of(database, signer_of(made)), *character);
     deliver(made, options->call.how, options->delivery, title, character, io);
   };

@@ -12,7 +12,9 @@
 #include "app/cli/bind.h"
 #include "app/cli/progress.h"
 #include "app/cli/selection_report.h"
+#include "signweave/core/atomic_file.h"
 #include "signweave/formats/file_format.h"
+#include "signweave/score/score_json.h"
 
 namespace signweave::cli {
 namespace {
@@ -108,7 +110,12 @@ calls::SharedCharacter character_of(const std::string& file) {
   return file.empty() ? nullptr : calls::read_character_file(file);
 }
 
-void add_timings(CLI::App& verb, Delivery& delivery) {
+void add_reports(CLI::App& verb, Delivery& delivery) {
+  verb.add_option(
+          "--score", delivery.score,
+          "also write the score (.json): which captured frames and transitions the result is made of, and when; "
+          "'sign DB --from' renders it again")
+      ->check([](const std::string& path) { return check_ending(path, {".json"}); });
   verb.add_flag("--timings", delivery.timings, "show how long each step took");
 }
 
@@ -120,6 +127,11 @@ void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, co
     look.progress = [&](double fraction) { progress.show(fraction); };
     announce(delivery.outputs, calls::outgoing(made, look), io);
     write_synthesis(delivery.outputs, made, look);
+    if (!delivery.score.empty()) {
+      AtomicFile file(delivery.score);
+      file.write(json_of(made.result.score));
+      file.commit();
+    }
   }
   print_notices(io, made.result.notices);
   for (const auto& [name, value] : made.result.declarations) io.err << "signweave: " << value << '\n';
@@ -127,6 +139,7 @@ void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, co
   if (io.json) {
     nlohmann::json report = report_of(made, choices);
     report["files"] = delivery.outputs;
+    if (!delivery.score.empty()) report["score"] = delivery.score;
     io.out << text_of(report);
     return;
   }

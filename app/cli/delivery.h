@@ -12,10 +12,11 @@ namespace signweave::cli {
 /// Where `sign` and `edit` put what they made.
 struct Delivery {
   std::vector<std::string> outputs;
+  std::string score;  ///< file for the score; empty: none
   bool timings = false;
 };
 
-void add_timings(CLI::App& verb, Delivery& delivery);
+void add_reports(CLI::App& verb, Delivery& delivery);
 
 /// Writes the files that were asked for, and what was asked to be told. `title` heads a contact sheet.
 void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, const Delivery& delivery,

@@ -20,7 +20,7 @@ std::vector<Found> transitions_of(const Contents& contents, std::uint32_t record
   const RecordingInfo& info = contents.recordings[recording];
   const std::vector<Sign> signs = signs_of(contents.segments, recording);
   std::vector<Found> found;
-  for (const Transition& one : transitions_in(signs)) {
+  for (const AnnotatedTransition& one : transitions_in(signs)) {
     if (one.inferred || Seconds(one.span.duration()) > kLongestSpan) continue;
     const FrameRange frames = frames_of(one.span, info.clock);
     if (frames.size() >= 2 && frames.begin >= 1 && frames.end < info.motion->frames) {

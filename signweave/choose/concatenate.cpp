@@ -9,7 +9,6 @@
 #include "signweave/core/error.h"
 #include "signweave/features/phase_features.h"
 #include "signweave/render/render.h"
-#include "signweave/score/place_signs.h"
 
 namespace signweave {
 namespace {
@@ -44,18 +43,39 @@ void check_length(const std::vector<Stretch>& stretches, std::int64_t frames, Fr
                           most, to_string(rate), slowest->recording, to_string(slowest->source->rate())));
 }
 
-Plan plan_of(const std::vector<Stretch>& stretches, const JunctionSettings& settings,
-             const ConcatenateOptions& options) {
+/// Where the reference's signer stands, for a stretch of that number.
+Standing home_of(const Plan& plan, const JunctionSettings& settings, std::size_t reference, std::size_t asking,
+                 Motion& memory) {
+  const Laid& laid = plan.laid[reference];
+  if (reference <= asking) return standing_of(laid, settings, memory);
+  // Of a stretch that comes later, from its frames as they were captured.
+  const Stretch& stretch = *laid.stretch;
+  memory.reset(stretch.source->skeleton(), stretch.source->rate(), stretch.core.size());
+  stretch.source->read(stretch.core, memory.poses({0, memory.frame_count()}));
+  return standing_over(memory, {0, memory.frame_count()});
+}
+
+void stand(Plan& plan, const JunctionSettings& settings, const ConcatenateOptions& options) {
+  const std::string& home_recording = plan.laid[options.reference].stretch->recording;
+  std::optional<Standing> home;
+  Motion memory;
+  plan.standing.resize(plan.laid.size());
+  for (std::size_t i = 0; i < plan.laid.size(); ++i) {
+    const bool aligned = options.alignment == Alignment::ground || (options.alignment == Alignment::automatic &&
+                                                                    plan.laid[i].stretch->recording != home_recording);
+    if (!aligned) continue;
+    if (!home) home = home_of(plan, settings, options.reference, i, memory);
+    plan.standing[i] = align(standing_of(plan.laid[i], settings, memory), *home);
+  }
+}
+
+Plan plan_for(const std::vector<Stretch>& stretches, const JunctionSettings& settings,
+              const ConcatenateOptions& options) {
   const std::int64_t most = options.most_frames;
-  const std::string& home = stretches[options.reference].recording;
-  Plan plan{.reference = options.reference};
+  Plan plan;
   plan.laid.reserve(stretches.size());
   plan.cuts.reserve(stretches.size());
-  for (const Stretch& stretch : stretches) {
-    plan.laid.push_back(lay(stretch, settings.rate, options.tempo));
-    plan.aligned.push_back(options.alignment == Alignment::ground ||
-                           (options.alignment == Alignment::automatic && stretch.recording != home));
-  }
+  for (const Stretch& stretch : stretches) plan.laid.push_back(lay(stretch, settings.rate, options.tempo));
   for (const Laid& laid : plan.laid) plan.frames += laid.core_frames;
   check_length(stretches, plan.frames, settings.rate, most);  // before any frame is read
   plan.laid.front().before = plan.laid.front().preparation;
@@ -69,6 +89,7 @@ Plan plan_of(const std::vector<Stretch>& stretches, const JunctionSettings& sett
   }
   plan.frames = plan.laid.back().end();
   check_length(stretches, plan.frames, settings.rate, most);
+  stand(plan, settings, options);
   return plan;
 }
 
@@ -96,13 +117,12 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
   const SignerRig& rig = told ? *told : *options.rig;
   const JunctionSettings settings{
       .skeleton = reference.source->skeleton(), .rate = rate, .method = &method, .rig = &rig, .model = options.model};
-  const Plan plan = plan_of(stretches, settings, options);
+  const Plan plan = plan_for(stretches, settings, options);
 
   Synthesis out;
   out.motion = std::move(used.motion);
   out.sources = std::move(used.sources);
-  render(plan, settings, out);
-  place_signs(stretches, out);
+  render(score_of(plan, settings, reference), stretches, settings, out);
   return out;
 }
 

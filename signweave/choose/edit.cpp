@@ -39,25 +39,25 @@ std::size_t find_sign(const std::vector<Sign>& signs, const GlossRef& wanted, co
 }
 
 /// A run [first, last] of the recording's own signs, or a replacement.
-struct Item {
+struct EditItem {
   std::size_t first = 0;
   std::size_t last = 0;
   const GlossRef* replacement = nullptr;
 };
 
-std::vector<Item> items_for(const std::vector<Sign>& signs, const Edit& edit, const std::string& recording) {
-  std::vector<Item> items;
+std::vector<EditItem> items_for(const std::vector<Sign>& signs, const Edit& edit, const std::string& recording) {
+  std::vector<EditItem> items;
   if (edit.swap) {
     const auto run_of = [&](const SignRun& run) {
-      const Item item{find_sign(signs, run.first, recording), find_sign(signs, run.last, recording)};
+      const EditItem item{find_sign(signs, run.first, recording), find_sign(signs, run.last, recording)};
       if (item.last < item.first) {
         throw Error(ErrorCode::bad_input, fmt::format("{}..{}: the second comes before the first in recording '{}'",
                                                       to_string(run.first), to_string(run.last), recording));
       }
       return item;
     };
-    Item a = run_of(edit.swap->first);
-    Item b = run_of(edit.swap->second);
+    EditItem a = run_of(edit.swap->first);
+    EditItem b = run_of(edit.swap->second);
     if (b.first < a.first) std::swap(a, b);
     if (b.first <= a.last) throw Error(ErrorCode::bad_input, "the two runs to swap share signs");
     if (a.first > 0) items.push_back({0, a.first - 1});
@@ -121,9 +121,9 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
   if (signs.empty()) throw Error(ErrorCode::not_found, fmt::format("recording '{}' has no signs to edit", info.name));
 
   std::vector<Choice> choices;
-  const std::vector<Item> items = items_for(signs, edit, info.name);
+  const std::vector<EditItem> items = items_for(signs, edit, info.name);
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const Item& item = items[i];
+    const EditItem& item = items[i];
     Choice choice;
     if (item.replacement != nullptr) {
       choice.candidates = candidates_for(contents, Place{.gloss = *item.replacement, .recording = {}, .span = {}});

@@ -8,6 +8,10 @@
 
 namespace signweave {
 
+/// Where the signer stands over the core of a stretch, wherever it is laid. Reads the core's frames, at most
+/// kStandingFrames, into `memory`. Throws Error{corrupt}.
+Standing standing_of(const Laid& laid, const JunctionSettings& settings, Motion& memory);
+
 /// How long transitions last. Borrowed.
 struct TransitionTiming {
   const DurationFit* fit = nullptr;  ///< null: each transition has `duration`

@@ -12,6 +12,7 @@
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/core/error.h"
+#include "signweave/render/render.h"
 
 namespace signweave {
 namespace {
@@ -94,6 +95,12 @@ void check_numbers(const JunctionChoices& named, std::size_t places) {
                                                                  : fmt::format("are {}, counted from 1", junctions)));
 }
 
+void require_unchanged(const RecordingInfo& info, const SourceRef& source) {
+  if (source.fingerprint == 0 || source.fingerprint == info.motion_fingerprint) return;
+  throw Error(ErrorCode::conflict,
+              fmt::format("recording '{}' changed since this score was made; sign its utterance again", info.name));
+}
+
 /// The first method of a junction that needs something of the corpus, captured spans before all; or null.
 const TransitionMethod* method_with_needs(const std::vector<Stretch>& stretches, const TransitionMethod& of_all) {
   const TransitionMethod* found = nullptr;
@@ -143,6 +150,8 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
                          .signs = std::move(candidate.signs),
                          .pause_before = made.choices[part.place].pause_before,
                          .junction = named == options.junctions.end() ? JunctionChoice{} : named->second,
+                         .fingerprint = info.motion_fingerprint,
+                         .place = part.place,
                          .noise = snapshot.joins(candidate.recording)->noise});
   }
 
@@ -178,7 +187,6 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
                              .most_frames = options.most_frames,
                              .reference = reference},
                             std::move(used));
-  for (std::size_t i = 0; i < made.result.junctions.size(); ++i) made.result.junctions[i].number = parts[i + 1].place;
   made.result.notices = std::move(notices);
   made.layout_from = stretches[reference].recording;
   const bool timed =
@@ -199,6 +207,57 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
 }
 
 }  // namespace
+
+Synthesized synthesize(const Database& database, const Score& score, Synthesis used) {
+  const auto start = Clock::now();
+  check(score, "score");
+  const Snapshot snapshot = database.snapshot();
+  const Contents& contents = snapshot.contents();
+  Synthesized made;
+  made.contents = snapshot.shared_contents();
+  Seconds reading{0};
+  std::map<std::string, ScoreSource> sources;
+  std::vector<Stretch> stretches = stretches_of(score, [&](const SourceRef& source) {
+    const auto [at, is_new] = sources.try_emplace(source.recording);
+    const RecordingInfo& info = contents.at(source.recording);
+    require_unchanged(info, source);
+    if (is_new) {
+      at->second = {std::make_shared<TimedSource>(snapshot.motion(info), reading),
+                    snapshot.joins(static_cast<std::size_t>(&info - contents.recordings.data()))->noise};
+    }
+    return at->second;
+  });
+  const auto reference = static_cast<std::size_t>(
+      std::ranges::find(stretches, score.skeleton.recording, &Stretch::recording) - stretches.begin());
+  if (reference == stretches.size()) {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("score: its skeleton is that of '{}', of which it has no clip", score.skeleton.recording));
+  }
+  std::vector<Notice> notices;
+  put_on_skeleton(stretches, reference, contents, notices);
+  const RecordingInfo& layout = contents.at(score.skeleton.recording);
+  const SignerRig rig = signer_rig_of(snapshot, layout);
+  const TransitionMethod& method = transition_methods().front();
+  CapturedSpans captured;
+  if (const TransitionMethod* const asking = method_with_needs(stretches, method)) {
+    captured = captured_spans(snapshot, *stretches[reference].source->skeleton(), rig.groups, asking->fill->needs);
+  }
+  made.result.motion = std::move(used.motion);
+  made.result.sources = std::move(used.sources);
+  render(score, stretches,
+         {.skeleton = stretches[reference].source->skeleton(),
+          .rate = score.rate,
+          .method = &method,
+          .rig = &rig,
+          .model = captured.model.get()},
+         made.result);
+  made.result.notices = std::move(notices);
+  made.result.declarations = declarations_of(contents, stretches);
+  made.layout_from = score.skeleton.recording;
+  const Seconds total = Clock::now() - start;
+  made.timings = {.retrieval = reading, .concatenation = total - reading, .total = total};
+  return made;
+}
 
 SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording) {
   SignerModel signer = *snapshot.signer(recording);

@@ -63,6 +63,11 @@ SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording
 Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options = {},
                        Synthesis used = {});
 
+/// Renders a score of this database's recordings: nothing is chosen. Its frames are those that it had when it was made,
+/// as long as what the corpus teaches its transitions stays the same. Throws as `check` of a score does,
+/// Error{not_found} for a recording that is not there, Error{conflict} for one that changed since.
+Synthesized synthesize(const Database& database, const Score& score, Synthesis used = {});
+
 /// Edits a recording.
 Synthesized synthesize(const Database& database, std::string_view recording, const Edit& edit,
                        const SynthesisOptions& options = {}, Synthesis used = {});

@@ -100,9 +100,9 @@ std::shared_ptr<const Contents> Database::contents_of(
     made->segments = Segments(tables::table_of_all(snapshot, made->faults));
   }
 
-  std::vector<Transition> transitions;
+  std::vector<AnnotatedTransition> transitions;
   for (std::uint32_t recording = 0; recording < made->recordings.size(); ++recording) {
-    const std::vector<Transition> found = transitions_in(signs_of(made->segments, recording));
+    const std::vector<AnnotatedTransition> found = transitions_in(signs_of(made->segments, recording));
     transitions.insert(transitions.end(), found.begin(), found.end());
   }
   made->transitions = summarize(transitions);

@@ -84,7 +84,7 @@ class Learner {
       if (!contents.recordings[i].motion || contents.recordings[i].document == 0) continue;
       joins_[i] = snapshot.joins(i);
       const auto recording = static_cast<std::uint32_t>(i);
-      for (const Transition& transition : transitions_in(signs_of(table_, recording))) {
+      for (const AnnotatedTransition& transition : transitions_in(signs_of(table_, recording))) {
         const SignJoin& from = joins_[i]->signs[transition.from];
         const SignJoin& to = joins_[i]->signs[transition.to];
         if (from.end.known == 0 || to.begin.known == 0) continue;

@@ -23,13 +23,13 @@ bool is_stroke(const Phase& phase) {
 void add_transitions(const Snapshot& snapshot, std::uint32_t recording, std::vector<TimedTransition>& out) {
   const Segments& segments = snapshot.contents().segments;
   const std::vector<Sign> signs = signs_of(segments, recording);
-  std::vector<Transition> transitions = transitions_in(signs);
-  std::erase_if(transitions, [](const Transition& one) { return one.inferred; });
+  std::vector<AnnotatedTransition> transitions = transitions_in(signs);
+  std::erase_if(transitions, [](const AnnotatedTransition& one) { return one.inferred; });
   if (transitions.empty()) return;
   const RecordingFeatures features = snapshot.features(recording);
   const auto places = phase_places_of(segments, recording);
   if (!features.why_not.empty() || places.size() != signs.size()) return;
-  for (const Transition& one : transitions) {
+  for (const AnnotatedTransition& one : transitions) {
     const std::vector<Phase>& from = signs[one.from].phases;
     const std::vector<Phase>& to = signs[one.to].phases;
     const auto last = std::ranges::find_if(from.rbegin(), from.rend(), is_stroke);

@@ -14,7 +14,7 @@ namespace signweave {
 /// A score with what it belongs to.
 struct ClusteredScore {
   std::size_t cluster = 0;  ///< scores of one are alike: a recording
-  Score score;
+  Measurement score;
   std::size_t collection = 0;  ///< of clusters
   std::size_t part = 0;        ///< within every cluster: what is pooled by itself first, such as a gap length
 };

@@ -72,7 +72,7 @@ void Comparison::lay_out(FrameRange frames, const std::vector<Vector3f>& capture
   path_.insert(path_.end(), captured.begin() + frames.end, captured.begin() + end);
 }
 
-void Comparison::compare_angles(const EvaluatedSpan& span, PosesView made, JointGroup group, Score& out) const {
+void Comparison::compare_angles(const EvaluatedSpan& span, PosesView made, JointGroup group, Measurement& out) const {
   const std::vector<JointIndex>& joints = recording_.groups[group];
   if (joints.empty() || !moves_[static_cast<std::size_t>(group)]) return;
   const auto pose = [&](std::int64_t point) {
@@ -93,10 +93,11 @@ void Comparison::compare_angles(const EvaluatedSpan& span, PosesView made, Joint
   out.value = sum / static_cast<double>(joints.size()) / static_cast<double>(span.frames.size());
 }
 
-void Comparison::compare_hand(const EvaluatedSpan& span, PosesView made, Side side, std::array<Score, kMeasures>& out) {
+void Comparison::compare_hand(const EvaluatedSpan& span, PosesView made, Side side,
+                              std::array<Measurement, kMeasures>& out) {
   const HandTrack& captured = recording_.tracks[static_cast<std::size_t>(side)];
   const HandTrack& track = tracks_[static_cast<std::size_t>(side)];
-  const auto score = [&](Measure measure) -> Score& { return out[static_cast<std::size_t>(measure)]; };
+  const auto score = [&](Measure measure) -> Measurement& { return out[static_cast<std::size_t>(measure)]; };
   const std::int64_t count = span.frames.size();
   const auto mean_distance = [&](const std::vector<Vector3f>& of_captured, const std::vector<Vector3f>& of_made) {
     const auto point = [&](std::int64_t i) -> const Vector3f& {

@@ -23,8 +23,8 @@ class Comparison {
  private:
   void lay_out(FrameRange frames, const std::vector<Eigen::Vector3f>& captured,
                std::span<const Eigen::Vector3f> between);
-  void compare_hand(const EvaluatedSpan& span, PosesView made, Side side, std::array<Score, kMeasures>& out);
-  void compare_angles(const EvaluatedSpan& span, PosesView made, JointGroup group, Score& out) const;
+  void compare_hand(const EvaluatedSpan& span, PosesView made, Side side, std::array<Measurement, kMeasures>& out);
+  void compare_angles(const EvaluatedSpan& span, PosesView made, JointGroup group, Measurement& out) const;
   std::int64_t margin_before(FrameRange frames) const noexcept;
   double duration_of_gap(std::int64_t count) const noexcept;
 

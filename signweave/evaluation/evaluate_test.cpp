@@ -45,7 +45,7 @@ TEST(Comparison, WhatWasCapturedIsWithoutError) {
       EXPECT_NEAR(score(scores, measure, hand), 0, 1e-6) << info_of(measure).name;
     }
   }
-  const Score& jump = scores.at(HandChoice::moving, Measure::velocity_jump);
+  const Measurement& jump = scores.at(HandChoice::moving, Measure::velocity_jump);
   EXPECT_GT(jump.value, 0);
   EXPECT_DOUBLE_EQ(jump.value, jump.weight);
 }
@@ -132,8 +132,8 @@ TEST(Evaluate, TwoRunsGiveTheSameBitsButForTheTimeTheyTook) {
     for (std::size_t i = 0; i < choice.spans.size(); ++i) {
       for (const MeasureInfo& info : measures()) {
         if (info.measure == Measure::microseconds) continue;
-        const Score& a = one[m].spans[i].at(HandChoice::moving, info.measure);
-        const Score& b = other[m].spans[i].at(HandChoice::moving, info.measure);
+        const Measurement& a = one[m].spans[i].at(HandChoice::moving, info.measure);
+        const Measurement& b = other[m].spans[i].at(HandChoice::moving, info.measure);
         EXPECT_EQ(std::bit_cast<std::uint64_t>(a.value), std::bit_cast<std::uint64_t>(b.value))
             << one[m].name << ' ' << info.name;
       }

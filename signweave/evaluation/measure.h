@@ -57,7 +57,7 @@ inline const MeasureInfo& info_of(Measure measure) noexcept {
 
 /// One figure of one span: what goes on top and what goes below the fraction line of a mean. Not a number above: not
 /// measured.
-struct Score {
+struct Measurement {
   double value = std::numeric_limits<double>::quiet_NaN();
   double weight = 1;
   bool known() const noexcept { return value == value && weight == weight; }
@@ -70,11 +70,11 @@ std::string_view name_of(HandChoice hand) noexcept;
 
 /// Everything about one made span: [HandChoice][Measure].
 struct SpanScores {
-  std::array<std::array<Score, kMeasures>, kHandChoices> of;
-  Score& at(HandChoice hand, Measure measure) noexcept {
+  std::array<std::array<Measurement, kMeasures>, kHandChoices> of;
+  Measurement& at(HandChoice hand, Measure measure) noexcept {
     return of[static_cast<std::size_t>(hand)][static_cast<std::size_t>(measure)];
   }
-  const Score& at(HandChoice hand, Measure measure) const noexcept {
+  const Measurement& at(HandChoice hand, Measure measure) const noexcept {
     return of[static_cast<std::size_t>(hand)][static_cast<std::size_t>(measure)];
   }
 };

@@ -115,7 +115,7 @@ WristKinematics kinematics_of(const std::vector<Vector3f>& wrist, FrameRange gap
   return meter.measure(std::span(wrist).subspan(at(begin), at(end - begin)), gap.begin - 1 - begin, gap.size());
 }
 
-void compare(const WristKinematics& is, const WristKinematics& was, std::array<Score, kMeasures>& out) {
+void compare(const WristKinematics& is, const WristKinematics& was, std::array<Measurement, kMeasures>& out) {
   constexpr double kLeastWay = 0.02;  // metres: what hardly goes anywhere has no shape
   if (!is.moves || !was.moves || is.chord < kLeastWay || was.chord < kLeastWay) return;
   const auto put = [&](double difference, Measure signed_one, Measure error) {
@@ -138,9 +138,9 @@ std::vector<ReplacedSpan> choose_replaced(std::span<const EvaluatedMotion> recor
   std::vector<ReplacedSpan> chosen;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const EvaluatedMotion& recording = recordings[r];
-    const std::vector<Transition> transitions = transitions_in(recording.signs);
-    for (const Transition& first : transitions) {
-      for (const Transition& second : transitions) {
+    const std::vector<AnnotatedTransition> transitions = transitions_in(recording.signs);
+    for (const AnnotatedTransition& first : transitions) {
+      for (const AnnotatedTransition& second : transitions) {
         if (second.from != first.to) continue;
         const FrameRange before = frames_of(first.span, recording.clock);
         const FrameRange after = frames_of(second.span, recording.clock);

@@ -133,10 +133,10 @@ void take_natural(const EvaluatedMotion& recording, const Speeds& speeds, const 
 
 /// Annotated transitions; where none has phases, the gaps between signs.
 void take_annotated(const EvaluatedMotion& recording, Picker& picker) {
-  const std::vector<Transition> transitions = transitions_in(recording.signs);
+  const std::vector<AnnotatedTransition> transitions = transitions_in(recording.signs);
   const bool phases =
-      std::any_of(transitions.begin(), transitions.end(), [](const Transition& one) { return !one.inferred; });
-  for (const Transition& one : transitions) {
+      std::any_of(transitions.begin(), transitions.end(), [](const AnnotatedTransition& one) { return !one.inferred; });
+  for (const AnnotatedTransition& one : transitions) {
     if (phases && one.inferred) continue;
     picker.take(frames_of(one.span, recording.clock), 0);
   }

@@ -38,13 +38,13 @@ PartStats part_of(std::span<const RecordedTransition> transitions, const Duratio
 
 }  // namespace
 
-std::vector<Transition> transitions_in(std::span<const Sign> signs) {
+std::vector<AnnotatedTransition> transitions_in(std::span<const Sign> signs) {
   std::vector<std::size_t> order(signs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return signs[a].tier != signs[b].tier ? signs[a].tier < signs[b].tier : signs[a].span.begin < signs[b].span.begin;
   });
-  std::vector<Transition> result;
+  std::vector<AnnotatedTransition> result;
   for (std::size_t i = 1; i < order.size(); ++i) {
     const Sign& from = signs[order[i - 1]];
     const Sign& to = signs[order[i]];
@@ -64,13 +64,14 @@ std::vector<Transition> transitions_in(std::span<const Sign> signs) {
   return result;
 }
 
-TransitionStats summarize(std::span<const Transition> transitions) {
+TransitionStats summarize(std::span<const AnnotatedTransition> transitions) {
   TransitionStats stats;
-  stats.inferred = std::all_of(transitions.begin(), transitions.end(), [](const Transition& t) { return t.inferred; });
+  stats.inferred =
+      std::all_of(transitions.begin(), transitions.end(), [](const AnnotatedTransition& t) { return t.inferred; });
   std::vector<double> durations;
   double retraction = 0;
   double preparation = 0;
-  for (const Transition& transition : transitions) {
+  for (const AnnotatedTransition& transition : transitions) {
     if (transition.inferred != stats.inferred) continue;
     durations.push_back(count_of(transition.span.duration()));
     retraction += count_of(transition.retraction);
@@ -93,7 +94,7 @@ TransitionStats summarize(std::span<const Transition> transitions) {
 std::vector<RecordedTransition> recorded_transitions(const std::string& recording, std::span<const Sign> signs,
                                                      const MotionOf& motion_of) {
   std::vector<RecordedTransition> result;
-  for (const Transition& transition : transitions_in(signs)) {
+  for (const AnnotatedTransition& transition : transitions_in(signs)) {
     const Sign& from = signs[transition.from];
     const Sign& to = signs[transition.to];
     result.push_back(
@@ -119,12 +120,12 @@ TransitionSummary describe(std::span<const RecordedTransition> transitions) {
   TransitionSummary summary;
   summary.inferred = !of.empty() && of.front().transition.inferred;
   summary.whole = part_of(
-      of, [](const Transition& t) { return t.span.duration(); }, &TransitionMotion::whole);
+      of, [](const AnnotatedTransition& t) { return t.span.duration(); }, &TransitionMotion::whole);
   if (summary.inferred) return summary;
   summary.retraction = part_of(
-      of, [](const Transition& t) { return t.retraction; }, &TransitionMotion::retraction);
+      of, [](const AnnotatedTransition& t) { return t.retraction; }, &TransitionMotion::retraction);
   summary.preparation = part_of(
-      of, [](const Transition& t) { return t.preparation; }, &TransitionMotion::preparation);
+      of, [](const AnnotatedTransition& t) { return t.preparation; }, &TransitionMotion::preparation);
   return summary;
 }
 

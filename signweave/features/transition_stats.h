@@ -16,7 +16,7 @@
 namespace signweave {
 
 /// A recorded transition: what lies between the last stroke of one sign and the first stroke of the next.
-struct Transition {
+struct AnnotatedTransition {
   std::size_t from = 0;         ///< index of the first sign in the list that was looked through
   std::size_t to = 0;           ///< index of the second
   TimeSpan span;                ///< from the end of the last stroke to the begin of the next
@@ -36,7 +36,7 @@ inline constexpr Milliseconds kTouching{20};
 
 /// The transitions of one recording: neighbours on one sign tier, both with a stroke, at most kMeeting (kRest where
 /// either is inferred) between the end of one sign and the begin of the next. By tier, then time.
-std::vector<Transition> transitions_in(std::span<const Sign> signs);
+std::vector<AnnotatedTransition> transitions_in(std::span<const Sign> signs);
 
 /// Mean and spread of transition durations (the paper, section 5.1, figure 4).
 struct TransitionStats {
@@ -52,7 +52,7 @@ struct TransitionStats {
 };
 
 /// Over the annotated transitions where there is one; else over the inferred ones.
-TransitionStats summarize(std::span<const Transition> transitions);
+TransitionStats summarize(std::span<const AnnotatedTransition> transitions);
 
 /// How far a hand goes over a part of a transition.
 struct HandTravel {
@@ -80,13 +80,13 @@ struct RecordedTransition {
   std::string recording;
   std::string from;  ///< gloss, verbatim
   std::string to;
-  Transition transition;
+  AnnotatedTransition transition;
   std::optional<TransitionMotion> motion;  ///< none: not measured
 };
 
 /// What to take for a transition's motion, whose signs are `from` and `to`; may be empty, and may answer none.
-using MotionOf =
-    std::function<std::optional<TransitionMotion>(const Sign& from, const Sign& to, const Transition& transition)>;
+using MotionOf = std::function<std::optional<TransitionMotion>(const Sign& from, const Sign& to,
+                                                               const AnnotatedTransition& transition)>;
 
 /// The transitions of one recording, as `transitions_in` finds them, in the order of time.
 std::vector<RecordedTransition> recorded_transitions(const std::string& recording, std::span<const Sign> signs,

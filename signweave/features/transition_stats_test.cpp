@@ -10,7 +10,7 @@ namespace {
 TEST(TransitionStats, ATransitionIsRetractionPlusGapPlusPreparation) {
   const std::vector<Sign> signs = {sign_of_three("A", 0ms, 100ms, 300ms, 400ms),
                                    sign_of_three("B", 450ms, 700ms, 900ms, 1'000ms)};
-  const std::vector<Transition> found = transitions_in(signs);
+  const std::vector<AnnotatedTransition> found = transitions_in(signs);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].span, (TimeSpan{300ms, 700ms}));
   EXPECT_EQ(found[0].retraction, 100ms);
@@ -37,7 +37,7 @@ TEST(TransitionStats, TiersAreNotMixed) {
 }
 
 TEST(TransitionStats, AnnotatedTransitionsOutweighInferredOnes) {
-  const std::vector<Transition> mixed = {
+  const std::vector<AnnotatedTransition> mixed = {
       {.span = {0ms, 600ms}}, {.span = {0ms, 800ms}}, {.span = {0ms, 5ms}, .inferred = true}};
   const TransitionStats stats = summarize(mixed);
   EXPECT_EQ(stats.count, 2u);
@@ -95,7 +95,8 @@ TEST(TransitionStats, PairsAreToldByHowOftenTheyOccur) {
 TEST(TransitionStats, RecordedTransitionsNameTheirSigns) {
   const std::vector<Sign> signs = {sign_of_three("A", 0ms, 100ms, 300ms, 400ms),
                                    sign_of_three("B", 450ms, 700ms, 900ms, 1'000ms)};
-  const auto motion_of = [](const Sign& from, const Sign& to, const Transition&) -> std::optional<TransitionMotion> {
+  const auto motion_of = [](const Sign& from, const Sign& to,
+                            const AnnotatedTransition&) -> std::optional<TransitionMotion> {
     TransitionMotion motion;
     motion.whole[0] = {.known = true, .displacement = from.gloss == "A" ? 0.25 : 0, .path = to.gloss == "B" ? 0.5 : 0};
     return motion;

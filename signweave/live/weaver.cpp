@@ -23,16 +23,10 @@ WeavingScratch& scratch() {
   return kept;
 }
 
-/// Where the signer stands over the core of a stretch.
-Standing standing_of(const Laid& laid, const JunctionSettings& settings) {
-  Laid alone = laid;
-  alone.core = 0;
+Standing standing_of_sign(const Laid& laid, const JunctionSettings& settings) {
   Motion& core = scratch().core;
-  const FrameRange frames{0, std::min(alone.core_frames, kStandingFrames)};
-  core.reset(settings.skeleton, settings.rate, frames.size());
-  read_frames(alone, frames, core.poses(frames));
-  Standing standing = standing_over(core, frames);
-  if (frames.size() > kKeptFrames) core = Motion();
+  const Standing standing = standing_of(laid, settings, core);
+  if (core.frame_count() > kKeptFrames) core = Motion();
   return standing;
 }
 
@@ -47,7 +41,7 @@ Weaver::Weaver(const JunctionSettings& settings, const TransitionTiming& timing,
       home_recording_(home.recording),
       timer_(settings, timing),
       filler_(settings) {
-  home_ = standing_of(lay(home, settings_.rate, tempo_), settings_);
+  home_ = standing_of_sign(lay(home, settings_.rate, tempo_), settings_);
 }
 
 void Weaver::lay_sign(Woven& woven) const {
@@ -79,7 +73,7 @@ void Weaver::lay_frames(Woven& woven) const {
 
 void Weaver::place(Woven& woven) {
   if (!woven.aligned || woven.transform) return;
-  woven.transform = align(standing_of(woven.laid, settings_), home_);
+  woven.transform = align(standing_of_sign(woven.laid, settings_), home_);
 }
 
 JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {

@@ -57,6 +57,9 @@ void sample(const Motion& motion, double frame, MutablePoseView out) noexcept;
 struct GroundTransform {
   Eigen::Quaternionf turn = Eigen::Quaternionf::Identity();  ///< about +Y
   Eigen::Vector3f shift = Eigen::Vector3f::Zero();           ///< metres, its y is 0
+  friend bool operator==(const GroundTransform& a, const GroundTransform& b) noexcept {
+    return a.turn.coeffs() == b.turn.coeffs() && a.shift == b.shift;
+  }
 };
 
 /// Where someone stands and faces: the root's ground position and heading over some frames.

@@ -28,11 +28,15 @@ std::int64_t Laid::frame_of(std::int64_t recorded) const noexcept {
 }
 
 Laid lay(const Stretch& stretch, FrameRate rate, double tempo) {
+  const FrameRate own = stretch.source->rate();
+  return lay_by_step(stretch, own == rate ? tempo : own.hertz() / rate.hertz() * tempo);
+}
+
+Laid lay_by_step(const Stretch& stretch, double step) {
   Laid laid;
   laid.stretch = &stretch;
   laid.last = std::min(stretch.whole.end, stretch.source->frame_count() - 1);
-  const FrameRate own = stretch.source->rate();
-  laid.step = own == rate ? tempo : own.hertz() / rate.hertz() * tempo;
+  laid.step = step;
   const auto frames = [&](std::int64_t count) {
     return static_cast<std::int64_t>(std::min(static_cast<double>(count) / laid.step, 1e12) + 1e-9);
   };

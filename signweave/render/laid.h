@@ -37,6 +37,8 @@ struct Laid {
 
 /// Lays a stretch on a grid of `rate` at a tempo.
 Laid lay(const Stretch& stretch, FrameRate rate, double tempo);
+/// The same by the recording's frames per output frame.
+Laid lay_by_step(const Stretch& stretch, double step);
 
 /// Puts some of its output frames where they are wanted, as captured, or interpolated where its own grid is another.
 void read_frames(const Laid& laid, FrameRange output, MutablePoses out);

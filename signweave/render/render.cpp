@@ -6,6 +6,7 @@
 
 #include "signweave/motion/blend.h"
 #include "signweave/render/carry_tracks.h"
+#include "signweave/score/place_signs.h"
 
 namespace signweave {
 namespace {
@@ -31,41 +32,19 @@ class Filler {
     scratch_.shared.reset(out_.motion.shared_skeleton(), out_.motion.rate(), shared);
     read_frames(now, {now.begin(), own.begin}, scratch_.shared.poses({0, shared}));
     read_frames(now, own, out_.motion.poses(own));
-    align_to_home(i, own);
+    align(i, own);
     if (i > 0) junctions_.fill(plan_.laid[i - 1], now, plan_.cuts[i - 1].parts, {out_.motion}, scratch_);
     tell_sources(i);
   }
 
  private:
-  static FrameRange standing_frames(const Laid& laid) {
-    return {laid.core, std::min(laid.core_end(), laid.core + kStandingFrames)};
-  }
-
-  /// Where the reference's signer stands, while stretch i is filled: the frames that tell are there already, but for a
-  /// stretch before the reference.
-  const Standing& home(std::size_t i) {
-    if (home_) return *home_;
-    const Laid& reference = plan_.laid[plan_.reference];
-    if (plan_.reference <= i) {
-      home_ = standing_over(out_.motion, standing_frames(reference));
-    } else {
-      const MotionSource& source = *reference.stretch->source;
-      Motion core;
-      core.reset(source.skeleton(), source.rate(), reference.stretch->core.size());
-      source.read(reference.stretch->core, core.poses({0, core.frame_count()}));
-      home_ = standing_over(core, {0, core.frame_count()});
-    }
-    return *home_;
-  }
-
-  void align_to_home(std::size_t i, FrameRange own) {
-    if (!plan_.aligned[i]) return;
-    const Laid& now = plan_.laid[i];
-    const GroundTransform transform = align(standing_over(out_.motion, standing_frames(now)), home(i));
+  void align(std::size_t i, FrameRange own) {
+    const std::optional<GroundTransform>& standing = plan_.standing[i];
+    if (!standing) return;
     for (std::int64_t k = 0; k < scratch_.shared.frame_count(); ++k)
-      apply(transform, out_.motion.skeleton(), scratch_.shared.pose(k));
+      apply(*standing, out_.motion.skeleton(), scratch_.shared.pose(k));
     for (std::int64_t frame = own.begin; frame < own.end; ++frame)
-      apply(transform, out_.motion.skeleton(), out_.motion.pose(frame));
+      apply(*standing, out_.motion.skeleton(), out_.motion.pose(frame));
   }
 
   void tell_sources(std::size_t i) {
@@ -100,12 +79,9 @@ class Filler {
   JunctionFiller junctions_;
   Synthesis& out_;
   JunctionScratch scratch_;
-  std::optional<Standing> home_;
 };
 
-}  // namespace
-
-void render(const Plan& plan, const JunctionSettings& settings, Synthesis& out) {
+void render_plan(const Plan& plan, const JunctionSettings& settings, Synthesis& out) {
   std::vector<ScalarTrack> used_tracks = out.motion.take_tracks();
   out.motion.reset(settings.skeleton, settings.rate, plan.frames);
   out.sources.resize(static_cast<std::size_t>(plan.frames));
@@ -140,6 +116,22 @@ void render(const Plan& plan, const JunctionSettings& settings, Synthesis& out) 
     laid_tracks[i + 1].before = plan.cuts[i].tracks.preparation_frames;
   }
   carry_tracks(laid_tracks, std::move(used_tracks), out.motion);
+}
+
+}  // namespace
+
+void render(const Score& score, const std::vector<Stretch>& stretches, const JunctionSettings& settings,
+            Synthesis& out) {
+  const Plan plan = plan_of(score, stretches);
+  render_plan(plan, settings, out);
+  for (std::size_t i = 0; i < out.junctions.size(); ++i) {
+    const JunctionRef& junction = score.junctions[i];
+    out.junctions[i].number = junction.number;
+    out.junctions[i].chosen =
+        junction.chosen.empty() ? JunctionChoice() : parse_junction("1=" + junction.chosen).choice;
+  }
+  place_signs(stretches, out);
+  out.score = score;
 }
 
 }  // namespace signweave

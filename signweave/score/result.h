@@ -11,6 +11,7 @@
 #include "signweave/core/time.h"
 #include "signweave/motion/motion.h"
 #include "signweave/score/junction_choice.h"
+#include "signweave/score/score.h"
 #include "signweave/score/transition.h"
 
 namespace signweave {
@@ -54,6 +55,7 @@ struct PlacedSign {
 /// What was made, and of what.
 struct Synthesis {
   Motion motion;
+  Score score;                       ///< that it was rendered from
   std::vector<FrameSource> sources;  ///< [output frame]
   std::vector<Placed> stretches;
   std::vector<Junction> junctions;  ///< [stretch − 1]

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +25,10 @@ struct Stretch {
   FrameClock clock;         ///< of the recording
   std::vector<Sign> signs;  ///< in the recording's annotation time
   Milliseconds pause_before{0};
-  JunctionChoice junction{};  ///< of the junction before it
+  JunctionChoice junction{};      ///< of the junction before it
+  std::uint64_t fingerprint = 0;  ///< of the recording's motion file; 0: not known
+  std::optional<std::size_t> place =
+      {};  ///< of what was asked for, from 0: the first that it is of; none: as it is counted
   /// Of its motion, in the joints of `source`; null: not known, or shown on another skeleton.
   std::shared_ptr<const CaptureNoise> noise = nullptr;
 };

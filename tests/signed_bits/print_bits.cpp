@@ -21,6 +21,7 @@
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
 #include "signweave/live/player.h"
+#include "signweave/score/score_json.h"
 
 namespace {
 
@@ -251,7 +252,12 @@ class Cases {
     if (!wanted(name)) return;
     Line line(name, !only_.empty());
     try {
-      add_result(make(options).result, line);
+      const Synthesis made = make(options).result;
+      add_result(made, line);
+      const Score read = score_from_json(json_of(made.score), name);
+      if (!same_bits(synthesize(database_, read).result.motion, made.motion)) {
+        throw std::runtime_error(name + ": its score, written and read, gives other frames");
+      }
     } catch (const Error& error) {
       line.refuse(error);
     }

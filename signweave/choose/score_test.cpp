@@ -1,0 +1,142 @@
+// Scores of what is joined: they are read back as they were written, give the same frames, and are refused where they
+// cannot be rendered.
+#include "signweave/score/score.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "signweave/choose/concatenate.h"
+#include "signweave/core/error.h"
+#include "signweave/render/render.h"
+#include "signweave/score/score_json.h"
+#include "signweave/score/test_motion.h"
+
+namespace signweave {
+namespace {
+
+using testing::HasSubstr;
+using testing_motion::stretch;
+
+std::vector<Stretch> stretches_to_join() {
+  std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 40),
+                                    stretch("C", 1.7f, 60, 50, 0), stretch("D", 2.9f, 0, 20, 30, {50, 1})};
+  stretches[1].fingerprint = 0xFEDCBA9876543210;
+  stretches[2].pause_before = 350ms;
+  stretches[3].junction = {find_transition_method("overlap"), 300ms, 1.25};
+  return stretches;
+}
+
+/// What is rendered from a score alone, of the motions of some stretches.
+Synthesis rendered(const Score& score, const std::vector<Stretch>& from) {
+  const std::vector<Stretch> stretches = stretches_of(score, [&](const SourceRef& source) {
+    for (const Stretch& one : from) {
+      if (one.recording == source.recording) return ScoreSource{one.source, one.noise};
+    }
+    throw Error(ErrorCode::not_found, source.recording);
+  });
+  const SignerRig rig = signer_rig_of(from.front());
+  Synthesis out;
+  render(score, stretches,
+         {.skeleton = from.front().source->skeleton(),
+          .rate = score.rate,
+          .method = &transition_methods().front(),
+          .rig = &rig},
+         out);
+  return out;
+}
+
+RC_GTEST_PROP(ScoreOfStretches, ReadsBackEqualAndGivesTheSameFrames, ()) {
+  std::vector<Stretch> stretches;
+  const int count = *rc::gen::inRange(1, 6);
+  for (int i = 0; i < count; ++i) {
+    const auto frames = [](int least, int most) { return std::int64_t{*rc::gen::inRange(least, most)}; };
+    const FrameRate rate = *rc::gen::element(FrameRate{100, 1}, FrameRate{50, 1}, FrameRate{30'000, 1001});
+    stretches.push_back(stretch(std::string(1, static_cast<char>('A' + i)), 0.37f * static_cast<float>(i),
+                                frames(0, 50), frames(1, 60), frames(0, 50), rate));
+    stretches.back().fingerprint = *rc::gen::arbitrary<std::uint64_t>();
+    stretches.back().signs.front().gloss = *rc::gen::element<std::string>("A", "\"[1,\n 2]\\", "\\\"[ 3 ]", "手話 [4]");
+    stretches.back().pause_before = Milliseconds(*rc::gen::element(0, 0, 350));
+    if (*rc::gen::inRange(0, 3) == 0) {
+      const auto methods = transition_methods();
+      stretches.back().junction = {&methods[*rc::gen::inRange<std::size_t>(0, methods.size())], 250ms, 1.5};
+    }
+  }
+  const auto methods = transition_methods();
+  const Synthesis made = concatenate(
+      stretches, {.method = &methods[*rc::gen::inRange<std::size_t>(0, methods.size())],
+                  .duration = Milliseconds(*rc::gen::inRange(0, 900)),
+                  .tempo = *rc::gen::element(1.0, 1.0, 0.8, 1.7),
+                  .alignment = *rc::gen::element(Alignment::automatic, Alignment::ground, Alignment::none)});
+  const std::string json = json_of(made.score);
+  const Score read = score_from_json(json, "score.json");
+  RC_ASSERT(read == made.score);
+  RC_ASSERT(json_of(read) == json);
+  const Synthesis again = rendered(read, stretches);
+  RC_ASSERT(same_bits(again.motion, made.motion));
+  RC_ASSERT(again.junctions.size() == made.junctions.size());
+  for (std::size_t i = 0; i < made.junctions.size(); ++i) {
+    RC_ASSERT(again.junctions[i].method == made.junctions[i].method);
+    RC_ASSERT(again.junctions[i].chosen == made.junctions[i].chosen);
+    RC_ASSERT(again.junctions[i].number == made.junctions[i].number);
+  }
+  RC_ASSERT(again.signs.size() == made.signs.size());
+  for (std::size_t i = 0; i < made.signs.size(); ++i) RC_ASSERT(again.signs[i].sign == made.signs[i].sign);
+}
+
+TEST(ScoreOfStretches, IsReadByPeople) {
+  const Synthesis made = concatenate(stretches_to_join(), {.duration = 480ms});
+  const std::string text = to_string(made.score);
+  EXPECT_THAT(text, HasSubstr("frames at 100 frames a second, with the joints of 'A'\n"));
+  EXPECT_THAT(text, HasSubstr("clip 1, place 1: B from 'B' "));
+  EXPECT_THAT(text, HasSubstr("junction 3 by overlap: body "));
+  EXPECT_THAT(text, HasSubstr("clip 3, place 3: D from 'D' 7-27, 0.5 frames a frame\n"));
+}
+
+/// What is said of a score's JSON in which one text stands for another.
+std::string fault_of(const std::string& text, const std::string& instead, bool all = false) {
+  std::string json = json_of(concatenate(stretches_to_join(), {.duration = 480ms}).score);
+  std::size_t at = json.find(text);
+  EXPECT_NE(at, std::string::npos) << text;
+  for (; at != std::string::npos; at = all ? json.find(text, at + instead.size()) : std::string::npos) {
+    json.replace(at, text.size(), instead);
+  }
+  try {
+    score_from_json(json, "my.json");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+TEST(ScoreOfStretches, FaultsSayWhereAndWhat) {
+  EXPECT_EQ(fault_of("\"id\": 1", "\"id\": 1"), "no fault");
+  EXPECT_THAT(fault_of("{", "["), HasSubstr("my.json:"));
+  EXPECT_THAT(fault_of("\"signweave_score\": 1", "\"signweave_score\": 2"), HasSubstr("a score of version 2"));
+  EXPECT_THAT(fault_of("\"signweave_score\"", "\"other\""), HasSubstr("my.json: the whole: it must be a score"));
+  EXPECT_THAT(fault_of("\"id\": 1", "\"id\": 2"), HasSubstr("clip 1 has the id 2"));
+  EXPECT_THAT(fault_of("\"id\": 1", "\"id\": -1"), HasSubstr("clips[1].id: it must be a whole number of 0 or more"));
+  EXPECT_THAT(fault_of("\"step\": 1.0", "\"step\": 1e-300"), HasSubstr("a step is a number from"));
+  EXPECT_THAT(fault_of("\"step\": 1.0", "\"step\": null"), HasSubstr("clips[0].step: it must be a number"));
+  EXPECT_THAT(fault_of("\"fingerprint\": \"fedcba9876543210\"", "\"fingerprint\": \"x\""), HasSubstr("hexadecimal"));
+  EXPECT_THAT(fault_of("\"hand\": \"both\"", "\"hand\": \"left-ish\""), HasSubstr("one of both, right, left"));
+  EXPECT_THAT(fault_of("\"method\": \"overlap\"", "\"method\": \"fade\""), HasSubstr("no transition method 'fade'"));
+  EXPECT_THAT(fault_of("\"channel\": \"left\"", "\"channel\": \"body\""),
+              HasSubstr("lane 'body' stands where 'left' belongs"));
+  EXPECT_THAT(fault_of("\"retraction\": ", "\"retraction\": 9"), HasSubstr("lane 'body': transition 0"));
+  EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 1"), HasSubstr("lane 'body' ends at frame"));
+  EXPECT_THAT(fault_of("\"at\": 20", "\"at\": 9000000000000000000"), HasSubstr("my.json: clip 0 begins at frame"));
+}
+
+TEST(ScoreOfStretches, ClipsThatTheirMotionDoesNotHaveAreRefused) {
+  const std::vector<Stretch> stretches = stretches_to_join();
+  Score score = concatenate(stretches, {.duration = 480ms}).score;
+  score.clips[1].whole.end = 10'000;
+  EXPECT_THROW(rendered(score, stretches), Error);
+  score = concatenate(stretches, {.duration = 480ms}).score;
+  score.clips[0].whole.begin = score.clips[0].core.begin;  // its preparation is shown, and not there
+  EXPECT_THROW(rendered(score, stretches), Error);
+}
+
+}  // namespace
+}  // namespace signweave

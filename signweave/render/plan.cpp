@@ -1,0 +1,147 @@
+#include "signweave/render/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "signweave/core/error.h"
+
+namespace signweave {
+namespace {
+
+const TransitionCut& cut_of(const Score& score, Channel channel, std::size_t junction) {
+  return std::get<Transition>(score.lanes[static_cast<std::size_t>(channel)].items[2 * junction + 1].what).cut;
+}
+
+Channel channel_of(Timed part) noexcept {
+  switch (part) {
+    case Timed::body:
+      return Channel::body;
+    case Timed::left:
+      return Channel::left;
+    case Timed::right:
+      return Channel::right;
+  }
+  return Channel::body;
+}
+
+/// The cut of a lane, whose transition lies so many frames after the core's end as it keeps.
+Lane lane_of(const Plan& plan, Channel channel, const auto& cut_of_junction) {
+  Lane lane{.channel = channel, .items = {}};
+  std::int64_t begin = 0;
+  for (std::size_t i = 0; i < plan.laid.size(); ++i) {
+    const Laid& laid = plan.laid[i];
+    const auto id = static_cast<ClipId>(i);
+    if (i + 1 == plan.laid.size()) {
+      lane.items.push_back({ClipUse{id}, {begin, plan.frames}});
+      break;
+    }
+    const TransitionCut& cut = cut_of_junction(i);
+    const std::int64_t end = laid.core_end() + cut.kept_after();
+    const std::int64_t next = plan.laid[i + 1].core - cut.kept_before();
+    lane.items.push_back({ClipUse{id}, {begin, end}});
+    lane.items.push_back({Transition{id, id + 1, cut}, {end, next}});
+    begin = next;
+  }
+  return lane;
+}
+
+}  // namespace
+
+std::vector<Stretch> stretches_of(const Score& score, const FindSource& find) {
+  std::vector<Stretch> stretches;
+  for (const Clip& clip : score.clips) {
+    const ScoreSource source = find(clip.source);
+    if (clip.whole.end > source.motion->frame_count()) {
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("clip {} goes up to frame {} of '{}', which has {}", clip.id, clip.whole.end,
+                              clip.source.recording, source.motion->frame_count()));
+    }
+    Stretch& stretch = stretches.emplace_back(Stretch{.recording = clip.source.recording,
+                                                      .source = source.motion,
+                                                      .whole = clip.whole,
+                                                      .core = clip.core,
+                                                      .clock = clip.clock,
+                                                      .signs = clip.signs,
+                                                      .fingerprint = clip.source.fingerprint,
+                                                      .place = clip.place,
+                                                      .noise = source.noise});
+    if (clip.id == 0) continue;
+    const JunctionRef& junction = score.junctions[clip.id - 1];
+    if (!junction.chosen.empty()) stretch.junction = parse_junction("1=" + junction.chosen).choice;
+    stretch.junction.method = find_transition_method(junction.method);
+  }
+  return stretches;
+}
+
+Plan plan_of(const Score& score, const std::vector<Stretch>& stretches) {
+  Plan plan;
+  plan.frames = score.frames;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const Clip& clip = score.clips[i];
+    plan.laid.push_back(lay_by_step(stretches[i], clip.step));
+    plan.laid.back().core = clip.at;
+    plan.standing.push_back(clip.standing);
+  }
+  plan.laid.front().before = plan.laid.front().core;
+  for (std::size_t i = 0; i + 1 < stretches.size(); ++i) {
+    JunctionCuts& cuts = plan.cuts.emplace_back();
+    for (const Timed part : kAllTimed) cuts.parts[static_cast<std::size_t>(part)] = cut_of(score, channel_of(part), i);
+    cuts.tracks = cut_of(score, Channel::tracks, i);
+    for (const TransitionCut& cut : cuts.parts) {
+      plan.laid[i].after = std::max(plan.laid[i].after, cut.retraction_frames);
+      plan.laid[i + 1].before = std::max(plan.laid[i + 1].before, cut.preparation_frames);
+    }
+  }
+  plan.laid.back().after = score.frames - plan.laid.back().core_end();
+  for (std::size_t i = 0; i < plan.laid.size(); ++i) {
+    const Laid& laid = plan.laid[i];
+    const bool meets =
+        i + 1 == plan.laid.size() || laid.core_end() + plan.cuts[i].tracks.length == plan.laid[i + 1].core;
+    if (laid.before > laid.preparation || laid.after < 0 || laid.after > laid.retraction || !meets) {
+      throw Error(
+          ErrorCode::bad_input,
+          fmt::format("clip {} has {} frames before its core of {} and {} after it; the score shows {} and {}{}", i,
+                      laid.preparation, laid.core_frames, laid.retraction, laid.before, laid.after,
+                      meets ? "" : ", and its junction is not as long as the lanes say"));
+    }
+  }
+  return plan;
+}
+
+Score score_of(const Plan& plan, const JunctionSettings& settings, const Stretch& skeleton) {
+  Score score{.skeleton = {skeleton.recording, skeleton.fingerprint},
+              .rate = settings.rate,
+              .frames = plan.frames,
+              .clips = {},
+              .junctions = {},
+              .lanes = {}};
+  for (std::size_t i = 0; i < plan.laid.size(); ++i) {
+    const Laid& laid = plan.laid[i];
+    const Stretch& stretch = *laid.stretch;
+    score.clips.push_back({.id = static_cast<ClipId>(i),
+                           .place = stretch.place.value_or(i),
+                           .source = {stretch.recording, stretch.fingerprint},
+                           .whole = stretch.whole,
+                           .core = stretch.core,
+                           .step = laid.step,
+                           .at = laid.core,
+                           .standing = plan.standing[i],
+                           .clock = stretch.clock,
+                           .signs = stretch.signs});
+    if (i > 0) {
+      score.junctions.push_back({.number = stretch.place.value_or(i),
+                                 .method = std::string(method_of(settings, laid).name),
+                                 .chosen = to_string(stretch.junction)});
+    }
+  }
+  for (const Channel channel : kChannels) {
+    score.lanes.push_back(lane_of(plan, channel, [&](std::size_t junction) -> const TransitionCut& {
+      const JunctionCuts& cuts = plan.cuts[junction];
+      return channel == Channel::tracks ? cuts.tracks : cuts.parts[static_cast<std::size_t>(channel)];
+    }));
+  }
+  return score;
+}
+
+}  // namespace signweave

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "signweave/motion/blend.h"
+#include "signweave/render/junction.h"
+#include "signweave/render/laid.h"
+#include "signweave/score/score.h"
+
+namespace signweave {
+
+/// A score beside the motions that it names: Algorithm 1 before any frame is made. Stretches are borrowed.
+struct Plan {
+  std::vector<Laid> laid;
+  std::vector<JunctionCuts> cuts;                        ///< [stretch − 1]
+  std::vector<std::optional<GroundTransform>> standing;  ///< [stretch] how it is brought to where all stand
+  std::int64_t frames = 0;
+};
+
+/// What a score is rendered from: for each recording that it names its motion, in the joints of the score's skeleton,
+/// and the noise of its capture where that is known.
+struct ScoreSource {
+  std::shared_ptr<const MotionSource> motion;
+  std::shared_ptr<const CaptureNoise> noise;
+};
+using FindSource = std::function<ScoreSource(const SourceRef&)>;
+
+/// The clips of a score with their motions. What `find` throws comes through; Error{bad_input} where a clip names
+/// frames that its motion does not have.
+std::vector<Stretch> stretches_of(const Score& score, const FindSource& find);
+
+/// What a score says of stretches that stretches_of or whoever made the score has. `stretches` must outlive it. Throws
+/// Error{bad_input} where a lane shows frames that were not captured.
+Plan plan_of(const Score& score, const std::vector<Stretch>& stretches);
+
+/// The score of a plan: it gives the plan back. Its clips name no place and its junctions are numbered in order.
+Score score_of(const Plan& plan, const JunctionSettings& settings, const Stretch& skeleton);
+
+}  // namespace signweave

@@ -1,0 +1,159 @@
+#include "signweave/score/score.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "signweave/core/error.h"
+#include "signweave/score/junction_choice.h"
+
+namespace signweave {
+namespace {
+
+/// No number of frames is larger: sums of some of them are still numbers.
+constexpr std::int64_t kMostFrameNumber = std::int64_t{1} << 40;
+
+struct Checker {
+  const Score& score;
+  const std::string& where;
+
+  template <class... Args>
+  void require(bool holds, fmt::format_string<Args...> text, Args&&... args) const {
+    if (holds) return;
+    throw Error(ErrorCode::bad_input, fmt::format("{}: {}", where, fmt::format(text, std::forward<Args>(args)...)));
+  }
+  static bool in_range(std::int64_t number) noexcept { return number >= 0 && number <= kMostFrameNumber; }
+
+  void clip(const Clip& clip, std::size_t index) const {
+    require(clip.id == index, "clip {} has the id {}; ids count from 0 in the order of the clips", index, clip.id);
+    require(!clip.source.recording.empty(), "clip {} names no recording", index);
+    require(in_range(clip.whole.begin) && in_range(clip.whole.end) && clip.whole.begin <= clip.core.begin &&
+                clip.core.begin < clip.core.end && clip.core.end <= clip.whole.end,
+            "clip {} keeps frames {} to {} out of {} to {}; the first range must not be empty, and lie in the second",
+            index, clip.core.begin, clip.core.end, clip.whole.begin, clip.whole.end);
+    require(std::isfinite(clip.step) && clip.step >= 1e-3 && clip.step <= 1e6,
+            "clip {} goes {} frames a frame; a step is a number from 0.001 to 1000000", index, clip.step);
+    require(in_range(clip.at) && clip.at < score.frames, "clip {} begins at frame {} of {}", index, clip.at,
+            score.frames);
+    require(index == 0 || clip.at > score.clips[index - 1].at, "clip {} begins no later than the one before it", index);
+    require(std::isfinite(clip.clock.origin.count()) && std::isfinite(clip.clock.frame_time.count()) &&
+                clip.clock.frame_time.count() > 0,
+            "the clock of clip {} does not go", index);
+    if (!clip.standing) return;
+    require(clip.standing->shift.allFinite() && std::abs(clip.standing->turn.norm() - 1) < 1e-3f,
+            "clip {} stands nowhere: its turn must be a unit quaternion, its shift three numbers", index);
+  }
+
+  void transition(const Transition& made, const FrameRange& at, std::size_t index, std::string_view channel) const {
+    const TransitionCut& cut = made.cut;
+    require(made.from + 1 == made.to && made.from == index, "lane '{}': transition {} goes from clip {} to {}", channel,
+            index, made.from, made.to);
+    for (const std::int64_t number :
+         {cut.length, cut.retraction_frames, cut.preparation_frames, cut.blend_frames, cut.pause_frames}) {
+      require(in_range(number), "lane '{}': transition {} has {} frames of something", channel, index, number);
+    }
+    require(cut.retraction_frames <= cut.length && cut.preparation_frames <= cut.length,
+            "lane '{}': transition {} keeps more than its {} frames", channel, index, cut.length);
+    require(at.size() == cut.gap() + cut.overlap(), "lane '{}': transition {} has {} frames; its cut leaves {}",
+            channel, index, at.size(), cut.gap() + cut.overlap());
+  }
+
+  void lane(const Lane& lane, Channel channel) const {
+    const std::string_view name = name_of(channel);
+    require(lane.channel == channel, "lane '{}' stands where '{}' belongs", name_of(lane.channel), name);
+    require(lane.items.size() == 2 * score.clips.size() - 1, "lane '{}' has {} items; {} clips make {}", name,
+            lane.items.size(), score.clips.size(), 2 * score.clips.size() - 1);
+    std::int64_t end = 0;
+    for (std::size_t i = 0; i < lane.items.size(); ++i) {
+      const Item& item = lane.items[i];
+      require(item.at.begin == end && item.at.end >= end,
+              "lane '{}': item {} is at {} to {}; the one before it ends at {}", name, i, item.at.begin, item.at.end,
+              end);
+      end = item.at.end;
+      if (i % 2 == 1) {
+        require(std::holds_alternative<Transition>(item.what), "lane '{}': item {} is no transition", name, i);
+        transition(std::get<Transition>(item.what), item.at, i / 2, name);
+      } else {
+        const ClipUse* const use = std::get_if<ClipUse>(&item.what);
+        require(use != nullptr && use->clip == i / 2, "lane '{}': item {} is not clip {}", name, i, i / 2);
+        const Clip& clip = score.clips[i / 2];
+        require(item.at.begin <= clip.at && clip.at < item.at.end,
+                "lane '{}': clip {} is at {} to {}; its core begins at {}", name, i / 2, item.at.begin, item.at.end,
+                clip.at);
+      }
+    }
+    require(end == score.frames, "lane '{}' ends at frame {} of {}", name, end, score.frames);
+  }
+};
+
+}  // namespace
+
+std::string_view name_of(Channel channel) noexcept {
+  switch (channel) {
+    case Channel::body:
+      return "body";
+    case Channel::left:
+      return "left";
+    case Channel::right:
+      return "right";
+    case Channel::tracks:
+      return "tracks";
+  }
+  return "";
+}
+
+void check(const Score& score, const std::string& where) {
+  const Checker checker{score, where};
+  checker.require(!score.clips.empty(), "a score without a clip; it must have one");
+  checker.require(!score.skeleton.recording.empty(), "'skeleton' names no recording");
+  checker.require(score.rate.numerator > 0 && score.rate.denominator > 0, "{}/{} frames a second", score.rate.numerator,
+                  score.rate.denominator);
+  checker.require(Checker::in_range(score.frames), "{} frames", score.frames);
+  for (std::size_t i = 0; i < score.clips.size(); ++i) checker.clip(score.clips[i], i);
+  checker.require(score.junctions.size() + 1 == score.clips.size(), "{} junctions between {} clips",
+                  score.junctions.size(), score.clips.size());
+  for (const JunctionRef& junction : score.junctions) {
+    checker.require(find_transition_method(junction.method) != nullptr, "no transition method '{}'", junction.method);
+    if (!junction.chosen.empty()) parse_junction("1=" + junction.chosen);
+  }
+  checker.require(score.lanes.size() == kChannels.size(), "{} lanes; there must be {}", score.lanes.size(),
+                  kChannels.size());
+  for (std::size_t i = 0; i < kChannels.size(); ++i) checker.lane(score.lanes[i], kChannels[i]);
+  for (std::size_t i = 0; i + 1 < score.clips.size(); ++i) {
+    const auto length = [&](std::size_t lane) {
+      return std::get<Transition>(score.lanes[lane].items[2 * i + 1].what).cut.length;
+    };
+    for (std::size_t lane = 1; lane < kChannels.size(); ++lane) {
+      checker.require(
+          length(lane) == length(0),
+          "junction {} is {} frames long in lane '{}' and {} in '{}'; lanes cut it apart, but all have one length",
+          i + 1, length(lane), name_of(kChannels[lane]), length(0), name_of(kChannels[0]));
+    }
+  }
+}
+
+std::string to_string(const Score& score) {
+  std::string text = fmt::format("{} frames at {} frames a second, with the joints of '{}'\n", score.frames,
+                                 to_string(score.rate), score.skeleton.recording);
+  for (std::size_t i = 0; i < score.clips.size(); ++i) {
+    const Clip& clip = score.clips[i];
+    if (i > 0) {
+      const JunctionRef& junction = score.junctions[i - 1];
+      text += fmt::format("{:>8}  junction {} by {}:", "", junction.number, junction.method);
+      for (const Lane& lane : score.lanes) {
+        const FrameRange at = lane.items[2 * i - 1].at;
+        text += fmt::format("{} {} {}-{}", &lane == &score.lanes.front() ? "" : ",", name_of(lane.channel), at.begin,
+                            at.end);
+      }
+      text += '\n';
+    }
+    std::string signs;
+    for (const Sign& sign : clip.signs) signs += (signs.empty() ? "" : " ") + sign.gloss;
+    text += fmt::format("{:>8}  clip {}, place {}: {} from '{}' {}-{}{}\n", clip.at, clip.id, clip.place,
+                        signs.empty() ? "a piece" : signs, clip.source.recording, clip.core.begin, clip.core.end,
+                        clip.step == 1 ? "" : fmt::format(", {:.4g} frames a frame", clip.step));
+  }
+  return text;
+}
+
+}  // namespace signweave

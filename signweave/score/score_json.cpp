@@ -1,0 +1,322 @@
+#include "signweave/score/score_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "signweave/core/error.h"
+
+namespace signweave {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(FrameRange frames) {
+  return {frames.begin, frames.end};
+}
+Json json_of(TimeSpan span) {
+  return {span.begin.count(), span.end.count()};
+}
+Json json_of(const SourceRef& source) {
+  return {{"recording", source.recording}, {"fingerprint", fmt::format("{:016x}", source.fingerprint)}};
+}
+Json json_of(const Sign& sign) {
+  Json phases = Json::array();
+  for (const Phase& phase : sign.phases) {
+    phases.push_back({{"kind", name_of(phase.kind)},
+                      {"ms", json_of(phase.span)},
+                      {"label", phase.label},
+                      {"annotation", phase.annotation}});
+  }
+  return {{"gloss", sign.gloss},       {"ms", json_of(sign.span)},   {"hand", name_of(sign.hand)},
+          {"signer", sign.signer},     {"tier", sign.tier},          {"annotation", sign.annotation},
+          {"inferred", sign.inferred}, {"phases", std::move(phases)}};
+}
+Json json_of(const Clip& clip) {
+  Json standing;
+  if (clip.standing) {
+    const auto& [turn, shift] = *clip.standing;
+    standing = {{"turn", {turn.x(), turn.y(), turn.z(), turn.w()}}, {"shift", {shift.x(), shift.y(), shift.z()}}};
+  }
+  Json signs = Json::array();
+  for (const Sign& sign : clip.signs) signs.push_back(json_of(sign));
+  return {{"id", clip.id},
+          {"place", clip.place},
+          {"source", json_of(clip.source)},
+          {"whole", json_of(clip.whole)},
+          {"core", json_of(clip.core)},
+          {"step", clip.step},
+          {"at", clip.at},
+          {"standing", std::move(standing)},
+          {"clock", {{"frame_time", clip.clock.frame_time.count()}, {"origin", clip.clock.origin.count()}}},
+          {"signs", std::move(signs)}};
+}
+Json json_of(const Item& item) {
+  Json json{{"at", json_of(item.at)}};
+  if (const auto* const use = std::get_if<ClipUse>(&item.what)) {
+    json["clip"] = use->clip;
+    return json;
+  }
+  const auto& [from, to, cut] = std::get<Transition>(item.what);
+  json["transition"] = {{"from", from},
+                        {"to", to},
+                        {"length", cut.length},
+                        {"retraction", cut.retraction_frames},
+                        {"preparation", cut.preparation_frames},
+                        {"blend", cut.blend_frames},
+                        {"pause", cut.pause_frames},
+                        {"waits", cut.waits}};
+  return json;
+}
+
+/// Lists of numbers on one line each, so that people can read the whole.
+std::string with_short_lists(const std::string& json) {
+  std::string text;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (c == '"') in_string = !in_string;
+    if (in_string && c == '\\') {  // with what it escapes
+      text += json.substr(i++, 2);
+      continue;
+    }
+    text += c;
+    if (in_string || c != '[') continue;
+    const std::size_t end = json.find_first_not_of("0123456789+-.eE, \n", i + 1);
+    if (end == std::string::npos || json[end] != ']') continue;
+    for (std::size_t k = i + 1; k < end; ++k) {
+      if (json[k] != ' ' && json[k] != '\n') text += json[k];
+      if (json[k] == ',') text += ' ';
+    }
+    i = end - 1;
+  }
+  return text;
+}
+
+/// A value and where it is.
+class Value {
+ public:
+  Value(const std::string& file, const Json& json, std::string place)
+      : file_(file), json_(json), place_(std::move(place)) {}
+
+  [[noreturn]] void fail(std::string_view wanted) const {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: {}: it must be {}", file_, place_.empty() ? "the whole" : place_, wanted));
+  }
+  Value operator[](const char* key) const {
+    if (!json_.is_object()) fail("an object");
+    const auto found = json_.find(key);
+    if (found == json_.end()) fail(fmt::format("an object with a member '{}'", key));
+    return {file_, *found, place_.empty() ? key : fmt::format("{}.{}", place_, key)};
+  }
+  Value at(std::size_t index) const { return {file_, json_[index], fmt::format("{}[{}]", place_, index)}; }
+  bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
+  bool is_null() const { return json_.is_null(); }
+  std::size_t size() const {
+    if (!json_.is_array()) fail("a list");
+    return json_.size();
+  }
+  std::int64_t whole() const {
+    if (!json_.is_number_integer() || (json_.is_number_unsigned() && json_.get<std::uint64_t>() > INT64_MAX)) {
+      fail("a whole number");
+    }
+    return json_.get<std::int64_t>();
+  }
+  template <class Count>
+  Count count() const {
+    const std::int64_t number = whole();
+    if (number < 0 || static_cast<std::uint64_t>(number) > std::uint64_t{UINT32_MAX})
+      fail("a whole number of 0 or more");
+    return static_cast<Count>(number);
+  }
+  double number() const {
+    if (!json_.is_number()) fail("a number");
+    const auto number = json_.get<double>();
+    if (!std::isfinite(number)) fail("a finite number");
+    return number;
+  }
+  std::string text() const {
+    if (!json_.is_string()) fail("a text");
+    return json_.get<std::string>();
+  }
+  bool flag() const {
+    if (!json_.is_boolean()) fail("true or false");
+    return json_.get<bool>();
+  }
+  FrameRange frames() const {
+    if (size() != 2) fail("a list of two frames");
+    return {at(0).whole(), at(1).whole()};
+  }
+  TimeSpan span() const {
+    if (size() != 2) fail("a list of two moments, in milliseconds");
+    return {Milliseconds(at(0).whole()), Milliseconds(at(1).whole())};
+  }
+  template <class Kind, std::size_t Count>
+  Kind one_of(const std::array<Kind, Count>& kinds) const {
+    const std::string name = text();
+    std::string all;
+    for (const Kind kind : kinds) {
+      if (name == name_of(kind)) return kind;
+      all += (all.empty() ? "" : ", ") + std::string(name_of(kind));
+    }
+    fail("one of " + all);
+  }
+
+ private:
+  const std::string& file_;
+  const Json& json_;
+  std::string place_;
+};
+
+SourceRef source_from(const Value& value) {
+  SourceRef source{.recording = value["recording"].text()};
+  const Value print = value["fingerprint"];
+  const std::string digits = print.text();
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), source.fingerprint, 16);
+  if (error != std::errc() || end != digits.data() + digits.size()) print.fail("a hexadecimal number");
+  return source;
+}
+
+Sign sign_from(const Value& value) {
+  constexpr std::array kKinds = {PhaseKind::preparation, PhaseKind::stroke, PhaseKind::retraction, PhaseKind::hold,
+                                 PhaseKind::other};
+  constexpr std::array kHands = {Hand::both, Hand::right, Hand::left};
+  Sign sign{.gloss = value["gloss"].text(),
+            .span = value["ms"].span(),
+            .phases = {},
+            .hand = value["hand"].one_of(kHands),
+            .signer = value["signer"].text(),
+            .tier = value["tier"].text(),
+            .annotation = value["annotation"].text(),
+            .inferred = value["inferred"].flag()};
+  const Value phases = value["phases"];
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const Value phase = phases.at(i);
+    sign.phases.push_back(
+        {phase["kind"].one_of(kKinds), phase["ms"].span(), phase["label"].text(), phase["annotation"].text()});
+  }
+  return sign;
+}
+
+GroundTransform standing_from(const Value& value) {
+  GroundTransform standing;
+  const auto fill = [](const Value& from, auto& numbers) {
+    if (from.size() != static_cast<std::size_t>(numbers.size()))
+      from.fail(fmt::format("a list of {} numbers", numbers.size()));
+    for (Eigen::Index i = 0; i < numbers.size(); ++i)
+      numbers[i] = static_cast<float>(from.at(static_cast<std::size_t>(i)).number());
+  };
+  fill(value["turn"], standing.turn.coeffs());
+  fill(value["shift"], standing.shift);
+  return standing;
+}
+
+Clip clip_from(const Value& value) {
+  Clip clip{.id = value["id"].count<ClipId>(),
+            .place = value["place"].count<std::size_t>(),
+            .source = source_from(value["source"]),
+            .whole = value["whole"].frames(),
+            .core = value["core"].frames(),
+            .step = value["step"].number(),
+            .at = value["at"].whole(),
+            .standing = {},
+            .clock = {Seconds(value["clock"]["frame_time"].number()), Seconds(value["clock"]["origin"].number())},
+            .signs = {}};
+  if (!value["standing"].is_null()) clip.standing = standing_from(value["standing"]);
+  const Value signs = value["signs"];
+  for (std::size_t i = 0; i < signs.size(); ++i) clip.signs.push_back(sign_from(signs.at(i)));
+  return clip;
+}
+
+Item item_from(const Value& value) {
+  Item item{.what = {}, .at = value["at"].frames()};
+  if (value.has("clip")) {
+    item.what = ClipUse{value["clip"].count<ClipId>()};
+    return item;
+  }
+  const Value made = value["transition"];
+  item.what = Transition{.from = made["from"].count<ClipId>(),
+                         .to = made["to"].count<ClipId>(),
+                         .cut = {.length = made["length"].whole(),
+                                 .retraction_frames = made["retraction"].whole(),
+                                 .preparation_frames = made["preparation"].whole(),
+                                 .blend_frames = made["blend"].whole(),
+                                 .pause_frames = made["pause"].whole(),
+                                 .waits = made["waits"].flag()}};
+  return item;
+}
+
+}  // namespace
+
+std::string json_of(const Score& score) {
+  Json clips = Json::array();
+  for (const Clip& clip : score.clips) clips.push_back(json_of(clip));
+  Json junctions = Json::array();
+  for (const JunctionRef& junction : score.junctions) {
+    junctions.push_back({{"number", junction.number}, {"method", junction.method}, {"chosen", junction.chosen}});
+  }
+  Json lanes = Json::array();
+  for (const Lane& lane : score.lanes) {
+    Json items = Json::array();
+    for (const Item& item : lane.items) items.push_back(json_of(item));
+    lanes.push_back({{"channel", name_of(lane.channel)}, {"items", std::move(items)}});
+  }
+  const Json all{{"signweave_score", kScoreVersion},
+                 {"skeleton", json_of(score.skeleton)},
+                 {"rate", {score.rate.numerator, score.rate.denominator}},
+                 {"frames", score.frames},
+                 {"clips", std::move(clips)},
+                 {"junctions", std::move(junctions)},
+                 {"lanes", std::move(lanes)}};
+  return with_short_lists(all.dump(1, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
+
+Score score_from_json(std::string_view text, const std::string& file) {
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const auto byte = std::min(error.byte, text.size());
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}:{}: this is no JSON; --score of 'sign' writes a score", file,
+                            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n')));
+  }
+  const Value all(file, json, "");
+  if (!all.has("signweave_score")) all.fail("a score, with its version as 'signweave_score'");
+  const std::int64_t version = all["signweave_score"].whole();
+  if (version < 1) all["signweave_score"].fail("a version, from 1");
+  if (version > kScoreVersion) {
+    throw Error(ErrorCode::unsupported,
+                fmt::format("{}: a score of version {}; this program reads up to {}", file, version, kScoreVersion));
+  }
+  Score score{.skeleton = source_from(all["skeleton"]),
+              .rate = {},
+              .frames = all["frames"].whole(),
+              .clips = {},
+              .junctions = {},
+              .lanes = {}};
+  if (all["rate"].size() != 2) all["rate"].fail("a list of two numbers, frames and seconds");
+  score.rate = {all["rate"].at(0).whole(), all["rate"].at(1).whole()};
+  const Value clips = all["clips"];
+  for (std::size_t i = 0; i < clips.size(); ++i) score.clips.push_back(clip_from(clips.at(i)));
+  const Value junctions = all["junctions"];
+  for (std::size_t i = 0; i < junctions.size(); ++i) {
+    score.junctions.push_back({junctions.at(i)["number"].count<std::size_t>(), junctions.at(i)["method"].text(),
+                               junctions.at(i)["chosen"].text()});
+  }
+  const Value lanes = all["lanes"];
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    Lane lane{.channel = lanes.at(i)["channel"].one_of(kChannels), .items = {}};
+    const Value items = lanes.at(i)["items"];
+    for (std::size_t k = 0; k < items.size(); ++k) lane.items.push_back(item_from(items.at(k)));
+    score.lanes.push_back(std::move(lane));
+  }
+  check(score, file);
+  return score;
+}
+
+}  // namespace signweave

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "signweave/score/score.h"
+
+namespace signweave {
+
+/// The version of the JSON form that is written. Older ones are read.
+inline constexpr int kScoreVersion = 1;
+
+/// A score as JSON, indented, with a line feed at its end. It reads back equal.
+std::string json_of(const Score& score);
+/// The score that JSON stands for, checked (see check). Throws Error{bad_input, "FILE: WHERE: what"},
+/// Error{unsupported} for a version that is newer.
+Score score_from_json(std::string_view text, const std::string& file);
+
+}  // namespace signweave

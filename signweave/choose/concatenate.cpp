@@ -43,29 +43,32 @@ void check_length(const std::vector<Stretch>& stretches, std::int64_t frames, Fr
                           most, to_string(rate), slowest->recording, to_string(slowest->source->rate())));
 }
 
-/// Where the reference's signer stands, for a stretch of that number.
-Standing home_of(const Plan& plan, const JunctionSettings& settings, std::size_t reference, std::size_t asking,
-                 Motion& memory) {
-  const Laid& laid = plan.laid[reference];
-  if (reference <= asking) return standing_of(laid, settings, memory);
-  // Of a stretch that comes later, from its frames as they were captured.
-  const Stretch& stretch = *laid.stretch;
-  memory.reset(stretch.source->skeleton(), stretch.source->rate(), stretch.core.size());
-  stretch.source->read(stretch.core, memory.poses({0, memory.frame_count()}));
-  return standing_over(memory, {0, memory.frame_count()});
+FrameRange standing_frames(const Laid& laid) {
+  return {laid.core, std::min(laid.core_end(), laid.core + kStandingFrames)};
 }
 
-void stand(Plan& plan, const JunctionSettings& settings, const ConcatenateOptions& options) {
+/// Where the reference's signer stands, for a stretch of that number.
+Standing home_of(const Plan& plan, const Motion& fetched, std::size_t reference, std::size_t asking) {
+  const Laid& laid = plan.laid[reference];
+  if (reference <= asking) return standing_over(fetched, standing_frames(laid));
+  // Of a stretch that comes later, from its frames as they were captured.
+  const Stretch& stretch = *laid.stretch;
+  Motion core;
+  core.reset(stretch.source->skeleton(), stretch.source->rate(), stretch.core.size());
+  stretch.source->read(stretch.core, core.poses({0, core.frame_count()}));
+  return standing_over(core, {0, core.frame_count()});
+}
+
+void stand(Plan& plan, const Motion& fetched, const ConcatenateOptions& options) {
   const std::string& home_recording = plan.laid[options.reference].stretch->recording;
   std::optional<Standing> home;
-  Motion memory;
   plan.standing.resize(plan.laid.size());
   for (std::size_t i = 0; i < plan.laid.size(); ++i) {
     const bool aligned = options.alignment == Alignment::ground || (options.alignment == Alignment::automatic &&
                                                                     plan.laid[i].stretch->recording != home_recording);
     if (!aligned) continue;
-    if (!home) home = home_of(plan, settings, options.reference, i, memory);
-    plan.standing[i] = align(standing_of(plan.laid[i], settings, memory), *home);
+    if (!home) home = home_of(plan, fetched, options.reference, i);
+    plan.standing[i] = align(standing_over(fetched, standing_frames(plan.laid[i])), *home);
   }
 }
 
@@ -89,7 +92,6 @@ Plan plan_for(const std::vector<Stretch>& stretches, const JunctionSettings& set
   }
   plan.frames = plan.laid.back().end();
   check_length(stretches, plan.frames, settings.rate, most);
-  stand(plan, settings, options);
   return plan;
 }
 
@@ -117,12 +119,14 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
   const SignerRig& rig = told ? *told : *options.rig;
   const JunctionSettings settings{
       .skeleton = reference.source->skeleton(), .rate = rate, .method = &method, .rig = &rig, .model = options.model};
-  const Plan plan = plan_for(stretches, settings, options);
+  Plan plan = plan_for(stretches, settings, options);
 
   Synthesis out;
   out.motion = std::move(used.motion);
   out.sources = std::move(used.sources);
-  render(score_of(plan, settings, reference), stretches, settings, out);
+  std::vector<ScalarTrack> fetched = fetch(plan, settings, out.motion);
+  stand(plan, out.motion, options);
+  render(score_of(plan, settings, reference), stretches, settings, out, std::move(fetched));
   return out;
 }
 

@@ -18,7 +18,14 @@ const std::string& name_at_begin(const Stretch& stretch) {
   return stretch.signs.empty() ? stretch.recording : stretch.signs.front().gloss;
 }
 
-/// Fills the output with the frames of the stretches, one after the other, and with what lies between them.
+/// Output frames of a stretch that the one before has not.
+FrameRange own_frames(const Plan& plan, std::size_t i) {
+  const Laid& now = plan.laid[i];
+  return {now.begin() + (i == 0 ? 0 : JunctionFiller::shared(plan.laid[i - 1], now)), now.end()};
+}
+
+/// Brings the fetched frames of the stretches to where they stand, one after the other, and fills what lies between
+/// them.
 class Filler {
  public:
   Filler(const Plan& plan, const JunctionSettings& settings, Synthesis& out)
@@ -27,11 +34,10 @@ class Filler {
   /// Stretch i, and the transition before it.
   void fill(std::size_t i) {
     const Laid& now = plan_.laid[i];
-    const std::int64_t shared = i == 0 ? 0 : JunctionFiller::shared(plan_.laid[i - 1], now);
-    const FrameRange own{now.begin() + shared, now.end()};
+    const FrameRange own = own_frames(plan_, i);
+    const std::int64_t shared = own.begin - now.begin();
     scratch_.shared.reset(out_.motion.shared_skeleton(), out_.motion.rate(), shared);
     read_frames(now, {now.begin(), own.begin}, scratch_.shared.poses({0, shared}));
-    read_frames(now, own, out_.motion.poses(own));
     align(i, own);
     if (i > 0) junctions_.fill(plan_.laid[i - 1], now, plan_.cuts[i - 1].parts, {out_.motion}, scratch_);
     tell_sources(i);
@@ -81,9 +87,8 @@ class Filler {
   JunctionScratch scratch_;
 };
 
-void render_plan(const Plan& plan, const JunctionSettings& settings, Synthesis& out) {
-  std::vector<ScalarTrack> used_tracks = out.motion.take_tracks();
-  out.motion.reset(settings.skeleton, settings.rate, plan.frames);
+void render_plan(const Plan& plan, const JunctionSettings& settings, std::vector<ScalarTrack> used_tracks,
+                 Synthesis& out) {
   out.sources.resize(static_cast<std::size_t>(plan.frames));
   Filler filler(plan, settings, out);
   for (std::size_t i = 0; i < plan.laid.size(); ++i) filler.fill(i);
@@ -120,10 +125,21 @@ void render_plan(const Plan& plan, const JunctionSettings& settings, Synthesis& 
 
 }  // namespace
 
-void render(const Score& score, const std::vector<Stretch>& stretches, const JunctionSettings& settings,
-            Synthesis& out) {
+std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& settings, Motion& out) {
+  std::vector<ScalarTrack> used_tracks = out.take_tracks();
+  out.reset(settings.skeleton, settings.rate, plan.frames);
+  for (std::size_t i = 0; i < plan.laid.size(); ++i) {
+    const FrameRange own = own_frames(plan, i);
+    read_frames(plan.laid[i], own, out.poses(own));
+  }
+  return used_tracks;
+}
+
+void render(Score score, const std::vector<Stretch>& stretches, const JunctionSettings& settings, Synthesis& out,
+            std::optional<std::vector<ScalarTrack>> fetched) {
   const Plan plan = plan_of(score, stretches);
-  render_plan(plan, settings, out);
+  if (!fetched) fetched = fetch(plan, settings, out.motion);
+  render_plan(plan, settings, std::move(*fetched), out);
   for (std::size_t i = 0; i < out.junctions.size(); ++i) {
     const JunctionRef& junction = score.junctions[i];
     out.junctions[i].number = junction.number;
@@ -131,7 +147,7 @@ void render(const Score& score, const std::vector<Stretch>& stretches, const Jun
         junction.chosen.empty() ? JunctionChoice() : parse_junction("1=" + junction.chosen).choice;
   }
   place_signs(stretches, out);
-  out.score = score;
+  out.score = std::move(score);
 }
 
 }  // namespace signweave

@@ -5,10 +5,14 @@
 
 namespace signweave {
 
+/// Puts the captured frames of a plan's stretches where they lie, as they were captured, into `out`, which becomes as
+/// long as the plan says. Returns the tracks that it had, for their memory. Throws Error{corrupt}.
+std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& settings, Motion& out);
+
 /// Makes what a score says, of the stretches that stretches_of or whoever made the score has: all of `out` but its
 /// notices and declarations. Decides nothing. The memory of what `out` was is used again. Throws Error{bad_input} as
 /// plan_of, Error{corrupt}.
-void render(const Score& score, const std::vector<Stretch>& stretches, const JunctionSettings& settings,
-            Synthesis& out);
+void render(Score score, const std::vector<Stretch>& stretches, const JunctionSettings& settings, Synthesis& out,
+            std::optional<std::vector<ScalarTrack>> fetched = std::nullopt);
 
 }  // namespace signweave

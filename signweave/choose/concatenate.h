@@ -24,9 +24,6 @@ enum class Alignment {
 /// Measured over at most kBodyFrames of a stretch's core.
 SignerRig signer_rig_of(const Stretch& stretch);
 
-/// A day of signing at a hundred frames a second. Frame rates come from files: a wrong one must not ask for a terabyte.
-inline constexpr std::int64_t kMostFrames = std::int64_t{24} * 60 * 60 * 100;
-
 struct ConcatenateOptions {
   const TransitionMethod* method = nullptr;  ///< null: the default
   Milliseconds duration{0};                  ///< of each transition at tempo 1, without pauses

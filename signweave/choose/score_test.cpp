@@ -125,6 +125,7 @@ TEST(ScoreOfStretches, FaultsSayWhereAndWhat) {
               HasSubstr("lane 'body' stands where 'left' belongs"));
   EXPECT_THAT(fault_of("\"retraction\": ", "\"retraction\": 9"), HasSubstr("lane 'body': transition 0"));
   EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 1"), HasSubstr("lane 'body' ends at frame"));
+  EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 99999999"), HasSubstr("a score has 1 to 8640000"));
   EXPECT_THAT(fault_of("\"at\": 20", "\"at\": 9000000000000000000"), HasSubstr("my.json: clip 0 begins at frame"));
 }
 
@@ -135,6 +136,14 @@ TEST(ScoreOfStretches, ClipsThatTheirMotionDoesNotHaveAreRefused) {
   EXPECT_THROW(rendered(score, stretches), Error);
   score = concatenate(stretches, {.duration = 480ms}).score;
   score.clips[0].whole.begin = score.clips[0].core.begin;  // its preparation is shown, and not there
+  EXPECT_THROW(rendered(score, stretches), Error);
+  score = concatenate(stretches, {.duration = 480ms}).score;
+  score.clips[1].step = 2;  // its core is shorter then
+  EXPECT_THROW(rendered(score, stretches), Error);
+  score = concatenate(stretches, {.duration = 480ms}).score;
+  for (Item& item : score.lanes.back().items) {  // tracks go on longer than they were captured
+    if (Transition* const made = std::get_if<Transition>(&item.what)) made->cut.retraction_frames = 41;
+  }
   EXPECT_THROW(rendered(score, stretches), Error);
 }
 

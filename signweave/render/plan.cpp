@@ -46,6 +46,17 @@ Lane lane_of(const Plan& plan, Channel channel, const auto& cut_of_junction) {
   return lane;
 }
 
+std::vector<Lane> lanes_of(const Plan& plan) {
+  std::vector<Lane> lanes;
+  for (const Channel channel : kChannels) {
+    lanes.push_back(lane_of(plan, channel, [&](std::size_t junction) -> const TransitionCut& {
+      const JunctionCuts& cuts = plan.cuts[junction];
+      return channel == Channel::tracks ? cuts.tracks : cuts.parts[static_cast<std::size_t>(channel)];
+    }));
+  }
+  return lanes;
+}
+
 }  // namespace
 
 std::vector<Stretch> stretches_of(const Score& score, const FindSource& find) {
@@ -96,15 +107,24 @@ Plan plan_of(const Score& score, const std::vector<Stretch>& stretches) {
   plan.laid.back().after = score.frames - plan.laid.back().core_end();
   for (std::size_t i = 0; i < plan.laid.size(); ++i) {
     const Laid& laid = plan.laid[i];
-    const bool meets =
-        i + 1 == plan.laid.size() || laid.core_end() + plan.cuts[i].tracks.length == plan.laid[i + 1].core;
-    if (laid.before > laid.preparation || laid.after < 0 || laid.after > laid.retraction || !meets) {
-      throw Error(
-          ErrorCode::bad_input,
-          fmt::format("clip {} has {} frames before its core of {} and {} after it; the score shows {} and {}{}", i,
-                      laid.preparation, laid.core_frames, laid.retraction, laid.before, laid.after,
-                      meets ? "" : ", and its junction is not as long as the lanes say"));
-    }
+    const auto require = [&](bool holds, std::string_view what, std::int64_t shown, std::int64_t captured) {
+      if (holds) return;
+      throw Error(ErrorCode::bad_input, fmt::format("the score shows {} frames {} clip {}, where {} were captured",
+                                                    shown, what, i, captured));
+    };
+    const std::int64_t tracks_before = i > 0 ? plan.cuts[i - 1].tracks.preparation_frames : 0;
+    const std::int64_t tracks_after = i < plan.cuts.size() ? plan.cuts[i].tracks.retraction_frames : 0;
+    const std::int64_t before = std::max(laid.before, tracks_before);
+    const std::int64_t after = std::max(laid.after, tracks_after);
+    require(before <= laid.preparation, "before the core of", before, laid.preparation);
+    require(laid.after >= 0 && after <= laid.retraction, "after the core of", after, laid.retraction);
+  }
+  const std::vector<Lane> lanes = lanes_of(plan);
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    if (lanes[i] == score.lanes[i]) continue;
+    throw Error(ErrorCode::bad_input,
+                fmt::format("lane '{}' does not lie where its cuts and the cores of its clips put it",
+                            name_of(lanes[i].channel)));
   }
   return plan;
 }
@@ -135,12 +155,7 @@ Score score_of(const Plan& plan, const JunctionSettings& settings, const Stretch
                                  .chosen = to_string(stretch.junction)});
     }
   }
-  for (const Channel channel : kChannels) {
-    score.lanes.push_back(lane_of(plan, channel, [&](std::size_t junction) -> const TransitionCut& {
-      const JunctionCuts& cuts = plan.cuts[junction];
-      return channel == Channel::tracks ? cuts.tracks : cuts.parts[static_cast<std::size_t>(channel)];
-    }));
-  }
+  score.lanes = lanes_of(plan);
   return score;
 }
 

@@ -35,7 +35,7 @@ using FindSource = std::function<ScoreSource(const SourceRef&)>;
 std::vector<Stretch> stretches_of(const Score& score, const FindSource& find);
 
 /// What a score says of stretches that stretches_of or whoever made the score has. `stretches` must outlive it. Throws
-/// Error{bad_input} where a lane shows frames that were not captured.
+/// Error{bad_input} where more frames are shown than were captured, or lanes do not lie where their cuts put them.
 Plan plan_of(const Score& score, const std::vector<Stretch>& stretches);
 
 /// The score of a plan: it gives the plan back. Its clips name no place and its junctions are numbered in order.

@@ -108,7 +108,8 @@ void check(const Score& score, const std::string& where) {
   checker.require(!score.skeleton.recording.empty(), "'skeleton' names no recording");
   checker.require(score.rate.numerator > 0 && score.rate.denominator > 0, "{}/{} frames a second", score.rate.numerator,
                   score.rate.denominator);
-  checker.require(Checker::in_range(score.frames), "{} frames", score.frames);
+  checker.require(score.frames > 0 && score.frames <= kMostFrames, "{} frames; a score has 1 to {}", score.frames,
+                  kMostFrames);
   for (std::size_t i = 0; i < score.clips.size(); ++i) checker.clip(score.clips[i], i);
   checker.require(score.junctions.size() + 1 == score.clips.size(), "{} junctions between {} clips",
                   score.junctions.size(), score.clips.size());

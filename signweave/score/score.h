@@ -99,6 +99,9 @@ struct Score {
   friend bool operator==(const Score&, const Score&) = default;
 };
 
+/// A day of signing at a hundred frames a second. Frame rates come from files: a wrong one must not ask for a terabyte.
+inline constexpr std::int64_t kMostFrames = std::int64_t{24} * 60 * 60 * 100;
+
 /// Throws Error{bad_input, "WHERE: what is wrong, what would mend it"} where a score cannot be rendered, whatever the
 /// recordings: numbers out of range, lanes with holes, clips that are not in order.
 void check(const Score& score, const std::string& where);

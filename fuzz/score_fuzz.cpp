@@ -1,0 +1,45 @@
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "signweave/choose/concatenate.h"
+#include "signweave/core/error.h"
+#include "signweave/render/render.h"
+#include "signweave/score/score_json.h"
+#include "signweave/score/test_motion.h"
+
+using namespace signweave;
+
+/// Any bytes are either refused with an Error or a score, which reads back equal; what its clips name is rendered, or
+/// refused, of a motion of 5,400 frames.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const ScoreSource source{
+      .motion = std::make_shared<const MemorySource>(testing_motion::moving(5'400, {100, 1}, 0.3f)), .noise = nullptr};
+  Score score;
+  try {
+    score = score_from_json({reinterpret_cast<const char*>(data), size}, "fuzz");
+  } catch (const Error&) {
+    return 0;
+  }
+  const std::string json = json_of(score);
+  if (json_of(score_from_json(json, "written")) != json) std::abort();
+  if (to_string(score).empty()) std::abort();
+  if (score.frames > 20'000) return 0;
+  try {
+    const std::vector<Stretch> stretches = stretches_of(score, [](const SourceRef&) { return source; });
+    const SignerRig rig = signer_rig_of(stretches.front());
+    Synthesis out;
+    render(score, stretches,
+           {.skeleton = source.motion->skeleton(),
+            .rate = score.rate,
+            .method = &transition_methods().front(),
+            .rig = &rig},
+           out);
+    if (out.motion.frame_count() != score.frames) std::abort();
+  } catch (const Error&) {
+  }
+  return 0;
+}

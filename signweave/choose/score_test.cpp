@@ -117,6 +117,7 @@ TEST(ScoreOfStretches, FaultsSayWhereAndWhat) {
   EXPECT_THAT(fault_of("\"id\": 1", "\"id\": 2"), HasSubstr("clip 1 has the id 2"));
   EXPECT_THAT(fault_of("\"id\": 1", "\"id\": -1"), HasSubstr("clips[1].id: it must be a whole number of 0 or more"));
   EXPECT_THAT(fault_of("\"step\": 1.0", "\"step\": 1e-300"), HasSubstr("a step is a number from"));
+  EXPECT_THAT(fault_of("\"step\": 1.0", "\"step\": 1e999"), HasSubstr("my.json: a number that is too large"));
   EXPECT_THAT(fault_of("\"step\": 1.0", "\"step\": null"), HasSubstr("clips[0].step: it must be a number"));
   EXPECT_THAT(fault_of("\"fingerprint\": \"fedcba9876543210\"", "\"fingerprint\": \"x\""), HasSubstr("hexadecimal"));
   EXPECT_THAT(fault_of("\"hand\": \"both\"", "\"hand\": \"left-ish\""), HasSubstr("one of both, right, left"));

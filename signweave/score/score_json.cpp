@@ -280,10 +280,12 @@ Score score_from_json(std::string_view text, const std::string& file) {
   try {
     json = Json::parse(text);
   } catch (const Json::parse_error& error) {
-    const auto byte = std::min(error.byte, text.size());
+    const std::size_t byte = std::min<std::size_t>(error.byte, text.size());
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
     throw Error(ErrorCode::bad_input,
-                fmt::format("{}:{}: this is no JSON; --score of 'sign' writes a score", file,
-                            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n')));
+                fmt::format("{}:{}: this is no JSON; --score of 'sign' writes a score", file, line));
+  } catch (const Json::exception&) {
+    throw Error(ErrorCode::bad_input, fmt::format("{}: a number that is too large for any member of a score", file));
   }
   const Value all(file, json, "");
   if (!all.has("signweave_score")) all.fail("a score, with its version as 'signweave_score'");

@@ -12,8 +12,12 @@
 namespace signweave::cli {
 namespace {
 
-/// Bytes; a day of signing takes some 50 MB.
+/// Bytes; a sign takes about two thousand.
 constexpr std::size_t kLargestScore = std::size_t{256} << 20;
+
+/// What a score has decided already. (Named to CLI11, its help would list them all.)
+constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "--align",
+                                    "--junction",   "--rate",     "--missing", "--explain"};
 
 }  // namespace
 
@@ -34,11 +38,14 @@ Run sign(CLI::App& verb) {
                   "render a score that --score wrote, instead of an utterance: nothing is chosen anew")
       ->excludes(utterance);
   add_reports(verb, options->delivery);
-  return [options, utterance](Io& io) {
+  return [options, utterance, &verb](Io& io) {
     if (options->from.empty() && utterance->empty()) throw CLI::RequiredError("UTTERANCE or --from");
+    for (const char* decided : kDecided) {
+      if (!options->from.empty() && verb.count(decided) > 0) throw CLI::ExcludesError("--from", decided);
+    }
     std::optional<Score> score;
     if (!options->from.empty()) score = score_from_json(read_file(options->from, kLargestScore), options->from);
-    // What is wrong with the words is told before anything is opened.
+    // What is wrong with the words is reported before anything is opened.
     const std::string title = score ? options->from : title_of(options->call);
     const Database database(options->folder, kv::Access::read_only);
     report_damage(database, io);

@@ -114,9 +114,9 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
   check_skeletons(stretches, reference);
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
   const FrameRate rate = options.rate.numerator > 0 ? options.rate : highest_rate(stretches);
-  std::optional<SignerRig> told;
-  if (options.rig == nullptr) told = signer_rig_of(reference);
-  const SignerRig& rig = told ? *told : *options.rig;
+  std::optional<SignerRig> measured;
+  if (options.rig == nullptr) measured = signer_rig_of(reference);
+  const SignerRig& rig = measured ? *measured : *options.rig;
   const JunctionSettings settings{
       .skeleton = reference.source->skeleton(), .rate = rate, .method = &method, .rig = &rig, .model = options.model};
   Plan plan = plan_for(stretches, settings, options);

@@ -31,7 +31,7 @@ struct ConcatenateOptions {
   const DurationFit* fit = nullptr;
   /// What the method has learned, and the captured spans that it may need; null: the default. Borrowed.
   const TransitionModel* model = nullptr;
-  const SignerRig* rig = nullptr;  ///< of the reference; null: told from its frames and names. Borrowed
+  const SignerRig* rig = nullptr;  ///< of the reference; null: measured from its frames and names. Borrowed
   double tempo = 1;                ///< above 1 is faster; positive
   FrameRate rate{0, 1};            ///< of the output; 0: the highest of the sources
   Alignment alignment = Alignment::automatic;

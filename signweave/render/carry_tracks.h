@@ -5,7 +5,6 @@
 
 #include "signweave/render/laid.h"
 
-/// Inside this module only.
 namespace signweave {
 
 /// Adds to `motion`, which has its frames already, every scalar track that one of the stretches has. The memory of

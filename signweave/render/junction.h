@@ -12,9 +12,6 @@
 /// `Weaver` one after another while an utterance grows. So both make the same of the same stretches.
 namespace signweave {
 
-/// Where a signer stands in a stretch is told from no more of its frames.
-inline constexpr std::int64_t kStandingFrames = 16'384;
-
 /// What all junctions of a result have in common. Everything is borrowed.
 struct JunctionSettings {
   std::shared_ptr<const Skeleton> skeleton;

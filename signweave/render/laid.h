@@ -5,7 +5,6 @@
 #include "signweave/motion/blend.h"
 #include "signweave/score/stretch.h"
 
-/// Inside this module only.
 namespace signweave {
 
 /// A stretch on the output's time grid: its output frame k shows the recording's frame core.begin + k · step. Negative

@@ -34,7 +34,7 @@ using FindSource = std::function<ScoreSource(const SourceRef&)>;
 /// frames that its motion does not have.
 std::vector<Stretch> stretches_of(const Score& score, const FindSource& find);
 
-/// What a score says of stretches that stretches_of or whoever made the score has. `stretches` must outlive it. Throws
+/// What a score says of its stretches, which stretches_of or the score's maker has. `stretches` must outlive it. Throws
 /// Error{bad_input} where more frames are shown than were captured, or lanes do not lie where their cuts put them.
 Plan plan_of(const Score& score, const std::vector<Stretch>& stretches);
 

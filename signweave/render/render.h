@@ -9,7 +9,7 @@ namespace signweave {
 /// long as the plan says. Returns the tracks that it had, for their memory. Throws Error{corrupt}.
 std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& settings, Motion& out);
 
-/// Makes what a score says, of the stretches that stretches_of or whoever made the score has: all of `out` but its
+/// Makes what a score says of its stretches, which stretches_of or the score's maker has: all of `out` but its
 /// notices and declarations. Decides nothing. The memory of what `out` was is used again. Throws Error{bad_input} as
 /// plan_of, Error{corrupt}.
 void render(Score score, const std::vector<Stretch>& stretches, const JunctionSettings& settings, Synthesis& out,

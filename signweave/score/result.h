@@ -33,7 +33,7 @@ struct Junction {
   TransitionCuts cuts;  ///< [Timed] what is kept of each
   std::string method;
   std::size_t number = 0;   ///< by which it is named: 1 is that of the first two stretches, or of their places
-  JunctionChoice chosen{};  ///< what was told for it alone
+  JunctionChoice chosen{};  ///< what was asked for it alone
 };
 
 /// Where a stretch lies in the result.

@@ -62,13 +62,12 @@ Standing home_of(const Plan& plan, const Motion& fetched, std::size_t reference,
 void stand(Plan& plan, const Motion& fetched, const ConcatenateOptions& options) {
   const std::string& home_recording = plan.laid[options.reference].stretch->recording;
   std::optional<Standing> home;
-  plan.standing.resize(plan.laid.size());
   for (std::size_t i = 0; i < plan.laid.size(); ++i) {
     const bool aligned = options.alignment == Alignment::ground || (options.alignment == Alignment::automatic &&
                                                                     plan.laid[i].stretch->recording != home_recording);
     if (!aligned) continue;
     if (!home) home = home_of(plan, fetched, options.reference, i);
-    plan.standing[i] = align(standing_over(fetched, standing_frames(plan.laid[i])), *home);
+    plan.laid[i].standing = align(standing_over(fetched, standing_frames(plan.laid[i])), *home);
   }
 }
 
@@ -126,7 +125,8 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
   out.sources = std::move(used.sources);
   std::vector<ScalarTrack> fetched = fetch(plan, settings, out.motion);
   stand(plan, out.motion, options);
-  render(score_of(plan, settings, reference), stretches, settings, out, std::move(fetched));
+  Score score = score_of(plan, settings, reference);
+  render(std::move(score), std::move(plan), stretches, settings, std::move(fetched), out);
   return out;
 }
 

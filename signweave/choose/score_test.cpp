@@ -27,14 +27,19 @@ std::vector<Stretch> stretches_to_join() {
   return stretches;
 }
 
-/// What is rendered from a score alone, of the motions of some stretches.
-Synthesis rendered(const Score& score, const std::vector<Stretch>& from) {
-  const std::vector<Stretch> stretches = stretches_of(score, [&](const SourceRef& source) {
+/// The stretches of a score, with the motions of some others.
+std::vector<Stretch> stretches_from(const Score& score, const std::vector<Stretch>& from) {
+  return stretches_of(score, [&](const SourceRef& source) {
     for (const Stretch& one : from) {
       if (one.recording == source.recording) return ScoreSource{one.source, one.noise};
     }
     throw Error(ErrorCode::not_found, source.recording);
   });
+}
+
+/// What is rendered from a score alone, of the motions of some stretches.
+Synthesis rendered(const Score& score, const std::vector<Stretch>& from) {
+  const std::vector<Stretch> stretches = stretches_from(score, from);
   const SignerRig rig = signer_rig_of(from.front());
   Synthesis out;
   render(score, stretches,
@@ -46,7 +51,7 @@ Synthesis rendered(const Score& score, const std::vector<Stretch>& from) {
   return out;
 }
 
-RC_GTEST_PROP(ScoreOfStretches, ReadsBackEqualAndGivesTheSameFrames, ()) {
+std::vector<Stretch> drawn_stretches() {
   std::vector<Stretch> stretches;
   const int count = *rc::gen::inRange(1, 6);
   for (int i = 0; i < count; ++i) {
@@ -62,12 +67,21 @@ RC_GTEST_PROP(ScoreOfStretches, ReadsBackEqualAndGivesTheSameFrames, ()) {
       stretches.back().junction = {&methods[*rc::gen::inRange<std::size_t>(0, methods.size())], 250ms, 1.5};
     }
   }
+  return stretches;
+}
+
+Synthesis joined(const std::vector<Stretch>& stretches) {
   const auto methods = transition_methods();
-  const Synthesis made = concatenate(
+  return concatenate(
       stretches, {.method = &methods[*rc::gen::inRange<std::size_t>(0, methods.size())],
                   .duration = Milliseconds(*rc::gen::inRange(0, 900)),
                   .tempo = *rc::gen::element(1.0, 1.0, 0.8, 1.7),
                   .alignment = *rc::gen::element(Alignment::automatic, Alignment::ground, Alignment::none)});
+}
+
+RC_GTEST_PROP(ScoreOfStretches, ReadsBackEqualAndGivesTheSameFrames, ()) {
+  const std::vector<Stretch> stretches = drawn_stretches();
+  const Synthesis made = joined(stretches);
   const std::string json = json_of(made.score);
   const Score read = score_from_json(json, "score.json");
   RC_ASSERT(read == made.score);
@@ -82,6 +96,50 @@ RC_GTEST_PROP(ScoreOfStretches, ReadsBackEqualAndGivesTheSameFrames, ()) {
   }
   RC_ASSERT(again.signs.size() == made.signs.size());
   for (std::size_t i = 0; i < made.signs.size(); ++i) RC_ASSERT(again.signs[i].sign == made.signs[i].sign);
+}
+
+/// Some frames of a motion.
+Motion part_of(const Motion& motion, FrameRange frames) {
+  const MemorySource source(motion);
+  Motion part(motion.shared_skeleton(), motion.rate(), frames.size());
+  source.read(frames, part.poses({0, frames.size()}));
+  for (const ScalarTrack& track : motion.tracks()) {
+    part.add_track({track.name, {track.values.begin() + frames.begin, track.values.begin() + frames.end}});
+  }
+  return part;
+}
+
+RC_GTEST_PROP(ScoreOfStretches, AnyFramesInAnyOrderHaveTheBitsOfTheWhole, ()) {
+  std::vector<Stretch> stretches = drawn_stretches();
+  for (std::size_t i = 0; i < stretches.size(); i += 2) {  // some with a track that others lack, some turned
+    Motion motion = testing_motion::motion_of(stretches[i]);
+    std::vector<float> values;
+    for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+      values.push_back(std::sin(0.1f * static_cast<float>(frame)));
+    }
+    motion.add_track({i % 4 == 0 ? "smile" : "brow", values});
+    const auto joint = *rc::gen::inRange<std::size_t>(0, 4);
+    for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+      motion.pose(frame).rotations[joint].coeffs() *= -1.0f;
+    }
+    stretches[i].source = std::make_shared<MemorySource>(std::move(motion));
+  }
+  const Synthesis whole = joined(stretches);
+  const std::vector<Stretch> of_score = stretches_from(whole.score, stretches);
+  const SignerRig rig = signer_rig_of(stretches.front());
+  Renderer renderer(plan_of(whole.score, of_score), {.skeleton = stretches.front().source->skeleton(),
+                                                     .rate = whole.score.rate,
+                                                     .method = &transition_methods().front(),
+                                                     .rig = &rig});
+  Motion made;
+  for (int i = 0; i < 12; ++i) {
+    const auto begin = *rc::gen::inRange<std::int64_t>(0, whole.motion.frame_count() + 1);
+    const auto most = std::min<std::int64_t>(whole.motion.frame_count() - begin, i % 2 == 0 ? 5 : 400);
+    const FrameRange frames{begin, begin + *rc::gen::inRange<std::int64_t>(0, most + 1)};
+    renderer.render(frames, made);
+    RC_ASSERT(same_bits(made, part_of(whole.motion, frames)));
+  }
+  RC_ASSERT_THROWS_AS(renderer.render({0, whole.motion.frame_count() + 1}, made), Error);
 }
 
 TEST(ScoreOfStretches, IsReadByPeople) {

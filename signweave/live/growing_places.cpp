@@ -260,13 +260,13 @@ void GrowingUtterance::go_on_as_captured(std::size_t place) {
   go_on_with(*last_signs_, candidate);
   Woven& woven = *tail_;
   const Laid before = woven.laid;
-  const std::optional<GroundTransform> transform = woven.transform;
+  const std::optional<GroundTransform> transform = woven.laid.standing;
   woven.stretch.core.end = candidate.core.end;
   woven.stretch.whole.end = candidate.whole.end;
   weaver_->lay_sign(woven);
   woven.laid.core = before.core;
   woven.laid.before = before.before;
-  woven.transform = transform;
+  woven.laid.standing = transform;
   woven.key.clear();  // it stands where its beginning alone was brought
   append({end_, woven.laid.core_end()}, tail_);
   entries_.back().last = place;

@@ -139,14 +139,14 @@ std::shared_ptr<const Motion> GrowingUtterance::join(Woven& a, Woven& b) {
       a.laid.after = 0;
       b.laid.before = 0;
       lay_after(a.laid, b.laid, made->cuts);
-      b.transform = made->transform;
+      b.laid.standing = made->transform;
       return made->frames;
     }
   }
   auto frames = std::make_shared<Motion>();
   const JunctionCuts cuts = weaver_->join(a, b, *frames);
   if (!key.empty()) {
-    base_.transitions().keep(key, std::make_shared<const MadeTransition>(MadeTransition{cuts, b.transform, frames}));
+    base_.transitions().keep(key, std::make_shared<const MadeTransition>(MadeTransition{cuts, b.laid.standing, frames}));
   }
   return frames;
 }
@@ -302,7 +302,7 @@ bool GrowingUtterance::finish_sign(std::int64_t next) {
   weaver_->lay_sign(*last);
   last->laid.core = laid.core;
   last->laid.before = laid.before;
-  last->transform = woven->transform;
+  last->laid.standing = woven->laid.standing;
   const auto soon = static_cast<std::int64_t>(kFinished.count() * header_->rate.hertz());
   if (last->laid.core_end() - next > soon) {
     if (next == laid.core) return false;

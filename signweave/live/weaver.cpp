@@ -7,6 +7,7 @@
 
 #include "signweave/core/error.h"
 #include "signweave/render/carry_tracks.h"
+#include "signweave/render/window.h"
 
 namespace signweave {
 namespace {
@@ -57,7 +58,7 @@ void Weaver::lay_sign(Woven& woven) const {
   woven.laid = lay(woven.stretch, settings_.rate, tempo_);
   woven.aligned = alignment_ == Alignment::ground ||
                   (alignment_ == Alignment::automatic && woven.stretch.recording != home_recording_);
-  woven.transform.reset();
+  woven.laid.standing.reset();
   woven.track_of.clear();
   for (const std::string& name : woven.stretch.source->tracks()) {
     const auto at = std::ranges::find(tracks_, name);
@@ -72,8 +73,8 @@ void Weaver::lay_frames(Woven& woven) const {
 }
 
 void Weaver::place(Woven& woven) {
-  if (!woven.aligned || woven.transform) return;
-  woven.transform = align(standing_of_sign(woven.laid, settings_), home_);
+  if (!woven.aligned || woven.laid.standing) return;
+  woven.laid.standing = align(standing_of_sign(woven.laid, settings_), home_);
 }
 
 JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
@@ -93,15 +94,9 @@ JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
                           std::min(b.laid.core + context, b.laid.core_end())};
   memory.window.reset(settings_.skeleton, settings_.rate, frames.size());
   const OutputWindow window{memory.window, frames.begin};
-  const std::int64_t shared = JunctionFiller::shared(a.laid, b.laid);
-  const FrameRange of_a{frames.begin, a.laid.end()};
-  const FrameRange both{b.laid.begin(), b.laid.begin() + shared};
-  const FrameRange of_b{both.end, frames.end};
-  memory.junction.shared.reset(settings_.skeleton, settings_.rate, shared);
-  read_poses(a, of_a, window.poses(of_a));
-  read_poses(b, both, memory.junction.shared.poses({0, shared}));
-  read_poses(b, of_b, window.poses(of_b));
-  filler_.fill(a.laid, b.laid, cuts.parts, window, memory.junction);
+  std::array laid = {a.laid, b.laid};
+  fetch(laid, window);
+  signweave::join({.clips = laid, .cuts = {&cuts, 1}}, filler_, window, memory.junction);
 
   const FrameRange between{a.laid.core_end(), b.laid.core};
   made.reset(settings_.skeleton, settings_.rate, between.size());
@@ -110,7 +105,6 @@ JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
   std::ranges::copy(from.rotations, to.rotations.begin());
   std::ranges::copy(from.translations, to.translations.begin());
   if (!tracks_.empty()) {
-    std::array laid = {a.laid, b.laid};
     laid[0].after = cuts.tracks.retraction_frames;
     laid[1].before = cuts.tracks.preparation_frames;
     memory.tracks.resize(tracks_.size());
@@ -125,21 +119,9 @@ JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
   return cuts;
 }
 
-void Weaver::read_poses(const Woven& woven, FrameRange frames, MutablePoses out) const {
-  if (frames.empty()) return;
-  read_frames(woven.laid, frames, out);
-  if (!woven.transform) return;
-  const std::size_t joints = settings_.skeleton->joint_count();
-  const std::size_t moved = settings_.skeleton->translation_count();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(frames.size()); ++k) {
-    apply(*woven.transform, *settings_.skeleton,
-          {out.rotations.subspan(k * joints, joints), out.translations.subspan(k * moved, moved)});
-  }
-}
-
 void Weaver::read(const Woven& woven, FrameRange frames, MutablePoses out,
                   std::span<const std::span<float>> tracks) const {
-  read_poses(woven, frames, out);
+  read_standing(woven.laid, *settings_.skeleton, frames, out);
   if (tracks.empty() || frames.empty()) return;
   for (const std::span<float> track : tracks) std::ranges::fill(track, 0.0f);
   std::vector<std::span<float>> of_source;

@@ -16,9 +16,8 @@ namespace signweave {
 /// A stretch as it lies among the output frames of a `Weaver`. Not moved once it is laid.
 struct Woven {
   Stretch stretch;
-  Laid laid;                                 ///< points to the stretch
-  bool aligned = false;                      ///< it is brought to where the home's signer stands
-  std::optional<GroundTransform> transform;  ///< known once it is joined
+  Laid laid;             ///< points to the stretch
+  bool aligned = false;  ///< it is brought to where the home's signer stands
   std::vector<std::size_t> track_of;         ///< [track of its source] which of the result's it is; kNoTrack: none
   static constexpr std::size_t kNoTrack = static_cast<std::size_t>(-1);
   std::string key;  ///< the caller's: tells it from others; empty where no other is like it
@@ -61,8 +60,6 @@ class Weaver {
   void read(const Woven& woven, FrameRange frames, MutablePoses out, std::span<const std::span<float>> tracks) const;
 
  private:
-  void read_poses(const Woven& woven, FrameRange frames, MutablePoses out) const;
-
   JunctionSettings settings_;
   double tempo_;
   std::vector<std::string> tracks_;

@@ -92,7 +92,7 @@ void carry_tracks(std::span<const Laid> laid, FrameRange window, std::vector<Sca
   }
 }
 
-void carry_tracks(const std::vector<Laid>& laid, std::vector<ScalarTrack> used, Motion& motion) {
+std::vector<std::string> tracks_of(std::span<const Laid> laid) {
   std::vector<std::string> names;
   const MotionSource* seen = nullptr;
   for (const Laid& one : laid) {
@@ -102,10 +102,7 @@ void carry_tracks(const std::vector<Laid>& laid, std::vector<ScalarTrack> used, 
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
   }
-  used.resize(names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) used[i].name = names[i];
-  carry_tracks(laid, {0, motion.frame_count()}, used);
-  for (ScalarTrack& track : used) motion.add_track(std::move(track));
+  return names;
 }
 
 }  // namespace signweave

@@ -53,24 +53,31 @@ void JunctionFiller::fill(const Laid& a, const Laid& b, const TransitionCuts& cu
   }
 }
 
+JunctionFiller::Meeting JunctionFiller::meeting(const Laid& a, const Laid& b, const TransitionCuts& cuts,
+                                                Timed part) noexcept {
+  const std::int64_t faded = cuts.front().overlap();
+  const TransitionCut& cut = cuts[static_cast<std::size_t>(part)];
+  const std::int64_t begin = b.core - cut.preparation_frames;
+  if (faded > 0) return {begin + faded / 2, begin + faded / 2};
+  return {a.core_end() + cut.retraction_frames - 1, begin};
+}
+
 /// Each stretch keeps its quaternions' signs from frame to frame, so one sign a joint makes the whole of it go on from
 /// the side before. It is chosen where the two meet: in the middle of a cross-fade, so that there the shorter arc is
 /// taken. Choosing anew for each frame would make a joint jump where the sides pass half a turn apart.
 void JunctionFiller::turn_signs(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window,
                                 Motion& shared) const {
-  const std::int64_t faded = cuts.front().overlap();
   const std::int64_t own_begin = b.begin() + shared.frame_count();
   const std::int64_t own_end = std::min(b.end(), window.frames().end);
   const auto right_pose = [&](std::int64_t frame) {
     return frame < own_begin ? PoseView(shared.pose(frame - b.begin())) : PoseView(window.pose(frame));
   };
   const JointGroups& groups = settings_.rig->groups;
-  for (std::size_t part = 0; part < kTimed; ++part) {
-    const TransitionCut& cut = cuts[part];
-    const std::int64_t begin = b.core - cut.preparation_frames;
-    const PoseView left = window.pose(faded > 0 ? begin + faded / 2 : a.core_end() + cut.retraction_frames - 1);
-    const PoseView right = right_pose(faded > 0 ? begin + faded / 2 : begin);
-    const GroupSet of_part = groups_of(kAllTimed[part]);
+  for (const Timed part : kAllTimed) {
+    const Meeting at = meeting(a, b, cuts, part);
+    const PoseView left = window.pose(at.of_a);
+    const PoseView right = right_pose(at.of_b);
+    const GroupSet of_part = groups_of(part);
     for (std::size_t joint = 0; joint < left.rotations.size(); ++joint) {
       if (!of_part.has(groups.of[joint]) || left.rotations[joint].dot(right.rotations[joint]) >= 0) continue;
       for (std::int64_t k = 0; k < shared.frame_count(); ++k) shared.pose(k).rotations[joint].coeffs() *= -1.0f;

@@ -29,6 +29,9 @@ struct JunctionCuts {
   TransitionCut tracks;  ///< of the scalar tracks, which know no poses
 };
 
+/// Which joints' quaternions are turned to their negatives: [joint].
+using JointSigns = std::vector<bool>;
+
 /// Memory that junctions use; kept from one to the next, so that only the first ones allocate.
 struct JunctionScratch {
   Motion left, right;  ///< what lies around the cuts
@@ -57,6 +60,12 @@ class JunctionFiller {
   static std::int64_t shared(const Laid& a, const Laid& b) noexcept;
   /// As many frames beside a transition are looked at.
   std::int64_t context() const noexcept;
+  /// The output frames at which a part of both sides is compared: b's rotations are turned so that they go on from a's.
+  struct Meeting {
+    std::int64_t of_a = 0;
+    std::int64_t of_b = 0;
+  };
+  static Meeting meeting(const Laid& a, const Laid& b, const TransitionCuts& cuts, Timed part) noexcept;
 
   /// The transition: Algorithm 1, lines 3 to 6. The window has what both sides keep of it already, and of both cores
   /// `context()` frames or all; the frames that they share are there as a's, and in `scratch.shared` as b's.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "signweave/motion/blend.h"
 #include "signweave/score/stretch.h"
@@ -22,6 +23,7 @@ struct Laid {
   std::int64_t before = 0;  ///< frames of the preparation that are used
   std::int64_t after = 0;   ///< frames of the retraction that are used
   std::int64_t core = 0;    ///< output frame of the core's first frame
+  std::optional<GroundTransform> standing;  ///< how it is brought to where the signer stands; none: it is there
 
   std::int64_t begin() const noexcept { return core - before; }             ///< its first output frame
   std::int64_t core_end() const noexcept { return core + core_frames; }     ///< output frame after its core
@@ -40,6 +42,7 @@ Laid lay(const Stretch& stretch, FrameRate rate, double tempo);
 Laid lay_by_step(const Stretch& stretch, double step);
 
 /// Puts some of its output frames where they are wanted, as captured, or interpolated where its own grid is another.
+/// They stand where they were captured.
 void read_frames(const Laid& laid, FrameRange output, MutablePoses out);
 /// The same of its scalar tracks: a span for each, empty where the track is not wanted.
 void read_tracks(const Laid& laid, FrameRange output, std::span<const std::span<float>> out);

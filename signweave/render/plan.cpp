@@ -92,7 +92,7 @@ Plan plan_of(const Score& score, const std::vector<Stretch>& stretches) {
     const Clip& clip = score.clips[i];
     plan.laid.push_back(lay_by_step(stretches[i], clip.step));
     plan.laid.back().core = clip.at;
-    plan.standing.push_back(clip.standing);
+    plan.laid.back().standing = clip.standing;
   }
   plan.laid.front().before = plan.laid.front().core;
   for (std::size_t i = 0; i + 1 < stretches.size(); ++i) {
@@ -146,7 +146,7 @@ Score score_of(const Plan& plan, const JunctionSettings& settings, const Stretch
                            .core = stretch.core,
                            .step = laid.step,
                            .at = laid.core,
-                           .standing = plan.standing[i],
+                           .standing = laid.standing,
                            .clock = stretch.clock,
                            .signs = stretch.signs});
     if (i > 0) {

@@ -17,8 +17,7 @@ namespace signweave {
 /// A score beside the motions that it names: Algorithm 1 before any frame is made. Stretches are borrowed.
 struct Plan {
   std::vector<Laid> laid;
-  std::vector<JunctionCuts> cuts;                        ///< [stretch − 1]
-  std::vector<std::optional<GroundTransform>> standing;  ///< [stretch] how it is brought to where all stand
+  std::vector<JunctionCuts> cuts;  ///< [stretch − 1]
   std::int64_t frames = 0;
 };
 

@@ -1,11 +1,14 @@
 #include "signweave/render/render.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <optional>
 
-#include "signweave/motion/blend.h"
+#include "signweave/core/error.h"
 #include "signweave/render/carry_tracks.h"
+#include "signweave/render/window.h"
 #include "signweave/score/place_signs.h"
 
 namespace signweave {
@@ -18,50 +21,18 @@ const std::string& name_at_begin(const Stretch& stretch) {
   return stretch.signs.empty() ? stretch.recording : stretch.signs.front().gloss;
 }
 
-/// Output frames of a stretch that the one before has not.
-FrameRange own_frames(const Plan& plan, std::size_t i) {
-  const Laid& now = plan.laid[i];
-  return {now.begin() + (i == 0 ? 0 : JunctionFiller::shared(plan.laid[i - 1], now)), now.end()};
-}
-
-/// Brings the fetched frames of the stretches to where they stand, one after the other, and fills what lies between
-/// them.
-class Filler {
- public:
-  Filler(const Plan& plan, const JunctionSettings& settings, Synthesis& out)
-      : plan_(plan), junctions_(settings), out_(out) {}
-
-  /// Stretch i, and the transition before it.
-  void fill(std::size_t i) {
-    const Laid& now = plan_.laid[i];
-    const FrameRange own = own_frames(plan_, i);
-    const std::int64_t shared = own.begin - now.begin();
-    scratch_.shared.reset(out_.motion.shared_skeleton(), out_.motion.rate(), shared);
-    read_frames(now, {now.begin(), own.begin}, scratch_.shared.poses({0, shared}));
-    align(i, own);
-    if (i > 0) junctions_.fill(plan_.laid[i - 1], now, plan_.cuts[i - 1].parts, {out_.motion}, scratch_);
-    tell_sources(i);
-  }
-
- private:
-  void align(std::size_t i, FrameRange own) {
-    const std::optional<GroundTransform>& standing = plan_.standing[i];
-    if (!standing) return;
-    for (std::int64_t k = 0; k < scratch_.shared.frame_count(); ++k)
-      apply(*standing, out_.motion.skeleton(), scratch_.shared.pose(k));
-    for (std::int64_t frame = own.begin; frame < own.end; ++frame)
-      apply(*standing, out_.motion.skeleton(), out_.motion.pose(frame));
-  }
-
-  void tell_sources(std::size_t i) {
-    const Laid& now = plan_.laid[i];
+/// Where each frame of a plan comes from.
+void name_sources(const Plan& plan, std::vector<FrameSource>& sources) {
+  sources.resize(static_cast<std::size_t>(plan.frames));
+  const auto at = [&](std::int64_t frame) -> FrameSource& { return sources[static_cast<std::size_t>(frame)]; };
+  for (std::size_t i = 0; i < plan.laid.size(); ++i) {
+    const Laid& now = plan.laid[i];
     const auto stretch = static_cast<std::int32_t>(i);
-    const bool last = i + 1 == plan_.laid.size();
-    const std::int64_t kept_before = i == 0 ? now.before : common_to(plan_.cuts[i - 1].parts).kept_before();
-    const std::int64_t kept_after = last ? now.after : common_to(plan_.cuts[i].parts).kept_after();
-    const auto at = [&](std::int64_t frame) -> FrameSource& { return out_.sources[static_cast<std::size_t>(frame)]; };
+    const bool last = i + 1 == plan.laid.size();
+    const std::int64_t kept_before = i == 0 ? now.before : common_to(plan.cuts[i - 1].parts).kept_before();
+    const std::int64_t kept_after = last ? now.after : common_to(plan.cuts[i].parts).kept_after();
     if (i > 0) {
-      const std::int64_t made_from = plan_.laid[i - 1].core_end() + common_to(plan_.cuts[i - 1].parts).kept_after();
+      const std::int64_t made_from = plan.laid[i - 1].core_end() + common_to(plan.cuts[i - 1].parts).kept_after();
       for (std::int64_t frame = made_from; frame < now.core - kept_before; ++frame) {
         at(frame) = {FrameSource::kNone, stretch - 1, 0};
       }
@@ -80,72 +51,171 @@ class Filler {
     kept(now.core, now.core_end(), FrameSource::kNone);
     kept(now.core_end(), now.core_end() + kept_after, last ? FrameSource::kNone : stretch);
   }
+}
 
-  const Plan& plan_;
-  JunctionFiller junctions_;
-  Synthesis& out_;
-  JunctionScratch scratch_;
-};
-
-void render_plan(const Plan& plan, const JunctionSettings& settings, std::vector<ScalarTrack> used_tracks,
-                 Synthesis& out) {
-  out.sources.resize(static_cast<std::size_t>(plan.frames));
-  Filler filler(plan, settings, out);
-  for (std::size_t i = 0; i < plan.laid.size(); ++i) filler.fill(i);
+void place_stretches(const Plan& plan, Synthesis& out) {
   out.stretches.clear();
-  out.junctions.clear();
-
   for (std::size_t i = 0; i < plan.laid.size(); ++i) {
     const Laid& laid = plan.laid[i];
-    const Stretch& stretch = *laid.stretch;
     const FrameRange core{laid.core, laid.core_end()};
-    out.stretches.push_back({.recording = stretch.recording,
+    out.stretches.push_back({.recording = laid.stretch->recording,
                              .output = {i == 0 ? 0 : core.begin, i + 1 == plan.laid.size() ? plan.frames : core.end},
                              .core = core,
                              .first_frame = laid.frame_at(core.begin),
                              .step = laid.step});
-    if (i == 0) continue;
-    out.junctions.push_back({.from = name_at_end(*plan.laid[i - 1].stretch),
-                             .to = name_at_begin(stretch),
-                             .frames = {plan.laid[i - 1].core_end(), laid.core},
-                             .cut = common_to(plan.cuts[i - 1].parts),
-                             .cuts = plan.cuts[i - 1].parts,
-                             .method = std::string(method_of(settings, plan.laid[i]).name),
-                             .number = i,
-                             .chosen = stretch.junction});
-    assert(out.junctions.back().frames.size() == plan.cuts[i - 1].tracks.length);
   }
-  std::vector<Laid> laid_tracks = plan.laid;
-  for (std::size_t i = 0; i < plan.cuts.size(); ++i) {
-    laid_tracks[i].after = plan.cuts[i].tracks.retraction_frames;
-    laid_tracks[i + 1].before = plan.cuts[i].tracks.preparation_frames;
+}
+
+void place_junctions(const Score& score, const Plan& plan, Synthesis& out) {
+  out.junctions.clear();
+  for (std::size_t i = 0; i + 1 < plan.laid.size(); ++i) {
+    const Laid& a = plan.laid[i];
+    const Laid& b = plan.laid[i + 1];
+    const JunctionRef& junction = score.junctions[i];
+    out.junctions.push_back({.from = name_at_end(*a.stretch),
+                             .to = name_at_begin(*b.stretch),
+                             .frames = {a.core_end(), b.core},
+                             .cut = common_to(plan.cuts[i].parts),
+                             .cuts = plan.cuts[i].parts,
+                             .method = junction.method,
+                             .number = junction.number,
+                             .chosen = junction.chosen.empty() ? JunctionChoice()
+                                                               : parse_junction("1=" + junction.chosen).choice});
+    assert(out.junctions.back().frames.size() == plan.cuts[i].tracks.length);
   }
-  carry_tracks(laid_tracks, std::move(used_tracks), out.motion);
+}
+
+/// Goes on from where `made` was taken from: copies some of its frames.
+void copy(const Motion& made, std::int64_t from, FrameRange frames, Motion& out) {
+  const auto first = static_cast<std::size_t>(frames.begin - from);
+  const auto count = static_cast<std::size_t>(frames.size());
+  const std::size_t joints = made.skeleton().joint_count();
+  const std::size_t moved = made.skeleton().translation_count();
+  out.reset(made.shared_skeleton(), made.rate(), frames.size());
+  const MutablePoses to = out.poses({0, frames.size()});
+  std::ranges::copy(made.rotations().subspan(first * joints, count * joints), to.rotations.begin());
+  std::ranges::copy(made.translations().subspan(first * moved, count * moved), to.translations.begin());
+  for (const ScalarTrack& track : made.tracks()) {
+    const float* const values = track.values.data() + first;
+    out.add_track({track.name, {values, values + count}});
+  }
 }
 
 }  // namespace
 
+Renderer::Renderer(Plan plan, const JunctionSettings& settings)
+    : plan_(std::move(plan)), settings_(settings), filler_(settings), tracks_(tracks_of(plan_.laid)) {}
+
+/// With the transitions that the frames touch as a whole, and beside those as much as they look at.
+Renderer::Part Renderer::part_with(FrameRange frames) const {
+  const std::vector<Laid>& laid = plan_.laid;
+  const auto clip_at = [&](std::int64_t frame) {  // the last one whose core has begun, or the first
+    const auto after = std::ranges::upper_bound(laid, frame, {}, &Laid::core);
+    return after == laid.begin() ? std::size_t{0} : static_cast<std::size_t>(after - laid.begin()) - 1;
+  };
+  Part part{.first = clip_at(frames.begin), .last = clip_at(frames.end - 1), .frames = frames};
+  if (part.last + 1 < laid.size() && frames.end > laid[part.last].core_end()) ++part.last;
+  if (part.first == part.last) return part;
+  const std::int64_t context = filler_.context();
+  const Laid& first = laid[part.first];
+  const Laid& last = laid[part.last];
+  part.frames.begin = std::min(frames.begin, std::max(first.core, first.core_end() - context));
+  part.frames.end = std::max(frames.end, std::min(last.core + context, last.core_end()));
+  return part;
+}
+
+/// As turning each clip so that it goes on from the one before it leaves the joints of a clip.
+const JointSigns& Renderer::turned_in(std::size_t clip) {
+  const std::size_t joints = settings_.skeleton->joint_count();
+  if (turned_.empty()) turned_.emplace_back(joints, false);
+  const JointGroups& groups = settings_.rig->groups;
+  Motion left(settings_.skeleton, settings_.rate, 1);
+  Motion right(settings_.skeleton, settings_.rate, 1);
+  while (turned_.size() <= clip) {
+    const std::size_t i = turned_.size();
+    const Laid& a = plan_.laid[i - 1];
+    const Laid& b = plan_.laid[i];
+    const JointSigns& before = turned_.back();
+    JointSigns turned(joints, false);
+    for (const Timed part : kAllTimed) {
+      const JunctionFiller::Meeting at = JunctionFiller::meeting(a, b, plan_.cuts[i - 1].parts, part);
+      read_standing(a, *settings_.skeleton, {at.of_a, at.of_a + 1}, left.poses({0, 1}));
+      read_standing(b, *settings_.skeleton, {at.of_b, at.of_b + 1}, right.poses({0, 1}));
+      const GroupSet of_part = groups_of(part);
+      for (std::size_t joint = 0; joint < joints; ++joint) {
+        if (!of_part.has(groups.of[joint])) continue;
+        const float dot = left.rotations()[joint].dot(right.rotations()[joint]);
+        turned[joint] = (before[joint] ? -dot : dot) < 0;
+      }
+    }
+    turned_.push_back(std::move(turned));
+  }
+  return turned_[clip];
+}
+
+void Renderer::render(FrameRange frames, Motion& out) {
+  if (frames.begin < 0 || frames.end > plan_.frames || frames.begin > frames.end) {
+    throw Error(ErrorCode::bad_input, fmt::format("frames {} to {} are not in a score of {} frames", frames.begin,
+                                                  frames.end, plan_.frames));
+  }
+  std::vector<ScalarTrack> used = out.take_tracks();
+  if (frames.empty()) {
+    out.reset(settings_.skeleton, settings_.rate, 0);
+    for (const std::string& name : tracks_) out.add_track({name, {}});
+    return;
+  }
+  const Part part = part_with(frames);
+  Motion& made = part.frames == frames ? out : window_;
+  made.reset(settings_.skeleton, settings_.rate, part.frames.size());
+  const OutputWindow window{made, part.frames.begin};
+  signweave::fetch(std::span(plan_.laid).subspan(part.first, part.last - part.first + 1), window);
+  join_part(part, window, std::move(used));
+  if (&made == &out) return;
+  copy(made, part.frames.begin, frames, out);
+  window_.take_tracks();
+}
+
+void Renderer::render_fetched(Motion& out, std::vector<ScalarTrack> used) {
+  join_part({.first = 0, .last = plan_.laid.size() - 1, .frames = {0, plan_.frames}}, {out}, std::move(used));
+}
+
+void Renderer::join_part(const Part& part, OutputWindow window, std::vector<ScalarTrack> used) {
+  const std::span clips = std::span(plan_.laid).subspan(part.first, part.last - part.first + 1);
+  const std::span cuts = std::span(plan_.cuts).subspan(part.first, part.last - part.first);
+  join({.clips = clips, .cuts = cuts, .turned = part.first == 0 ? nullptr : &turned_in(part.first)}, filler_, window,
+       scratch_);
+  if (tracks_.empty()) return;
+  std::vector<Laid> laid(clips.begin(), clips.end());
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    laid[i].after = cuts[i].tracks.retraction_frames;
+    laid[i + 1].before = cuts[i].tracks.preparation_frames;
+  }
+  used.resize(tracks_.size());
+  for (std::size_t i = 0; i < tracks_.size(); ++i) used[i].name = tracks_[i];
+  carry_tracks(laid, part.frames, used);
+  for (ScalarTrack& track : used) window.motion.add_track(std::move(track));
+}
+
 std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& settings, Motion& out) {
   std::vector<ScalarTrack> used_tracks = out.take_tracks();
   out.reset(settings.skeleton, settings.rate, plan.frames);
-  for (std::size_t i = 0; i < plan.laid.size(); ++i) {
-    const FrameRange own = own_frames(plan, i);
-    read_frames(plan.laid[i], own, out.poses(own));
-  }
+  fetch(plan.laid, {out});
   return used_tracks;
 }
 
-void render(Score score, const std::vector<Stretch>& stretches, const JunctionSettings& settings, Synthesis& out,
-            std::optional<std::vector<ScalarTrack>> fetched) {
-  const Plan plan = plan_of(score, stretches);
-  if (!fetched) fetched = fetch(plan, settings, out.motion);
-  render_plan(plan, settings, std::move(*fetched), out);
-  for (std::size_t i = 0; i < out.junctions.size(); ++i) {
-    const JunctionRef& junction = score.junctions[i];
-    out.junctions[i].number = junction.number;
-    out.junctions[i].chosen =
-        junction.chosen.empty() ? JunctionChoice() : parse_junction("1=" + junction.chosen).choice;
-  }
+void render(Score score, const std::vector<Stretch>& stretches, const JunctionSettings& settings, Synthesis& out) {
+  Plan plan = plan_of(score, stretches);
+  std::vector<ScalarTrack> fetched = fetch(plan, settings, out.motion);
+  render(std::move(score), std::move(plan), stretches, settings, std::move(fetched), out);
+}
+
+void render(Score score, Plan plan, const std::vector<Stretch>& stretches, const JunctionSettings& settings,
+            std::vector<ScalarTrack> fetched, Synthesis& out) {
+  Renderer renderer(std::move(plan), settings);
+  renderer.render_fetched(out.motion, std::move(fetched));
+  name_sources(renderer.plan(), out.sources);
+  place_stretches(renderer.plan(), out);
+  place_junctions(score, renderer.plan(), out);
   place_signs(stretches, out);
   out.score = std::move(score);
 }

@@ -6,24 +6,13 @@
 #include <optional>
 
 #include "signweave/choose/junction_timer.h"
+#include "signweave/choose/on_skeleton.h"
 #include "signweave/core/error.h"
 #include "signweave/features/phase_features.h"
 #include "signweave/render/render.h"
 
 namespace signweave {
 namespace {
-
-void check_skeletons(const std::vector<Stretch>& stretches, const Stretch& reference) {
-  for (const Stretch& stretch : stretches) {
-    if (stretch.source->skeleton() == reference.source->skeleton()) continue;
-    const auto differs = difference(*reference.source->skeleton(), *stretch.source->skeleton());
-    if (!differs) continue;
-    throw Error(ErrorCode::bad_input,
-                fmt::format("recordings '{}' and '{}' have different skeletons: {}; only motions with "
-                            "the same joints can be joined",
-                            reference.recording, stretch.recording, *differs));
-  }
-}
 
 FrameRate highest_rate(const std::vector<Stretch>& stretches) {
   FrameRate highest = stretches[0].source->rate();
@@ -63,9 +52,7 @@ void stand(Plan& plan, const Motion& fetched, const ConcatenateOptions& options)
   const std::string& home_recording = plan.laid[options.reference].stretch->recording;
   std::optional<Standing> home;
   for (std::size_t i = 0; i < plan.laid.size(); ++i) {
-    const bool aligned = options.alignment == Alignment::ground || (options.alignment == Alignment::automatic &&
-                                                                    plan.laid[i].stretch->recording != home_recording);
-    if (!aligned) continue;
+    if (!is_aligned(options.alignment, plan.laid[i].stretch->recording, home_recording)) continue;
     if (!home) home = home_of(plan, fetched, options.reference, i);
     plan.laid[i].standing = align(standing_over(fetched, standing_frames(plan.laid[i])), *home);
   }
@@ -110,7 +97,8 @@ SignerRig signer_rig_of(const Stretch& stretch) {
 Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOptions& options, Synthesis used) {
   if (stretches.empty()) throw Error(ErrorCode::bad_input, "nothing to join");
   const Stretch& reference = stretches.at(options.reference);
-  check_skeletons(stretches, reference);
+  for (const Stretch& stretch : stretches)
+    require_same_joints(reference.recording, reference.source->skeleton(), stretch);
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
   const FrameRate rate = options.rate.numerator > 0 ? options.rate : highest_rate(stretches);
   std::optional<SignerRig> measured;
@@ -125,7 +113,7 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
   out.sources = std::move(used.sources);
   std::vector<ScalarTrack> fetched = fetch(plan, settings, out.motion);
   stand(plan, out.motion, options);
-  Score score = score_of(plan, settings, reference);
+  Score score = score_of(plan, settings, source_of(reference));
   render(std::move(score), std::move(plan), stretches, settings, std::move(fetched), out);
   return out;
 }

@@ -7,19 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "signweave/choose/standing.h"
 #include "signweave/core/time.h"
 #include "signweave/features/duration_fit.h"
 #include "signweave/score/result.h"
 #include "signweave/score/stretch.h"
 
 namespace signweave {
-
-/// How stretches from other recordings are brought to where the signer of the reference stretch stands.
-enum class Alignment {
-  automatic,  ///< `ground` for stretches of other recordings than the reference, none for its own
-  ground,     ///< every stretch: shift on the ground and turn about the vertical
-  none,       ///< all sources come from one session
-};
 
 /// Measured over at most kBodyFrames of a stretch's core.
 SignerRig signer_rig_of(const Stretch& stretch);

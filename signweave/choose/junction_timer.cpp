@@ -44,12 +44,6 @@ Sides read(const JunctionSettings& settings, const Laid& a, const Laid& b, std::
 
 }  // namespace
 
-Standing standing_of(const Laid& laid, const JunctionSettings& settings, Motion& memory) {
-  const FrameRange frames{0, std::min(laid.core_frames, kStandingFrames)};
-  read(settings, laid, frames, memory);
-  return standing_over(memory, frames);
-}
-
 JunctionTimer::JunctionTimer(const JunctionSettings& settings, const TransitionTiming& timing)
     : settings_(settings), timing_(timing) {
   if (settings.method->cut == nullptr) chooser_.emplace(*settings.skeleton, settings.rig->groups);

@@ -8,13 +8,6 @@
 
 namespace signweave {
 
-/// Where a signer stands in a stretch is measured over no more of its frames.
-inline constexpr std::int64_t kStandingFrames = 16'384;
-
-/// Where the signer stands over the core of a stretch, wherever it is laid. Reads the core's frames, at most
-/// kStandingFrames, into `memory`. Throws Error{corrupt}.
-Standing standing_of(const Laid& laid, const JunctionSettings& settings, Motion& memory);
-
 /// How long transitions last. Borrowed.
 struct TransitionTiming {
   const DurationFit* fit = nullptr;  ///< null: each transition has `duration`

@@ -1,5 +1,7 @@
 #include "signweave/choose/on_skeleton.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,8 +10,17 @@
 
 namespace signweave {
 
-bool have_same_joints(const MotionSource& a, const MotionSource& b) {
-  return a.skeleton() == b.skeleton() || !difference(*a.skeleton(), *b.skeleton());
+bool have_same_joints(const std::shared_ptr<const Skeleton>& a, const std::shared_ptr<const Skeleton>& b) {
+  return a == b || !difference(*a, *b);
+}
+
+void require_same_joints(const std::string& reference, const std::shared_ptr<const Skeleton>& joints,
+                         const Stretch& stretch) {
+  if (have_same_joints(joints, stretch.source->skeleton())) return;
+  throw Error(ErrorCode::bad_input,
+              fmt::format("recordings '{}' and '{}' have different skeletons: {}; only motions with the same joints "
+                          "can be joined",
+                          reference, stretch.recording, *difference(*joints, *stretch.source->skeleton())));
 }
 
 RecordedBody body_of(const Contents& contents, const std::string& recording, const MotionSource& source) {
@@ -22,7 +33,7 @@ void put_on_skeleton(std::vector<Stretch>& stretches, std::size_t reference, con
   std::optional<RecordedBody> target;
   std::map<std::string, std::shared_ptr<const MotionSource>> mapped;  // by recording
   for (Stretch& stretch : stretches) {
-    if (stretch.source == home || have_same_joints(*stretch.source, *home)) continue;
+    if (stretch.source == home || have_same_joints(stretch.source->skeleton(), home->skeleton())) continue;
     std::shared_ptr<const MotionSource>& source = mapped[stretch.recording];
     if (!source) {
       if (!target) target = body_of(contents, stretches[reference].recording, *home);

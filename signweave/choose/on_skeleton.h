@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,12 @@ void put_on_skeleton(std::vector<Stretch>& stretches, std::size_t reference, con
                      std::vector<Notice>& notices);
 
 /// True where the two are of one kind: motions of both can be joined as they are.
-bool have_same_joints(const MotionSource& a, const MotionSource& b);
+bool have_same_joints(const std::shared_ptr<const Skeleton>& a, const std::shared_ptr<const Skeleton>& b);
+
+/// Throws Error{bad_input}, which names a joint, where a stretch has other joints than the recording
+/// `reference`.
+void require_same_joints(const std::string& reference, const std::shared_ptr<const Skeleton>& joints,
+                         const Stretch& stretch);
 
 /// The body of a recording of `contents`, whose motion `source` is.
 RecordedBody body_of(const Contents& contents, const std::string& recording, const MotionSource& source);

@@ -72,11 +72,11 @@ std::vector<Stretch> drawn_stretches() {
 
 Synthesis joined(const std::vector<Stretch>& stretches) {
   const auto methods = transition_methods();
-  return concatenate(
-      stretches, {.method = &methods[*rc::gen::inRange<std::size_t>(0, methods.size())],
-                  .duration = Milliseconds(*rc::gen::inRange(0, 900)),
-                  .tempo = *rc::gen::element(1.0, 1.0, 0.8, 1.7),
-                  .alignment = *rc::gen::element(Alignment::automatic, Alignment::ground, Alignment::none)});
+  return concatenate(stretches,
+                     {.method = &methods[*rc::gen::inRange<std::size_t>(0, methods.size())],
+                      .duration = Milliseconds(*rc::gen::inRange(0, 900)),
+                      .tempo = *rc::gen::element(1.0, 1.0, 0.8, 1.7),
+                      .alignment = *rc::gen::element(Alignment::automatic, Alignment::ground, Alignment::none)});
 }
 
 RC_GTEST_PROP(ScoreOfStretches, ReadsBackEqualAndGivesTheSameFrames, ()) {
@@ -185,7 +185,14 @@ TEST(ScoreOfStretches, FaultsSayWhereAndWhat) {
   EXPECT_THAT(fault_of("\"retraction\": ", "\"retraction\": 9"), HasSubstr("lane 'body': transition 0"));
   EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 1"), HasSubstr("lane 'body' ends at frame"));
   EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 99999999"), HasSubstr("a score has 1 to 8640000"));
-  EXPECT_THAT(fault_of("\"at\": 20", "\"at\": 9000000000000000000"), HasSubstr("my.json: clip 0 begins at frame"));
+  EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": [20, 9000000000000000000]"),
+              HasSubstr("my.json: clip 0 is at frames 20 to 9000000000000000000 of"));
+  EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": [20, 50]"), HasSubstr("clip 0 shows 40 frames in 30, 1 a frame"));
+  EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": 20"), HasSubstr("clips[0].at: it must be a list"));
+  EXPECT_THAT(fault_of("\"recording\": \"B\"", "\"kind\": \"shown\", \"recording\": \"B\""),
+              HasSubstr("clip 1 names a recording, and is of what was shown before"));
+  EXPECT_THAT(fault_of("\"recording\": \"B\"", "\"kind\": \"dream\", \"recording\": \"B\""),
+              HasSubstr("one of recording, rest, shown"));
 }
 
 TEST(ScoreOfStretches, ClipsThatTheirMotionDoesNotHaveAreRefused) {
@@ -197,7 +204,7 @@ TEST(ScoreOfStretches, ClipsThatTheirMotionDoesNotHaveAreRefused) {
   score.clips[0].whole.begin = score.clips[0].core.begin;  // its preparation is shown, and not there
   EXPECT_THROW(rendered(score, stretches), Error);
   score = concatenate(stretches, {.duration = 480ms}).score;
-  score.clips[1].step = 2;  // its core is shorter then
+  score.clips[1].step = 2;  // its core is not there where it ends
   EXPECT_THROW(rendered(score, stretches), Error);
   score = concatenate(stretches, {.duration = 480ms}).score;
   for (Item& item : score.lanes.back().items) {  // tracks go on longer than they were captured

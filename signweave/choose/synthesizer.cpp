@@ -10,6 +10,7 @@
 
 #include "signweave/choose/captured_spans.h"
 #include "signweave/choose/missing_glosses.h"
+#include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/core/error.h"
 #include "signweave/render/render.h"
@@ -22,12 +23,8 @@ using Clock = std::chrono::steady_clock;
 /// What the documents of the recordings used declare of themselves.
 std::vector<std::pair<std::string, std::string>> declarations_of(const Contents& contents,
                                                                  const std::vector<Stretch>& stretches) {
-  std::set<std::pair<std::string, std::string>> declarations;
-  for (const Stretch& stretch : stretches) {
-    for (const auto& [name, value] : contents.at(stretch.recording).declarations) {
-      if (name != "signweave:synthesis") declarations.emplace(name, value);
-    }
-  }
+  DeclarationSet declarations;
+  for (const Stretch& stretch : stretches) add_declarations(contents.at(stretch.recording), declarations);
   return {declarations.begin(), declarations.end()};
 }
 
@@ -137,8 +134,7 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
     const auto named = options.junctions.find(part.place);
     const RecordingInfo& info = contents.recordings[candidate.recording];
     for (const Sign& sign : candidate.left_out) {
-      notices.push_back({info.name, fmt::format("'{}' at {} ms has no stroke and stands at a cut: it is left out",
-                                                sign.gloss, sign.span.begin.count())});
+      notices.push_back(notice_left_out(info.name, sign));
     }
     std::shared_ptr<const MotionSource>& source = sources[candidate.recording];
     if (!source) source = std::make_shared<TimedSource>(snapshot.motion(info), reading);
@@ -168,11 +164,8 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
     captured = captured_spans(snapshot, *stretches[reference].source->skeleton(), rig.groups, asking->fill->needs);
     if (asking->fill->needs == Needs::spans) {
       made.captured_transitions = captured.transitions;
-      if (captured.transitions == 0) {
-        notices.push_back(
-            {"", fmt::format("no annotated transition of this skeleton in this database: '{}' goes by none, "
-                             "and makes the likeliest way",
-                             asking->name)});
+      if (auto notice = notice_without_captured(asking->name, captured.transitions)) {
+        notices.push_back(std::move(*notice));
       }
     }
   }
@@ -191,10 +184,8 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
   made.layout_from = stretches[reference].recording;
   const bool timed =
       std::ranges::any_of(made.result.junctions, [](const Junction& one) { return !one.chosen.duration; });
-  if (!options.duration.fixed && made.durations.count == 0 && timed) {
-    made.result.notices.push_back(
-        {"", fmt::format("no transition in this database to measure: {} ms taken; --duration sets it",
-                         std::llround(1000.0 * made.durations.mean.count()))});
+  if (!options.duration.fixed && timed) {
+    if (auto notice = notice_without_durations(made.durations)) made.result.notices.push_back(std::move(*notice));
   }
   made.result.declarations = declarations_of(contents, stretches);
   const auto done = Clock::now();
@@ -218,6 +209,11 @@ Synthesized synthesize(const Database& database, const Score& score, Synthesis u
   Seconds reading{0};
   std::map<std::string, ScoreSource> sources;
   std::vector<Stretch> stretches = stretches_of(score, [&](const SourceRef& source) {
+    if (source.kind != SourceRef::Kind::recording) {
+      throw Error(ErrorCode::unsupported,
+                  "score: a stream made it, and it has frames of no recording (kind 'rest' or 'shown'); sign its "
+                  "utterance again");
+    }
     const auto [at, is_new] = sources.try_emplace(source.recording);
     const RecordingInfo& info = contents.at(source.recording);
     require_unchanged(info, source);

@@ -206,6 +206,14 @@ std::optional<PlayerEvent> Player::take_event() noexcept {
   return event;
 }
 
+std::optional<LiveScore> Player::score() const {
+  return state_->growing.score(state_->position());
+}
+
+std::shared_ptr<const MotionSource> Player::rest() const noexcept {
+  return state_->growing.rest();
+}
+
 bool Player::paused() const noexcept {
   return state_->paused;
 }

@@ -12,6 +12,7 @@
 #include "signweave/core/time.h"
 #include "signweave/live/frame_codec.h"
 #include "signweave/live/signing_base.h"
+#include "signweave/score/score.h"
 
 namespace signweave {
 
@@ -57,8 +58,17 @@ struct PlayerEvent {
   std::string gloss;
   std::size_t token = 0;  ///< as in `MATIN#3`; 0 for a piece
   std::string recording;
-  Milliseconds at{0};  ///< of the utterance: what `seek` takes
+  std::size_t clip = 0;  ///< of a place: the clip that shows it, counted from 0 since the stream began; see LiveScore
+  Milliseconds at{0};    ///< of the utterance: what `seek` takes
   std::string text;
+};
+
+/// What a stream shows, as a score: since its last jump, or since it went over from the middle of a sign to another
+/// utterance. It grows at its end; of more than 256 clips it has the last.
+struct LiveScore {
+  Score score;
+  std::int64_t next = 0;       ///< its frame that is shown next
+  std::size_t first_clip = 0;  ///< which clip of the stream its first one is, see PlayerEvent::clip
 };
 
 /// Signs an utterance while it grows (the paper, sections 4.2 and 5). Places are chosen `look_ahead` places ahead with
@@ -114,6 +124,13 @@ class Player {
   std::uint64_t frame() const noexcept;
   /// The next thing to tell that belongs before frame(): none where there is nothing. Moves it out.
   std::optional<PlayerEvent> take_event() noexcept;
+
+  /// What is shown and, as far as that is known, will be: rendered, frame `next` of it and those after it are what the
+  /// stream shows from here on at tempo 1, with the same bits up to the signs of quaternions. None before anything is
+  /// known.
+  std::optional<LiveScore> score() const;
+  /// The frames of its clips of SourceRef::Kind::rest; null where the stream never rests.
+  std::shared_ptr<const MotionSource> rest() const noexcept;
 
   bool paused() const noexcept;
   /// True where nothing is left to sign: at rest, or at the end.

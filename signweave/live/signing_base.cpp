@@ -6,6 +6,7 @@
 #include <set>
 
 #include "signweave/choose/missing_glosses.h"
+#include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/choose/synthesizer.h"
 #include "signweave/core/error.h"
@@ -221,12 +222,8 @@ std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> SigningB
   return look_up<Declarations>(
       contents, [&](Known & known) -> auto& { return known.declarations; },
       [&] {
-        std::set<std::pair<std::string, std::string>> all;
-        for (const RecordingInfo& info : contents->recordings) {
-          for (const auto& [name, value] : info.declarations) {
-            if (name != "signweave:synthesis") all.emplace(name, value);
-          }
-        }
+        DeclarationSet all;
+        for (const RecordingInfo& info : contents->recordings) add_declarations(info, all);
         return Declarations(all.begin(), all.end());
       });
 }

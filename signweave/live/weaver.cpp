@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "signweave/choose/on_skeleton.h"
 #include "signweave/core/error.h"
 #include "signweave/render/carry_tracks.h"
 #include "signweave/render/window.h"
@@ -46,18 +47,9 @@ Weaver::Weaver(const JunctionSettings& settings, const TransitionTiming& timing,
 }
 
 void Weaver::lay_sign(Woven& woven) const {
-  if (woven.stretch.source->skeleton() != settings_.skeleton) {
-    if (const auto differs = difference(*settings_.skeleton, *woven.stretch.source->skeleton())) {
-      throw Error(
-          ErrorCode::bad_input,
-          fmt::format("recordings '{}' and '{}' have different skeletons: {}; only motions with the same joints "
-                      "can be joined",
-                      home_recording_, woven.stretch.recording, *differs));
-    }
-  }
+  require_same_joints(home_recording_, settings_.skeleton, woven.stretch);
   woven.laid = lay(woven.stretch, settings_.rate, tempo_);
-  woven.aligned = alignment_ == Alignment::ground ||
-                  (alignment_ == Alignment::automatic && woven.stretch.recording != home_recording_);
+  woven.aligned = is_aligned(alignment_, woven.stretch.recording, home_recording_);
   woven.laid.standing.reset();
   woven.track_of.clear();
   for (const std::string& name : woven.stretch.source->tracks()) {
@@ -88,6 +80,7 @@ JunctionCuts Weaver::join(Woven& a, Woven& b, Motion& made) {
   a.laid.after = 0;
   b.laid.before = 0;
   lay_after(a.laid, b.laid, cuts);
+  b.cuts = cuts;
   place(b);
   const std::int64_t context = filler_.context();
   const FrameRange frames{std::max(a.laid.core, a.laid.core_end() - context),

@@ -16,11 +16,13 @@ namespace signweave {
 /// A stretch as it lies among the output frames of a `Weaver`. Not moved once it is laid.
 struct Woven {
   Stretch stretch;
-  Laid laid;             ///< points to the stretch
-  bool aligned = false;  ///< it is brought to where the home's signer stands
-  std::vector<std::size_t> track_of;         ///< [track of its source] which of the result's it is; kNoTrack: none
+  Laid laid;                          ///< points to the stretch
+  bool aligned = false;               ///< it is brought to where the home's signer stands
+  std::vector<std::size_t> track_of;  ///< [track of its source] which of the result's it is; kNoTrack: none
   static constexpr std::size_t kNoTrack = static_cast<std::size_t>(-1);
-  std::string key;  ///< the caller's: tells it from others; empty where no other is like it
+  std::string key;                   ///< the caller's: tells it from others; empty where no other is like it
+  std::optional<JunctionCuts> cuts;  ///< of the junction before it; none: it was not joined
+  std::size_t number = 0;            ///< the caller's: of the clips of a stream
 
   Woven() = default;
   Woven(const Woven&) = delete;

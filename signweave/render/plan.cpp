@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "signweave/core/error.h"
 
@@ -57,6 +58,14 @@ std::vector<Lane> lanes_of(const Plan& plan) {
   return lanes;
 }
 
+/// Frames of the recording that its core shows: fewer than the stretch has where it was left before its end.
+FrameRange core_of(const Laid& laid) {
+  const FrameRange core = laid.stretch->core;
+  if (laid.core_frames == lay_by_step(*laid.stretch, laid.step).core_frames) return core;
+  const auto shown = static_cast<std::int64_t>(std::ceil(static_cast<double>(laid.core_frames) * laid.step));
+  return {core.begin, std::min(core.end, core.begin + std::max<std::int64_t>(shown, 1))};
+}
+
 }  // namespace
 
 std::vector<Stretch> stretches_of(const Score& score, const FindSource& find) {
@@ -76,6 +85,7 @@ std::vector<Stretch> stretches_of(const Score& score, const FindSource& find) {
                                                       .signs = clip.signs,
                                                       .fingerprint = clip.source.fingerprint,
                                                       .place = clip.place,
+                                                      .kind = clip.source.kind,
                                                       .noise = source.noise});
     if (clip.id == 0) continue;
     const JunctionRef& junction = score.junctions[clip.id - 1];
@@ -91,7 +101,8 @@ Plan plan_of(const Score& score, const std::vector<Stretch>& stretches) {
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const Clip& clip = score.clips[i];
     plan.laid.push_back(lay_by_step(stretches[i], clip.step));
-    plan.laid.back().core = clip.at;
+    plan.laid.back().core = clip.at.begin;
+    plan.laid.back().core_frames = clip.at.size();
     plan.laid.back().standing = clip.standing;
   }
   plan.laid.front().before = plan.laid.front().core;
@@ -129,23 +140,19 @@ Plan plan_of(const Score& score, const std::vector<Stretch>& stretches) {
   return plan;
 }
 
-Score score_of(const Plan& plan, const JunctionSettings& settings, const Stretch& skeleton) {
-  Score score{.skeleton = {skeleton.recording, skeleton.fingerprint},
-              .rate = settings.rate,
-              .frames = plan.frames,
-              .clips = {},
-              .junctions = {},
-              .lanes = {}};
+Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton) {
+  Score score{
+      .skeleton = skeleton, .rate = settings.rate, .frames = plan.frames, .clips = {}, .junctions = {}, .lanes = {}};
   for (std::size_t i = 0; i < plan.laid.size(); ++i) {
     const Laid& laid = plan.laid[i];
     const Stretch& stretch = *laid.stretch;
     score.clips.push_back({.id = static_cast<ClipId>(i),
                            .place = stretch.place.value_or(i),
-                           .source = {stretch.recording, stretch.fingerprint},
+                           .source = source_of(stretch),
                            .whole = stretch.whole,
-                           .core = stretch.core,
+                           .core = core_of(laid),
                            .step = laid.step,
-                           .at = laid.core,
+                           .at = {laid.core, laid.core_end()},
                            .standing = laid.standing,
                            .clock = stretch.clock,
                            .signs = stretch.signs});

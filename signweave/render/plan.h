@@ -38,6 +38,6 @@ std::vector<Stretch> stretches_of(const Score& score, const FindSource& find);
 Plan plan_of(const Score& score, const std::vector<Stretch>& stretches);
 
 /// The score of a plan: it gives the plan back. Its clips name no place and its junctions are numbered in order.
-Score score_of(const Plan& plan, const JunctionSettings& settings, const Stretch& skeleton);
+Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton);
 
 }  // namespace signweave

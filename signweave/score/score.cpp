@@ -26,16 +26,25 @@ struct Checker {
 
   void clip(const Clip& clip, std::size_t index) const {
     require(clip.id == index, "clip {} has the id {}; ids count from 0 in the order of the clips", index, clip.id);
-    require(!clip.source.recording.empty(), "clip {} names no recording", index);
+    const bool shown = clip.source.kind == SourceRef::Kind::shown;
+    require(clip.source.recording.empty() == shown, "clip {} {}", index,
+            shown ? "names a recording, and is of what was shown before" : "names no recording");
+    require(!shown || index == 0, "clip {} is of what was shown before the score; only the first one can be", index);
     require(in_range(clip.whole.begin) && in_range(clip.whole.end) && clip.whole.begin <= clip.core.begin &&
                 clip.core.begin < clip.core.end && clip.core.end <= clip.whole.end,
             "clip {} keeps frames {} to {} out of {} to {}; the first range must not be empty, and lie in the second",
             index, clip.core.begin, clip.core.end, clip.whole.begin, clip.whole.end);
     require(std::isfinite(clip.step) && clip.step >= 1e-3 && clip.step <= 1e6,
             "clip {} goes {} frames a frame; a step is a number from 0.001 to 1000000", index, clip.step);
-    require(in_range(clip.at) && clip.at < score.frames, "clip {} begins at frame {} of {}", index, clip.at,
-            score.frames);
-    require(index == 0 || clip.at > score.clips[index - 1].at, "clip {} begins no later than the one before it", index);
+    require(in_range(clip.at.begin) && clip.at.begin < clip.at.end && clip.at.end <= score.frames,
+            "clip {} is at frames {} to {} of {}", index, clip.at.begin, clip.at.end, score.frames);
+    require(index == 0 || clip.at.begin >= score.clips[index - 1].at.end,
+            "clip {} begins before the core of the one before it ends", index);
+    const auto at = static_cast<double>(clip.at.size());
+    const auto core = static_cast<double>(clip.core.size());
+    require((at - 1) * clip.step <= core && core <= (at + 1) * clip.step + 1,
+            "clip {} shows {} frames in {}, {} a frame; that is not their number", index, clip.core.size(),
+            clip.at.size(), clip.step);
     require(std::isfinite(clip.clock.origin.count()) && std::isfinite(clip.clock.frame_time.count()) &&
                 clip.clock.frame_time.count() > 0,
             "the clock of clip {} does not go", index);
@@ -77,14 +86,22 @@ struct Checker {
         const ClipUse* const use = std::get_if<ClipUse>(&item.what);
         require(use != nullptr && use->clip == i / 2, "lane '{}': item {} is not clip {}", name, i, i / 2);
         const Clip& clip = score.clips[i / 2];
-        require(item.at.begin <= clip.at && clip.at < item.at.end,
-                "lane '{}': clip {} is at {} to {}; its core begins at {}", name, i / 2, item.at.begin, item.at.end,
-                clip.at);
+        require(item.at.begin <= clip.at.begin && clip.at.end <= item.at.end,
+                "lane '{}': clip {} is at {} to {}; its core is at {} to {}", name, i / 2, item.at.begin, item.at.end,
+                clip.at.begin, clip.at.end);
       }
     }
     require(end == score.frames, "lane '{}' ends at frame {} of {}", name, end, score.frames);
   }
 };
+
+std::string name_of(const Clip& clip) {
+  if (clip.source.kind == SourceRef::Kind::shown) return "what was shown before";
+  std::string signs;
+  for (const Sign& sign : clip.signs) signs += (signs.empty() ? "" : " ") + sign.gloss;
+  if (signs.empty()) signs = clip.source.kind == SourceRef::Kind::rest ? "at rest" : "a piece";
+  return fmt::format("{} from '{}'", signs, clip.source.recording);
+}
 
 }  // namespace
 
@@ -102,10 +119,23 @@ std::string_view name_of(Channel channel) noexcept {
   return "";
 }
 
+std::string_view name_of(SourceRef::Kind kind) noexcept {
+  switch (kind) {
+    case SourceRef::Kind::recording:
+      return "recording";
+    case SourceRef::Kind::rest:
+      return "rest";
+    case SourceRef::Kind::shown:
+      return "shown";
+  }
+  return "";
+}
+
 void check(const Score& score, const std::string& where) {
   const Checker checker{score, where};
   checker.require(!score.clips.empty(), "a score without a clip; it must have one");
-  checker.require(!score.skeleton.recording.empty(), "'skeleton' names no recording");
+  checker.require(score.skeleton.kind == SourceRef::Kind::recording && !score.skeleton.recording.empty(),
+                  "'skeleton' names no recording");
   checker.require(score.rate.numerator > 0 && score.rate.denominator > 0, "{}/{} frames a second", score.rate.numerator,
                   score.rate.denominator);
   checker.require(score.frames > 0 && score.frames <= kMostFrames, "{} frames; a score has 1 to {}", score.frames,
@@ -148,10 +178,8 @@ std::string to_string(const Score& score) {
       }
       text += '\n';
     }
-    std::string signs;
-    for (const Sign& sign : clip.signs) signs += (signs.empty() ? "" : " ") + sign.gloss;
-    text += fmt::format("{:>8}  clip {}, place {}: {} from '{}' {}-{}{}\n", clip.at, clip.id, clip.place,
-                        signs.empty() ? "a piece" : signs, clip.source.recording, clip.core.begin, clip.core.end,
+    text += fmt::format("{:>8}  clip {}, place {}: {} {}-{}{}\n", clip.at.begin, clip.id, clip.place, name_of(clip),
+                        clip.core.begin, clip.core.end,
                         clip.step == 1 ? "" : fmt::format(", {:.4g} frames a frame", clip.step));
   }
   return text;

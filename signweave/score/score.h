@@ -18,9 +18,15 @@
 /// frames.
 namespace signweave {
 
-/// A recording as a score names it.
+/// Where captured frames come from, as a score names it.
 struct SourceRef {
-  std::string recording;
+  enum class Kind : std::uint8_t {
+    recording,  ///< frames of a recording
+    rest,       ///< the signer of a recording at rest, as a player shows it: frame 0 is the rest pose
+    shown,      ///< frames that a stream showed before the score begins, which alone its player knew
+  };
+  Kind kind = Kind::recording;
+  std::string recording;          ///< empty of `shown`
   std::uint64_t fingerprint = 0;  ///< checksum of its motion file; 0: not known, as of a motion that was made in memory
   friend bool operator==(const SourceRef&, const SourceRef&) = default;
 };
@@ -37,7 +43,7 @@ struct Clip {
       whole;        ///< recording frames that may be shown: the core with the first preparation and the last retraction
   FrameRange core;  ///< recording frames that are kept as they are; inside `whole`, not empty
   double step = 1;  ///< recording frames per output frame; positive
-  std::int64_t at = 0;                      ///< output frame of the core's first frame
+  FrameRange at;    ///< output frames of the core; not empty
   std::optional<GroundTransform> standing;  ///< how it is brought to where the signer stands; none: it is there
   FrameClock clock;                         ///< of the recording
   std::vector<Sign> signs;                  ///< that it holds, in the recording's annotation time
@@ -73,6 +79,7 @@ enum class Channel : std::uint8_t {
 };
 inline constexpr std::array kChannels = {Channel::body, Channel::left, Channel::right, Channel::tracks};
 std::string_view name_of(Channel channel) noexcept;
+std::string_view name_of(SourceRef::Kind kind) noexcept;
 
 /// One channel over all of the output: items without a hole and without an overlap. Clips and transitions take turns.
 struct Lane {

@@ -22,7 +22,9 @@ Json json_of(TimeSpan span) {
   return {span.begin.count(), span.end.count()};
 }
 Json json_of(const SourceRef& source) {
-  return {{"recording", source.recording}, {"fingerprint", fmt::format("{:016x}", source.fingerprint)}};
+  Json json{{"recording", source.recording}, {"fingerprint", fmt::format("{:016x}", source.fingerprint)}};
+  if (source.kind != SourceRef::Kind::recording) json["kind"] = name_of(source.kind);
+  return json;
 }
 Json json_of(const Sign& sign) {
   Json phases = Json::array();
@@ -50,7 +52,7 @@ Json json_of(const Clip& clip) {
           {"whole", json_of(clip.whole)},
           {"core", json_of(clip.core)},
           {"step", clip.step},
-          {"at", clip.at},
+          {"at", json_of(clip.at)},
           {"standing", std::move(standing)},
           {"clock", {{"frame_time", clip.clock.frame_time.count()}, {"origin", clip.clock.origin.count()}}},
           {"signs", std::move(signs)}};
@@ -173,7 +175,9 @@ class Value {
 };
 
 SourceRef source_from(const Value& value) {
+  constexpr std::array kKinds = {SourceRef::Kind::recording, SourceRef::Kind::rest, SourceRef::Kind::shown};
   SourceRef source{.recording = value["recording"].text()};
+  if (value.has("kind")) source.kind = value["kind"].one_of(kKinds);
   const Value print = value["fingerprint"];
   const std::string digits = print.text();
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), source.fingerprint, 16);
@@ -222,7 +226,7 @@ Clip clip_from(const Value& value) {
             .whole = value["whole"].frames(),
             .core = value["core"].frames(),
             .step = value["step"].number(),
-            .at = value["at"].whole(),
+            .at = value["at"].frames(),
             .standing = {},
             .clock = {Seconds(value["clock"]["frame_time"].number()), Seconds(value["clock"]["origin"].number())},
             .signs = {}};

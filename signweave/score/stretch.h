@@ -12,13 +12,14 @@
 #include "signweave/features/hand_motion.h"
 #include "signweave/motion/motion_source.h"
 #include "signweave/score/junction_choice.h"
+#include "signweave/score/score.h"
 #include "signweave/transition/joint_groups.h"
 
 namespace signweave {
 
 /// A stretch of a recording, ready to be joined. Its frames are read when they are needed, straight into the result.
 struct Stretch {
-  std::string recording;
+  std::string recording;                       ///< empty of frames that are of none
   std::shared_ptr<const MotionSource> source;  ///< the recording's motion
   FrameRange whole;         ///< what may be used of it: the core with the first preparation and the last retraction
   FrameRange core;          ///< the frames of the recording that are kept as they are; inside `whole`, not empty
@@ -29,9 +30,15 @@ struct Stretch {
   std::uint64_t fingerprint = 0;  ///< of the recording's motion file; 0: not known
   std::optional<std::size_t> place =
       {};  ///< of what was asked for, from 0: the first that it is of; none: as it is counted
+  SourceRef::Kind kind = SourceRef::Kind::recording;
   /// Of its motion, in the joints of `source`; null: not known, or shown on another skeleton.
   std::shared_ptr<const CaptureNoise> noise = nullptr;
 };
+
+/// Where a stretch is from, as a score names it.
+inline SourceRef source_of(const Stretch& stretch) {
+  return {stretch.kind, stretch.recording, stretch.fingerprint};
+}
 
 /// Which joint of the result is what.
 struct SignerRig {

@@ -1,0 +1,82 @@
+#include "signweave/live/stream_setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "signweave/choose/notices.h"
+
+namespace signweave {
+
+std::string key_of(const Stretch& stretch) {
+  return fmt::format("{}:{}-{}-{}-{}", stretch.recording, stretch.whole.begin, stretch.core.begin, stretch.core.end,
+                     stretch.whole.end);
+}
+
+std::shared_ptr<Woven> lay_rest(const StreamSetup& setup) {
+  auto rest = std::make_shared<Woven>();
+  rest->stretch = {.recording = setup.header.layout_from,
+                   .source = setup.living,
+                   .whole = {0, LivingRest::kFrames},
+                   .core = {0, LivingRest::kFrames},
+                   .clock = {setup.header.rate.frame_time(), Seconds(0)},
+                   .signs = {},
+                   .fingerprint = setup.skeleton.fingerprint,
+                   .kind = SourceRef::Kind::rest};
+  setup.weaver->lay_frames(*rest);
+  return rest;
+}
+
+std::unique_ptr<StreamSetup> set_up(SigningBase& base, const Snapshot& snapshot,
+                                    const std::shared_ptr<const Contents>& contents, const Stretch& first,
+                                    const PlayerOptions& options) {
+  auto setup = std::make_unique<StreamSetup>();
+  const auto say = [&](std::optional<Notice> notice) {
+    if (notice) setup->notices.push_back(std::move(*notice));
+  };
+  const SynthesisOptions& synthesis = options.synthesis;
+  const TransitionMethod* const method = synthesis.method != nullptr ? synthesis.method : &transition_methods().front();
+  setup->rig = base.rig(snapshot, first.recording);
+  setup->fit = base.durations(contents, synthesis.duration);
+  if (method->fill->needs != Needs::nothing) {
+    setup->spans = base.spans(snapshot, first, *setup->rig, method->fill->needs);
+    if (method->fill->needs == Needs::spans) say(notice_without_captured(method->name, setup->spans->transitions));
+  }
+  const JunctionSettings settings{.skeleton = first.source->skeleton(),
+                                  .rate = synthesis.rate.value_or(first.source->rate()),
+                                  .method = method,
+                                  .rig = setup->rig.get(),
+                                  .model = setup->spans != nullptr ? setup->spans->model.get() : nullptr};
+  setup->weaver.emplace(settings, TransitionTiming{.fit = setup->fit.get(), .tempo = synthesis.tempo},
+                        base.tracks(*contents, first.recording), synthesis.alignment, first);
+  if (!synthesis.duration.fixed) say(notice_without_durations(*setup->fit));
+  if (options.idle == Idle::living_rest) {
+    const std::shared_ptr<const KnownRest> known = base.rest(snapshot, first, *setup->rig);
+    RestPose rest = known->rest;
+    Motion alone(settings.skeleton, settings.rate);
+    alone.append(rest.pose.view());
+    apply(align(standing_over(alone, {0, 1}), setup->weaver->home()), *settings.skeleton, rest.pose.view());
+    rest.tracks.assign(setup->weaver->tracks().size(), 0.0f);
+    for (std::size_t i = 0; i < known->tracks.size(); ++i) {
+      const auto at = std::ranges::find(setup->weaver->tracks(), known->tracks[i]);
+      if (at == setup->weaver->tracks().end()) continue;
+      rest.tracks[static_cast<std::size_t>(at - setup->weaver->tracks().begin())] = known->rest.tracks[i];
+    }
+    setup->living =
+        std::make_shared<const LivingRest>(settings.skeleton, settings.rate, setup->rig->signer.rig, std::move(rest),
+                                           setup->weaver->tracks(), LivingRestOptions{.seed = base.new_seed()});
+  }
+  const Milliseconds fixed = synthesis.duration.fixed.value_or(Milliseconds(-1));
+  setup->key = fmt::format("{} {} {}/{} {} {} {} {} {}", base.state_number(contents), method->name,
+                           settings.rate.numerator, settings.rate.denominator, synthesis.tempo, fixed.count(),
+                           synthesis.duration.fitted, static_cast<int>(synthesis.alignment), key_of(first));
+  setup->skeleton = source_of(first);
+  setup->header = {.skeleton = settings.skeleton,
+                   .rate = settings.rate,
+                   .tracks = setup->weaver->tracks(),
+                   .layout_from = first.recording,
+                   .declarations = *base.declarations(contents)};
+  return setup;
+}
+
+}  // namespace signweave

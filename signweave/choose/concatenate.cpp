@@ -114,7 +114,8 @@ Synthesis concatenate(const std::vector<Stretch>& stretches, const ConcatenateOp
   std::vector<ScalarTrack> fetched = fetch(plan, settings, out.motion);
   stand(plan, out.motion, options);
   Score score = score_of(plan, settings, source_of(reference));
-  render(std::move(score), std::move(plan), stretches, settings, std::move(fetched), out);
+  Renderer renderer(std::move(plan), settings);
+  render(std::move(score), renderer, stretches, std::move(fetched), out);
   return out;
 }
 

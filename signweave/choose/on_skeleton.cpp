@@ -27,16 +27,15 @@ RecordedBody body_of(const Contents& contents, const std::string& recording, con
   return recorded_body(recording, source, contents.at(recording).rig);
 }
 
-void put_on_skeleton(std::vector<Stretch>& stretches, std::size_t reference, const Contents& contents,
-                     std::vector<Notice>& notices) {
-  const std::shared_ptr<const MotionSource> home = stretches.at(reference).source;
+void put_on_skeleton(std::vector<Stretch>& stretches, const std::string& reference, const MotionSource& home,
+                     const Contents& contents, std::vector<Notice>& notices) {
   std::optional<RecordedBody> target;
   std::map<std::string, std::shared_ptr<const MotionSource>> mapped;  // by recording
   for (Stretch& stretch : stretches) {
-    if (stretch.source == home || have_same_joints(stretch.source->skeleton(), home->skeleton())) continue;
+    if (have_same_joints(stretch.source->skeleton(), home.skeleton())) continue;
     std::shared_ptr<const MotionSource>& source = mapped[stretch.recording];
     if (!source) {
-      if (!target) target = body_of(contents, stretches[reference].recording, *home);
+      if (!target) target = body_of(contents, reference, home);
       const auto mapping =
           std::make_shared<const BodyMapping>(map_body(body_of(contents, stretch.recording, *stretch.source), *target));
       notices.insert(notices.end(), mapping->notices.begin(), mapping->notices.end());

@@ -12,12 +12,12 @@
 
 namespace signweave {
 
-/// Where recordings have other joints than the reference stretch's, puts them onto its skeleton, frame by frame as they
-/// are read; a recording is looked at once. The stretches' sources must be of `contents`, one for each recording.
-/// Those with the reference's joints stay as they are. Adds what each mapping has to say to `notices`. Throws
+/// Where stretches have other joints than `home`, which is the motion of the recording `reference`, puts them onto its
+/// skeleton, frame by frame as they are read; a recording is looked at once. Those with the same joints stay as they
+/// are. The stretches' recordings must be of `contents`. Adds what each mapping has to say to `notices`. Throws
 /// Error{bad_input} where a mapping is not safe (see match_bodies).
-void put_on_skeleton(std::vector<Stretch>& stretches, std::size_t reference, const Contents& contents,
-                     std::vector<Notice>& notices);
+void put_on_skeleton(std::vector<Stretch>& stretches, const std::string& reference, const MotionSource& home,
+                     const Contents& contents, std::vector<Notice>& notices);
 
 /// True where the two are of one kind: motions of both can be joined as they are.
 bool have_same_joints(const std::shared_ptr<const Skeleton>& a, const std::shared_ptr<const Skeleton>& b);

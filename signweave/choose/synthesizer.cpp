@@ -6,52 +6,18 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "signweave/choose/captured_spans.h"
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
+#include "signweave/choose/open_score.h"
 #include "signweave/core/error.h"
-#include "signweave/render/render.h"
 
 namespace signweave {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// What the documents of the recordings used declare of themselves.
-std::vector<std::pair<std::string, std::string>> declarations_of(const Contents& contents,
-                                                                 const std::vector<Stretch>& stretches) {
-  DeclarationSet declarations;
-  for (const Stretch& stretch : stretches) add_declarations(contents.at(stretch.recording), declarations);
-  return {declarations.begin(), declarations.end()};
-}
-
-/// Measures how long reading takes: the column "retrieval" of Table 1.
-class TimedSource : public MotionSource {
- public:
-  TimedSource(std::unique_ptr<MotionSource> source, Seconds& spent) : source_(std::move(source)), spent_(spent) {}
-
-  const std::shared_ptr<const Skeleton>& skeleton() const noexcept override { return source_->skeleton(); }
-  FrameRate rate() const noexcept override { return source_->rate(); }
-  std::int64_t frame_count() const noexcept override { return source_->frame_count(); }
-  std::span<const std::string> tracks() const noexcept override { return source_->tracks(); }
-  void read(FrameRange frames, MutablePoses out) const override {
-    const auto start = Clock::now();
-    source_->read(frames, out);
-    spent_ += Clock::now() - start;
-  }
-  void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const override {
-    const auto start = Clock::now();
-    source_->read_tracks(frames, out);
-    spent_ += Clock::now() - start;
-  }
-
- private:
-  std::unique_ptr<MotionSource> source_;
-  Seconds& spent_;
-};
 
 /// One selected candidate, or several that were neighbours in a recording and stay together.
 struct Part {
@@ -90,24 +56,6 @@ void check_numbers(const JunctionChoices& named, std::size_t places) {
                                                 junctions == 0   ? "is none, for nothing is joined"
                                                 : junctions == 1 ? "is one alone, number 1"
                                                                  : fmt::format("are {}, counted from 1", junctions)));
-}
-
-void require_unchanged(const RecordingInfo& info, const SourceRef& source) {
-  if (source.fingerprint == 0 || source.fingerprint == info.motion_fingerprint) return;
-  throw Error(ErrorCode::conflict,
-              fmt::format("recording '{}' changed since this score was made; sign its utterance again", info.name));
-}
-
-/// The first method of a junction that needs something of the corpus, captured spans before all; or null.
-const TransitionMethod* method_with_needs(const std::vector<Stretch>& stretches, const TransitionMethod& of_all) {
-  const TransitionMethod* found = nullptr;
-  for (std::size_t i = 1; i < stretches.size(); ++i) {
-    const TransitionMethod* const own = stretches[i].junction.method;
-    const TransitionMethod& method = own != nullptr ? *own : of_all;
-    if (method.fill->needs == Needs::spans) return &method;
-    if (method.fill->needs == Needs::teaching) found = &method;
-  }
-  return found;
 }
 
 /// `edited` names the recording that an edit starts from; empty for an utterance.
@@ -155,7 +103,8 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
   for (std::size_t i = stretches.size(); i-- > 0;) {
     if (stretches[i].recording == edited) reference = i;
   }
-  put_on_skeleton(stretches, reference, contents, notices);
+  const std::shared_ptr<const MotionSource> home = stretches[reference].source;
+  put_on_skeleton(stretches, stretches[reference].recording, *home, contents, notices);
   const RecordingInfo& layout = contents.at(stretches[reference].recording);
   const SignerRig rig = signer_rig_of(snapshot, layout);
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
@@ -201,64 +150,14 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
 
 Synthesized synthesize(const Database& database, const Score& score, Synthesis used) {
   const auto start = Clock::now();
-  check(score, "score");
-  const Snapshot snapshot = database.snapshot();
-  const Contents& contents = snapshot.contents();
+  OpenScore open(database, score);
   Synthesized made;
-  made.contents = snapshot.shared_contents();
-  Seconds reading{0};
-  std::map<std::string, ScoreSource> sources;
-  std::vector<Stretch> stretches = stretches_of(score, [&](const SourceRef& source) {
-    if (source.kind != SourceRef::Kind::recording) {
-      throw Error(ErrorCode::unsupported,
-                  "score: a stream made it, and it has frames of no recording (kind 'rest' or 'shown'); sign its "
-                  "utterance again");
-    }
-    const auto [at, is_new] = sources.try_emplace(source.recording);
-    const RecordingInfo& info = contents.at(source.recording);
-    require_unchanged(info, source);
-    if (is_new) {
-      at->second = {std::make_shared<TimedSource>(snapshot.motion(info), reading),
-                    snapshot.joins(static_cast<std::size_t>(&info - contents.recordings.data()))->noise};
-    }
-    return at->second;
-  });
-  const auto reference = static_cast<std::size_t>(
-      std::ranges::find(stretches, score.skeleton.recording, &Stretch::recording) - stretches.begin());
-  if (reference == stretches.size()) {
-    throw Error(ErrorCode::bad_input,
-                fmt::format("score: its skeleton is that of '{}', of which it has no clip", score.skeleton.recording));
-  }
-  std::vector<Notice> notices;
-  put_on_skeleton(stretches, reference, contents, notices);
-  const RecordingInfo& layout = contents.at(score.skeleton.recording);
-  const SignerRig rig = signer_rig_of(snapshot, layout);
-  const TransitionMethod& method = transition_methods().front();
-  CapturedSpans captured;
-  if (const TransitionMethod* const asking = method_with_needs(stretches, method)) {
-    captured = captured_spans(snapshot, *stretches[reference].source->skeleton(), rig.groups, asking->fill->needs);
-  }
-  made.result.motion = std::move(used.motion);
-  made.result.sources = std::move(used.sources);
-  render(score, stretches,
-         {.skeleton = stretches[reference].source->skeleton(),
-          .rate = score.rate,
-          .method = &method,
-          .rig = &rig,
-          .model = captured.model.get()},
-         made.result);
-  made.result.notices = std::move(notices);
-  made.result.declarations = declarations_of(contents, stretches);
+  made.contents = open.contents();
+  made.result = open.synthesize(std::move(used));
   made.layout_from = score.skeleton.recording;
   const Seconds total = Clock::now() - start;
-  made.timings = {.retrieval = reading, .concatenation = total - reading, .total = total};
+  made.timings = {.retrieval = open.reading(), .concatenation = total - open.reading(), .total = total};
   return made;
-}
-
-SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording) {
-  SignerModel signer = *snapshot.signer(recording);
-  JointGroups groups = joint_groups(*snapshot.motion(recording)->skeleton(), signer.rig);
-  return {std::move(signer), std::move(groups)};
 }
 
 void check(const SynthesisOptions& options) {

@@ -8,6 +8,7 @@
 #include "signweave/choose/concatenate.h"
 #include "signweave/choose/durations.h"
 #include "signweave/choose/edit.h"
+#include "signweave/choose/open_score.h"
 #include "signweave/choose/select.h"
 #include "signweave/core/time.h"
 #include "signweave/database/database.h"
@@ -54,18 +55,13 @@ struct Synthesized {
   std::string layout_from;
 };
 
-/// Of the signer of a recording, whose motion is measured once as long as nothing in the database changes.
-SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording);
-
 /// Signs an utterance: the few lines that call the rest. Throws MissingGlosses for glosses that the database lacks,
 /// Error{bad_input} for skeletons that cannot be joined, options out of range, a junction that there is not. `used` is
 /// an older result whose memory may be used again.
 Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options = {},
                        Synthesis used = {});
 
-/// Renders a score of this database's recordings: nothing is chosen. Its frames are those that it had when it was made,
-/// as long as what the corpus teaches its transitions stays the same. Throws as `check` of a score does,
-/// Error{not_found} for a recording that is not there, Error{conflict} for one that changed since.
+/// Renders all of a score of this database's recordings; see OpenScore, which renders parts of one too.
 Synthesized synthesize(const Database& database, const Score& score, Synthesis used = {});
 
 /// Edits a recording.

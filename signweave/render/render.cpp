@@ -72,15 +72,15 @@ void place_junctions(const Score& score, const Plan& plan, Synthesis& out) {
     const Laid& a = plan.laid[i];
     const Laid& b = plan.laid[i + 1];
     const JunctionRef& junction = score.junctions[i];
-    out.junctions.push_back({.from = name_at_end(*a.stretch),
-                             .to = name_at_begin(*b.stretch),
-                             .frames = {a.core_end(), b.core},
-                             .cut = common_to(plan.cuts[i].parts),
-                             .cuts = plan.cuts[i].parts,
-                             .method = junction.method,
-                             .number = junction.number,
-                             .chosen = junction.chosen.empty() ? JunctionChoice()
-                                                               : parse_junction("1=" + junction.chosen).choice});
+    out.junctions.push_back(
+        {.from = name_at_end(*a.stretch),
+         .to = name_at_begin(*b.stretch),
+         .frames = {a.core_end(), b.core},
+         .cut = common_to(plan.cuts[i].parts),
+         .cuts = plan.cuts[i].parts,
+         .method = junction.method,
+         .number = junction.number,
+         .chosen = junction.chosen.empty() ? JunctionChoice() : parse_junction("1=" + junction.chosen).choice});
     assert(out.junctions.back().frames.size() == plan.cuts[i].tracks.length);
   }
 }
@@ -155,8 +155,8 @@ const JointSigns& Renderer::turned_in(std::size_t clip) {
 
 void Renderer::render(FrameRange frames, Motion& out) {
   if (frames.begin < 0 || frames.end > plan_.frames || frames.begin > frames.end) {
-    throw Error(ErrorCode::bad_input, fmt::format("frames {} to {} are not in a score of {} frames", frames.begin,
-                                                  frames.end, plan_.frames));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("frames {} to {} are not in a score of {} frames", frames.begin, frames.end, plan_.frames));
   }
   std::vector<ScalarTrack> used = out.take_tracks();
   if (frames.empty()) {
@@ -204,18 +204,21 @@ std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& setting
 }
 
 void render(Score score, const std::vector<Stretch>& stretches, const JunctionSettings& settings, Synthesis& out) {
-  Plan plan = plan_of(score, stretches);
-  std::vector<ScalarTrack> fetched = fetch(plan, settings, out.motion);
-  render(std::move(score), std::move(plan), stretches, settings, std::move(fetched), out);
+  Renderer renderer(plan_of(score, stretches), settings);
+  render(std::move(score), renderer, stretches, std::nullopt, out);
 }
 
-void render(Score score, Plan plan, const std::vector<Stretch>& stretches, const JunctionSettings& settings,
-            std::vector<ScalarTrack> fetched, Synthesis& out) {
-  Renderer renderer(std::move(plan), settings);
-  renderer.render_fetched(out.motion, std::move(fetched));
-  name_sources(renderer.plan(), out.sources);
-  place_stretches(renderer.plan(), out);
-  place_junctions(score, renderer.plan(), out);
+void render(Score score, Renderer& renderer, const std::vector<Stretch>& stretches,
+            std::optional<std::vector<ScalarTrack>> fetched, Synthesis& out) {
+  const Plan& plan = renderer.plan();
+  if (fetched) {
+    renderer.render_fetched(out.motion, std::move(*fetched));
+  } else {
+    renderer.render({0, plan.frames}, out.motion);
+  }
+  name_sources(plan, out.sources);
+  place_stretches(plan, out);
+  place_junctions(score, plan, out);
   place_signs(stretches, out);
   out.score = std::move(score);
 }

@@ -23,8 +23,8 @@ class Renderer {
 
   /// Makes the frames `frames`, which must lie in the plan, with their tracks; `out` then has these alone, and its
   /// memory is used again. Costs what they cost, and a transition of which any frame is asked for its whole: nothing
-  /// more in a long score but, once, a few frames of every junction before them. Throws Error{corrupt}, Error{bad_input}
-  /// for frames that are not in the plan.
+  /// more in a long score but, once, a few frames of every junction before them. Throws Error{corrupt},
+  /// Error{bad_input} for frames that are not in the plan.
   void render(FrameRange frames, Motion& out);
   /// The same of all frames, where `fetch` put those that were captured into `out` and gave back `used`.
   void render_fetched(Motion& out, std::vector<ScalarTrack> used);
@@ -57,8 +57,9 @@ std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& setting
 /// notices and declarations. Decides nothing. The memory of what `out` was is used again. Throws Error{bad_input} as
 /// plan_of, Error{corrupt}.
 void render(Score score, const std::vector<Stretch>& stretches, const JunctionSettings& settings, Synthesis& out);
-/// The same by the plan of the score, whose frames were fetched into `out`.
-void render(Score score, Plan plan, const std::vector<Stretch>& stretches, const JunctionSettings& settings,
-            std::vector<ScalarTrack> fetched, Synthesis& out);
+/// The same by the renderer of the score's plan; `fetched`: what `fetch` gave back, where it has put the captured
+/// frames into `out` already.
+void render(Score score, Renderer& renderer, const std::vector<Stretch>& stretches,
+            std::optional<std::vector<ScalarTrack>> fetched, Synthesis& out);
 
 }  // namespace signweave

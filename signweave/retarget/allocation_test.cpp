@@ -15,7 +15,7 @@ namespace {
 TEST(RetargetAllocations, NoneAreMadeForAPose) {
   const Motion motion = moving(whole_person(), 20);
   const Character character = character_of(whole_person(0.9f));
-  Retargeter retargeter(motion.skeleton(), model_of(motion), character);
+  Retargeter retargeter(motion.skeleton(), plain_model_of(motion), character);
   Pose pose(*character.skeleton);
   EXPECT_EQ(allocations_in([&] {
               for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {

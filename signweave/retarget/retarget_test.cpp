@@ -95,7 +95,7 @@ TEST(Retarget, DoesNotDependOnThePoseAtRest) {
   const auto straight = whole_person();
   const Character character = character_of(rested_in(*straight, relaxed(*straight).view()));
   const Motion motion = signing(straight);
-  const Motion made = retarget(motion, model_of(motion), character).motion;
+  const Motion made = retarget(motion, plain_model_of(motion), character).motion;
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
     const ModelPose a = to_model_space(*straight, motion.pose(frame));
     const ModelPose b = to_model_space(made.skeleton(), made.pose(frame));
@@ -110,7 +110,7 @@ TEST(Retarget, KeepsPalmAndPlaceOnABodyOfOtherSize) {
   const auto small = whole_person(0.8f);
   const Character character = character_of(rested_in(*small, relaxed(*small).view()));
   const Motion motion = signing(straight);
-  const SignerModel signer = model_of(motion);
+  const SignerModel signer = plain_model_of(motion);
   const Motion made = retarget(motion, signer, character).motion;
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
     const ModelPose a = to_model_space(*straight, motion.pose(frame));
@@ -135,7 +135,7 @@ TEST(Retarget, SpreadsTheHandsTwistOverTheForearm) {
   Motion motion(whole_person(), {30, 1}, 1);
   const std::size_t hand = joint(motion.skeleton(), "LeftHand");
   motion.pose(0).rotations[hand] = AngleAxisf(80 * kDegree, Vector3f::UnitX());
-  const Motion made = retarget(motion, model_of(motion), character).motion;
+  const Motion made = retarget(motion, plain_model_of(motion), character).motion;
   const ModelPose pose = to_model_space(*skeleton, made.pose(0));
   const auto about = [&](const char* name) {
     return twist_about(pose.rotations[joint(*skeleton, name)], Vector3f::UnitX()) / kDegree;
@@ -154,7 +154,7 @@ TEST(Retarget, HandsThatTouchTouchOnOtherArms) {
     motion.pose(0).rotations[joint(*straight, name + "Arm")] = AngleAxisf(side * -0.75f, Vector3f::UnitY());
     motion.pose(0).rotations[joint(*straight, name + "ForeArm")] = AngleAxisf(side * -1.87f, Vector3f::UnitY());
   }
-  const SignerModel signer = model_of(motion);
+  const SignerModel signer = plain_model_of(motion);
   std::vector<Joint> joints(straight->joints().begin(), straight->joints().end());
   for (Joint& one : joints) {
     if (one.name.find("ForeArm") != std::string::npos || one.name.ends_with("Hand")) one.offset *= 0.85f;
@@ -185,7 +185,7 @@ TEST(Retarget, HandsStayOutOfTheChest) {
     pose.rotations[joint(*skeleton, "LeftForeArm")] = upper.conjugate() * lower;
   }
   const Character character = character_of(skeleton);
-  const Motion made = retarget(motion, model_of(motion), character).motion;
+  const Motion made = retarget(motion, plain_model_of(motion), character).motion;
   const RigAxes axes(*skeleton, character.rig);
   BodySurface surface(character, axes);
   float deepest = 0;
@@ -225,13 +225,13 @@ TEST(Retarget, CollarBonesGoAlongWhereTheSourcesDoNotMove) {
                     pose.positions[joint(*skeleton, name + "Shoulder")])
         .normalized();
   };
-  Motion made = retarget(motion, model_of(motion), character).motion;
+  Motion made = retarget(motion, plain_model_of(motion), character).motion;
   EXPECT_LT(bone(made, 0, "Left").y(), 0.02f);
   EXPECT_GT(bone(made, 1, "Left").y(), std::sin(15 * kDegree));
   EXPECT_GT(bone(made, 1, "Right").z(), std::sin(10 * kDegree));
   // A source whose collar bones move tells what they do.
   motion.pose(0).rotations[joint(*skeleton, "LeftShoulder")] = AngleAxisf(0.1f, Vector3f::UnitZ());
-  made = retarget(motion, model_of(motion), character).motion;
+  made = retarget(motion, plain_model_of(motion), character).motion;
   EXPECT_NEAR(bone(made, 0, "Left").y(), std::sin(0.1f), 0.005f);
   EXPECT_NEAR(bone(made, 1, "Left").y(), 0, 0.005f);
 }
@@ -300,7 +300,7 @@ TEST(Retarget, FingersKeepToTheirLimits) {
     for (CharacterFinger& finger : hand.fingers) finger.flexion[0] = {-0.1f, 0.6f};
   }
   const Motion motion = signing(skeleton);
-  const Motion made = retarget(motion, model_of(motion), character).motion;
+  const Motion made = retarget(motion, plain_model_of(motion), character).motion;
   const CharacterFinger& index = character.hands[0].fingers[1];
   float most = 0;
   for (std::int64_t frame = 0; frame < made.frame_count(); ++frame) {
@@ -313,7 +313,7 @@ TEST(Retarget, FingersKeepToTheirLimits) {
 TEST(Retarget, WhatIsMissingStaysAtRestAndIsTold) {
   const Character character = character_of(whole_person());
   const Motion motion = signing(whole_person(1, false));
-  const Retargeted made = retarget(motion, model_of(motion), character);
+  const Retargeted made = retarget(motion, plain_model_of(motion), character);
   std::string text;
   for (const Notice& notice : made.notices) text += notice.text + '\n';
   EXPECT_THAT(text, testing::HasSubstr("no left index finger: it stays at rest"));
@@ -324,7 +324,7 @@ TEST(Retarget, WhatIsMissingStaysAtRestAndIsTold) {
 TEST(Retarget, NumbersThatAreNoneGiveTheRest) {
   const Character character = character_of(whole_person());
   Motion motion = signing(whole_person(), 3);
-  const SignerModel signer = model_of(motion);
+  const SignerModel signer = plain_model_of(motion);
   motion.pose(1).rotations[4].w() = std::numeric_limits<float>::quiet_NaN();
   const Motion made = retarget(motion, signer, character).motion;
   for (const Quaternionf& turn : made.rotations()) {
@@ -336,7 +336,7 @@ TEST(Retarget, NumbersThatAreNoneGiveTheRest) {
 TEST(Retarget, TracksPassByName) {
   Motion motion = signing(whole_person(), 2);
   motion.add_track({"jawOpen", {0.25f, 0.5f}});
-  const Motion made = retarget(motion, model_of(motion), character_of(whole_person())).motion;
+  const Motion made = retarget(motion, plain_model_of(motion), character_of(whole_person())).motion;
   EXPECT_EQ(made.tracks(), motion.tracks());
 }
 

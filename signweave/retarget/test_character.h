@@ -79,7 +79,7 @@ inline Character character_of(std::shared_ptr<const Skeleton> skeleton) {
 }
 
 /// The model of a motion of such a skeleton.
-inline SignerModel model_of(const Motion& motion) {
+inline SignerModel plain_model_of(const Motion& motion) {
   SignerModel model{.rig = rig_of_signer(motion.skeleton()), .body = {}};
   model.body = signer_body(motion, model.rig);
   return model;

@@ -20,9 +20,9 @@ struct Laid {
   std::int64_t retraction = 0;  ///< output frames after it
 
   // Known once the transitions are cut.
-  std::int64_t before = 0;  ///< frames of the preparation that are used
-  std::int64_t after = 0;   ///< frames of the retraction that are used
-  std::int64_t core = 0;    ///< output frame of the core's first frame
+  std::int64_t before = 0;                  ///< frames of the preparation that are used
+  std::int64_t after = 0;                   ///< frames of the retraction that are used
+  std::int64_t core = 0;                    ///< output frame of the core's first frame
   std::optional<GroundTransform> standing;  ///< how it is brought to where the signer stands; none: it is there
 
   std::int64_t begin() const noexcept { return core - before; }             ///< its first output frame

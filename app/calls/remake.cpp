@@ -8,8 +8,8 @@
 
 #include "signweave/choose/captured_spans.h"
 #include "signweave/core/text.h"
-#include "signweave/evaluation/regenerate.h"
 #include "signweave/features/from_source.h"
+#include "signweave/render/render.h"
 
 namespace signweave::calls {
 namespace {
@@ -40,12 +40,6 @@ std::string text_of(TimeSpan span) {
   return fmt::format("{}..{}", span.begin.count(), span.end.count());
 }
 
-/// The frames of a recording in which a gap lies, as far as a method looks, and as far as nothing else is cut out.
-struct Window {
-  Motion motion;
-  FrameRange frames;  ///< of the recording
-};
-
 /// Joints and translations that are wanted, by their place in a pose.
 struct Wanted {
   std::vector<std::size_t> rotations, translations;
@@ -62,12 +56,6 @@ Wanted wanted_of(const Skeleton& skeleton, const JointSet& joints) {
     if (is_wanted(moved[i])) wanted.translations.push_back(i);
   }
   return wanted;
-}
-
-void read(const MotionSource& source, FrameRange frames, Window& window) {
-  window.frames = frames;
-  window.motion.reset(source.skeleton(), source.rate(), frames.size());
-  source.read(frames, window.motion.poses({0, frames.size()}));
 }
 
 }  // namespace
@@ -105,50 +93,49 @@ std::vector<FrameRange> gaps_of(std::span<const std::string> spans, const Record
 }
 
 void remake(const Snapshot& snapshot, const RemakeJob& job, Motion& motion, std::vector<Notice>& notices) {
-  const std::unique_ptr<MotionSource> source = snapshot.motion(job.info);
-  const Skeleton& skeleton = *source->skeleton();
+  const std::shared_ptr<const MotionSource> source = snapshot.motion(job.info);
   if (motion.frame_count() != job.shown.size() || source->frame_count() < job.shown.end ||
-      difference(motion.skeleton(), skeleton)) {
+      difference(motion.skeleton(), *source->skeleton())) {
     throw Error(ErrorCode::conflict, fmt::format("'{}' was replaced meanwhile: ask again", job.info.name));
   }
-  const SignerModel signer = model_of(*source, job.info.rig);
-  const JointGroups groups = joint_groups(skeleton, signer.rig);
+  SignerModel signer = model_of(*source, job.info.rig);
+  JointGroups groups = joint_groups(*source->skeleton(), signer.rig);
+  const SignerRig rig{std::move(signer), std::move(groups)};
   const GapMethod& fill = *job.method.fill;
   CapturedSpans captured;
   if (fill.needs == Needs::spans) {
-    captured = captured_spans(snapshot, skeleton, groups, fill.needs, job.info.name);
+    captured = captured_spans(snapshot, *source->skeleton(), rig.groups, fill.needs, job.info.name);
     if (captured.transitions == 0) {
       notices.push_back({"", fmt::format("no annotated transition of this skeleton in another recording of this "
                                          "database: '{}' goes by none, and makes the likeliest way",
                                          job.method.name)});
     }
   }
-  const TransitionModel& model = captured.model ? *captured.model : default_transition_model();
-  const Wanted wanted = wanted_of(skeleton, job.joints);
+  const FrameRange all{0, source->frame_count()};
+  const std::vector<Stretch> stretches = stretches_beside(
+      job.gaps, {.recording = job.info.name, .source = source, .whole = all, .core = all, .clock = job.info.clock});
+  std::vector<std::int64_t> counts;
+  for (const FrameRange& gap : job.gaps) counts.push_back(gap.size());
+  Renderer renderer(plan_with_gaps(stretches, counts), {.skeleton = source->skeleton(),
+                                                        .rate = source->rate(),
+                                                        .method = &job.method,
+                                                        .rig = &rig,
+                                                        .model = captured.model.get()});
+  const Wanted wanted = wanted_of(*source->skeleton(), job.joints);
   std::vector<ScalarTrack> tracks = motion.take_tracks();
-  BodyGuard guard(skeleton, signer, groups);
-  Regenerator regenerator;
-  Window window;
-  const auto context = static_cast<std::int64_t>(std::ceil(kContext.count() * source->rate().hertz())) + 2;
-  for (std::size_t i = 0; i < job.gaps.size(); ++i) {
-    const FrameRange gap = job.gaps[i];
-    const std::int64_t captured_from = i == 0 ? 0 : job.gaps[i - 1].end;
-    const std::int64_t captured_to = i + 1 < job.gaps.size() ? job.gaps[i + 1].begin : source->frame_count();
-    read(*source, {std::max(captured_from, gap.begin - context), std::min(captured_to, gap.end + context)}, window);
-    const FrameRange here{gap.begin - window.frames.begin, gap.end - window.frames.begin};
-    const Regenerator::Made made =
-        regenerator.make(fill, gap_at(window.motion, groups, here, gap.size()), model, &guard);
+  Motion made;
+  for (const FrameRange& gap : job.gaps) {
+    renderer.render(gap, made);
+    const std::int64_t first = gap.begin - job.shown.begin;
     for (std::int64_t frame = 0; frame < gap.size(); ++frame) {
-      const PoseView from = made.poses.pose(frame);
-      const MutablePoseView to = motion.pose(gap.begin - job.shown.begin + frame);
+      const PoseView from = std::as_const(made).pose(frame);
+      const MutablePoseView to = motion.pose(first + frame);
       for (const std::size_t joint : wanted.rotations) to.rotations[joint] = from.rotations[joint];
       for (const std::size_t moved : wanted.translations) to.translations[moved] = from.translations[moved];
     }
     for (ScalarTrack& track : tracks) {
-      const std::span<float> values(track.values);
-      const auto begin = static_cast<std::size_t>(gap.begin - job.shown.begin);
-      const auto count = static_cast<std::size_t>(gap.size());
-      go_over(values[begin - 1], values[begin + count], values.subspan(begin, count));
+      const auto at = std::ranges::find(made.tracks(), track.name, &ScalarTrack::name);
+      std::ranges::copy(at->values, track.values.begin() + first);
     }
   }
   for (ScalarTrack& track : tracks) motion.add_track(std::move(track));

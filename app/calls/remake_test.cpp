@@ -131,15 +131,16 @@ TEST_P(Remake, MakesWhatTheEvaluationMakes) {
   Motion motion = database().read(name);
   const RigMap rig = map_rig(motion);
   const EvaluatedMotion whole = evaluated_motion(name, std::move(motion), rig, {}, contents->at(name).clock);
-  BodyGuard guard(whole.motion.skeleton(), whole.signer, whole.groups);
+  const SignerRig rig_of_whole{whole.signer, whole.groups};
   const TransitionMethod& method = *find_transition_method(GetParam());
   const CapturedSpans others =
       captured_spans(database().snapshot(), whole.motion.skeleton(), whole.groups, method.fill->needs, name);
   const FrameRange gap{100, 140};
-  Regenerator regenerator;
-  const Regenerator::Made expected =
-      regenerator.make(*method.fill, gap_at(whole.motion, whole.groups, gap, gap.size()),
-                       method.fill->needs == Needs::spans ? *others.model : default_transition_model(), &guard);
+  Regenerator regenerator({.skeleton = whole.motion.shared_skeleton(),
+                           .rate = whole.motion.rate(),
+                           .rig = &rig_of_whole,
+                           .model = method.fill->needs == Needs::spans ? others.model.get() : nullptr});
+  const Regenerator::Made expected = regenerator.make(*method.fill, {whole.motion, gap, gap.size()});
   // What is exported need not hold all that the method looks at.
   for (const auto& [from, to] : {std::pair<std::int64_t, std::int64_t>{500, 3500}, {1470, 1930}}) {
     const Exported made = exported({.from = from, .to = to, .remake = {"1500..1900"}, .transition = GetParam()});
@@ -166,12 +167,10 @@ TEST(RemakeOf, OneSpanSeesNothingOfWhatAnotherCutsOut) {
   const Motion until = database().read("one", {0, 145});
   const Motion whole = database().read("one");
   const SignerModel signer = model_of(whole);
-  const JointGroups groups = joint_groups(until.skeleton(), signer.rig);
-  BodyGuard guard(until.skeleton(), signer, groups);
-  Regenerator regenerator;
+  const SignerRig rig{signer, joint_groups(until.skeleton(), signer.rig)};
+  Regenerator regenerator({.skeleton = whole.shared_skeleton(), .rate = whole.rate(), .rig = &rig});
   const auto make = [&](const Motion& motion) {
-    return regenerator.make(*find_gap_method("hermite"), gap_at(motion, groups, {120, 140}, 20),
-                            default_transition_model(), &guard);
+    return regenerator.make(*find_gap_method("hermite"), {motion, {120, 140}, 20});
   };
   const Regenerator::Made expected = make(until);
   for (std::int64_t frame = 0; frame < 20; ++frame) {

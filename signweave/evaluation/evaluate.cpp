@@ -21,9 +21,14 @@ SpansOf by_recording(std::span<const EvaluatedSpan> spans) {
   return of;
 }
 
+/// What the frames beside spans are taken from.
+const Motion& seen_of(const EvaluatedMotion& recording) {
+  return recording.shaken ? *recording.shaken : recording.motion;
+}
+
 Gap gap_of(std::span<const EvaluatedMotion> recordings, const EvaluatedSpan& span, std::int64_t count) {
   const EvaluatedMotion& recording = recordings[span.recording];
-  Gap gap = gap_at(recording.shaken ? *recording.shaken : recording.motion, recording.groups, span.frames, count);
+  Gap gap = gap_at(seen_of(recording), recording.groups, span.frames, count);
   gap.noise_before = gap.noise_after = &recording.noise;
   return gap;
 }
@@ -48,7 +53,6 @@ std::vector<MethodScores> make_all(std::span<const EvaluatedMotion> recordings, 
     scores[m].name = methods[m]->name;
     scores[m].spans.resize(spans.size());
   }
-  Regenerator regenerator;
   std::size_t done = 0;
   std::shared_ptr<const TransitionModel> model;
   std::optional<std::size_t> left_out;  // of the model
@@ -58,12 +62,16 @@ std::vector<MethodScores> make_all(std::span<const EvaluatedMotion> recordings, 
       model = trainer.model_without(*left_out);
     }
     Comparison comparison(recordings[index]);
-    BodyGuard guard(recordings[index].motion.skeleton(), recordings[index].signer, recordings[index].groups);
+    const EvaluatedMotion& recording = recordings[index];
+    const SignerRig rig{recording.signer, recording.groups};
+    Regenerator regenerator({.skeleton = recording.motion.shared_skeleton(),
+                             .rate = recording.motion.rate(),
+                             .rig = &rig,
+                             .model = model.get()});
     for (const std::size_t i : of_recording) {
-      const Gap gap = gap_of(recordings, spans[i], count_of(i));
+      const CutOut cut{seen_of(recording), spans[i].frames, count_of(i), &recording.noise};
       for (std::size_t m = 0; m < methods.size(); ++m) {
-        const Regenerator::Made made =
-            regenerator.make(*methods[m], gap, *model, methods[m]->offered == Offered::signing ? &guard : nullptr);
+        const Regenerator::Made made = regenerator.make(*methods[m], cut);
         scores[m].spans[i] = comparison.compare(spans[i], made.poses);
         add_made(made, scores[m].spans[i]);
       }

@@ -117,10 +117,11 @@ void spill(const GapJob& job, MutablePoses out) noexcept {
 TEST(Regenerator, AMethodThatWritesPastTheGapIsCaught) {
   const EvaluatedMotion recording = lively("a", 0.1);
   const GapMethod method{"spill", "", Offered::evaluation, Needs::nothing, spill};
-  const Gap gap = gap_at(recording.motion, recording.groups, {100, 120}, 20);
-  Regenerator regenerator;
-  EXPECT_EQ(regenerator.make(method, gap, default_transition_model()).changed, 1);
-  EXPECT_EQ(regenerator.make(gap_methods()[0], gap, default_transition_model()).changed, 0);
+  const SignerRig rig{recording.signer, recording.groups};
+  Regenerator regenerator(
+      {.skeleton = recording.motion.shared_skeleton(), .rate = recording.motion.rate(), .rig = &rig});
+  EXPECT_EQ(regenerator.make(method, {recording.motion, {100, 120}, 20}).changed, 1);
+  EXPECT_EQ(regenerator.make(gap_methods()[0], {recording.motion, {100, 120}, 20}).changed, 0);
 }
 
 TEST(Evaluate, TwoRunsGiveTheSameBitsButForTheTimeTheyTook) {
@@ -144,10 +145,12 @@ TEST(Evaluate, TwoRunsGiveTheSameBitsButForTheTimeTheyTook) {
 /// What every method makes of a gap with a model.
 std::vector<float> made_by_all(const EvaluatedMotion& recording, FrameRange frames, const TransitionModel& model) {
   std::vector<float> numbers;
-  Regenerator regenerator;
+  const SignerRig rig{recording.signer, recording.groups};
+  Regenerator regenerator(
+      {.skeleton = recording.motion.shared_skeleton(), .rate = recording.motion.rate(), .rig = &rig, .model = &model});
   for (const GapMethod& method : gap_methods()) {
-    const Gap gap = gap_at(recording.motion, recording.groups, frames, frames.size());
-    for (const Eigen::Quaternionf& turn : regenerator.make(method, gap, model).poses.rotations) {
+    for (const Eigen::Quaternionf& turn :
+         regenerator.make(method, {recording.motion, frames, frames.size()}).poses.rotations) {
       numbers.insert(numbers.end(), turn.coeffs().begin(), turn.coeffs().end());
     }
   }
@@ -177,7 +180,6 @@ TEST(Purging, EverySpanIsMadeWithTheModelWithoutItsRecording) {
   const std::vector<MethodScores> scores = evaluate_given(recordings, spans, all_methods());
   const TransitionTrainer trainer = train(recordings, spans, folds_of(recordings));
   const auto all = trainer.model();
-  Regenerator regenerator;
   bool tells = false;
   for (std::size_t i = 0; i < spans.size(); i += 7) {
     const EvaluatedMotion& recording = recordings[spans[i].recording];
@@ -185,9 +187,13 @@ TEST(Purging, EverySpanIsMadeWithTheModelWithoutItsRecording) {
     Comparison comparison(recording);
     for (std::size_t m = 0; m < scores.size(); ++m) {
       const auto wrist = [&](const TransitionModel& model) {
-        const Gap gap = gap_at(recording.motion, recording.groups, spans[i].frames, spans[i].frames.size());
-        return score(comparison.compare(spans[i], regenerator.make(*all_methods()[m], gap, model).poses),
-                     Measure::wrist);
+        const SignerRig rig{recording.signer, recording.groups};
+        Regenerator regenerator({.skeleton = recording.motion.shared_skeleton(),
+                                 .rate = recording.motion.rate(),
+                                 .rig = &rig,
+                                 .model = &model});
+        const CutOut cut{recording.motion, spans[i].frames, spans[i].frames.size(), &recording.noise};
+        return score(comparison.compare(spans[i], regenerator.make(*all_methods()[m], cut).poses), Measure::wrist);
       };
       EXPECT_EQ(score(scores[m].spans[i], Measure::wrist), wrist(*without)) << scores[m].name;
       tells = tells || wrist(*all) != wrist(*without);

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <ctime>
+#include <memory>
+#include <utility>
+
+#include "signweave/render/plan.h"
+#include "signweave/render/window.h"
 
 namespace signweave {
 namespace {
@@ -15,9 +19,14 @@ double microseconds_of_thread() {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-/// The frame of a side, or its outermost one where it has fewer.
-std::int64_t nearest(std::int64_t frame, std::int64_t frames) {
-  return std::clamp<std::int64_t>(frame, 0, frames - 1);
+/// The same rotation of every joint, to the bit but for signs, and the same translations.
+bool same_but_signs(PoseView a, PoseView b) {
+  for (std::size_t joint = 0; joint < a.rotations.size(); ++joint) {
+    const auto& one = a.rotations[joint].coeffs();
+    const auto& other = b.rotations[joint].coeffs();
+    if (one != other && one != -other) return false;
+  }
+  return std::ranges::equal(a.translations, b.translations);
 }
 
 }  // namespace
@@ -32,47 +41,37 @@ Gap gap_at(const Motion& motion, const JointGroups& groups, FrameRange frames, s
           .count = count};
 }
 
-Regenerator::Made Regenerator::make(const GapMethod& method, const Gap& gap, const TransitionModel& model,
-                                    BodyGuard* guard) {
-  const std::size_t joints = gap.before.joints();
-  const std::size_t moved = gap.before.moved();
-  const auto all = static_cast<std::size_t>(gap.count + 2 * kGuard);
-  rotations_.resize(all * joints);
-  translations_.resize(all * moved);
-  // The gap lies between captured frames here as in a motion, so that what is written past it is seen.
-  const auto beside = [&](std::int64_t i) {
-    return i < kGuard ? gap.before.pose(nearest(gap.before.frames - kGuard + i, gap.before.frames))
-                      : gap.after.pose(nearest(i - kGuard, gap.after.frames));
-  };
-  const auto place = [&](std::int64_t i) { return static_cast<std::size_t>(i < kGuard ? i : gap.count + i); };
-  for (std::int64_t i = 0; i < 2 * kGuard; ++i) {
-    const PoseView pose = beside(i);
-    std::copy(pose.rotations.begin(), pose.rotations.end(),
-              rotations_.begin() + static_cast<std::ptrdiff_t>(place(i) * joints));
-    std::copy(pose.translations.begin(), pose.translations.end(),
-              translations_.begin() + static_cast<std::ptrdiff_t>(place(i) * moved));
-  }
-  const std::size_t first = static_cast<std::size_t>(kGuard);
-  const auto frames = static_cast<std::size_t>(gap.count);
-  // What a method leaves out is seen as well: nothing of the gap before is left here.
-  std::fill_n(rotations_.begin() + static_cast<std::ptrdiff_t>(first * joints), frames * joints,
-              Eigen::Quaternionf::Identity());
-  std::fill_n(translations_.begin() + static_cast<std::ptrdiff_t>(first * moved), frames * moved,
-              Eigen::Vector3f::Zero());
-  const MutablePoses out{std::span(rotations_).subspan(first * joints, frames * joints),
-                         std::span(translations_).subspan(first * moved, frames * moved)};
+Regenerator::Made Regenerator::make(const GapMethod& method, const CutOut& cut) {
+  const TransitionMethod by{.name = method.name, .description = {}, .cut = nullptr, .fill = &method};
+  const Stretch whole{.recording = {},
+                      .source = std::make_shared<BorrowedSource>(cut.motion),
+                      .whole = {0, cut.motion.frame_count()},
+                      .core = {0, cut.motion.frame_count()},
+                      .clock = {cut.motion.rate().frame_time(), Seconds(0)},
+                      .signs = {},
+                      .junction = {.method = &by},
+                      .noise = {std::shared_ptr<void>(), cut.noise}};
+  const std::vector<Stretch> stretches = stretches_beside({&cut.frames, 1}, whole);
+  const Plan plan = plan_with_gaps(stretches, {&cut.count, 1});
+  const FrameRange gap{cut.frames.begin, cut.frames.begin + cut.count};
+  const std::int64_t beside = std::max(filler_.context(), kGuard);
+  const FrameRange all{std::max<std::int64_t>(0, gap.begin - beside), std::min(plan.frames, gap.end + beside)};
+  window_.reset(cut.motion.shared_skeleton(), cut.motion.rate(), all.size());
+  const OutputWindow window{window_, all.begin};
+  // What a method leaves out is seen: nothing of the gap before is left here.
+  const MutablePoses out = window.poses(gap);
+  std::ranges::fill(out.rotations, Eigen::Quaternionf::Identity());
+  std::ranges::fill(out.translations, Eigen::Vector3f::Zero());
+  fetch(plan.laid, window);
   const double begin = microseconds_of_thread();
-  method.fill({.gap = gap, .model = model, .groups = GroupSet::all(), .scratch = scratch_}, out);
-  if (guard != nullptr) guard->mend(gap, GroupSet::all(), out);
-  const double took = microseconds_of_thread() - begin;
+  join({.clips = plan.laid, .cuts = plan.cuts}, filler_, window, scratch_);
 
-  Made made{.poses = {out.rotations, out.translations, gap.count}, .microseconds = took};
-  for (std::int64_t i = 0; i < 2 * kGuard; ++i) {
-    const PoseView pose = beside(i);
-    const auto same = [](const auto& a, const auto* b) { return std::memcmp(a.data(), b, a.size_bytes()) == 0; };
-    if (!same(pose.rotations, rotations_.data() + place(i) * joints) ||
-        (moved > 0 && !same(pose.translations, translations_.data() + place(i) * moved))) {
-      ++made.changed;
+  Made made{.poses = window.view(gap), .microseconds = microseconds_of_thread() - begin};
+  for (std::int64_t i = 1; i <= kGuard; ++i) {
+    for (const auto& [frame, captured] :
+         {std::pair{gap.begin - i, cut.frames.begin - i}, {gap.end + i - 1, cut.frames.end + i - 1}}) {
+      if (frame < 0 || frame >= plan.frames) continue;
+      if (!same_but_signs(window.pose(frame), cut.motion.pose(captured))) ++made.changed;
     }
   }
   return made;

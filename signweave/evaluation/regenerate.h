@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "signweave/core/time.h"
+#include "signweave/features/capture_noise.h"
 #include "signweave/motion/motion.h"
-#include "signweave/transition/body_guard.h"
+#include "signweave/render/junction.h"
 #include "signweave/transition/method.h"
 
 namespace signweave {
@@ -14,23 +15,34 @@ namespace signweave {
 /// as far as kContext and the motion go. Borrowed from the motion. At least one frame must lie on either side.
 Gap gap_at(const Motion& motion, const JointGroups& groups, FrameRange frames, std::int64_t count);
 
-/// Makes gaps anew, one after the other, in memory that is used again.
+/// Frames that are cut out of a motion, and made anew. Borrowed.
+struct CutOut {
+  const Motion& motion;    ///< neighbours in one hemisphere
+  FrameRange frames;       ///< at least one frame lies on either side
+  std::int64_t count = 0;  ///< that are made in their place
+  const CaptureNoise* noise = nullptr;
+};
+
+/// Makes gaps anew, one after the other, in memory that is used again: each as the one made gap of a score, by what
+/// renders scores.
 class Regenerator {
  public:
+  /// What the settings point to must outlive it; their method is not looked at.
+  explicit Regenerator(const JunctionSettings& settings) : filler_(settings) {}
+
   struct Made {
     PosesView poses;           ///< borrowed until the next call
-    std::int64_t changed = 0;  ///< frames beside the gap that the method wrote to, of kGuard on either side
-    double microseconds = 0;   ///< that the method took
+    std::int64_t changed = 0;  ///< frames beside the gap that were written to, of kGuard on either side
+    double microseconds = 0;   ///< that making them took
   };
-  /// With a guard as `sign` has it: hands that a method leads through the body are led around it.
-  Made make(const GapMethod& method, const Gap& gap, const TransitionModel& model, BodyGuard* guard = nullptr);
+  Made make(const GapMethod& method, const CutOut& cut);
 
   static constexpr std::int64_t kGuard = 4;
 
  private:
-  GapScratch scratch_;
-  std::vector<Eigen::Quaternionf> rotations_;
-  std::vector<Eigen::Vector3f> translations_;
+  JunctionFiller filler_;
+  JunctionScratch scratch_;
+  Motion window_;
 };
 
 }  // namespace signweave

@@ -177,7 +177,6 @@ std::vector<MethodScores> evaluate_replaced(std::span<const EvaluatedMotion> rec
     scores[m].name = methods[m]->name;
     scores[m].spans.resize(spans.size());
   }
-  Regenerator regenerator;
   std::shared_ptr<const TransitionModel> model;
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const ReplacedSpan& replaced = spans[i];
@@ -189,14 +188,14 @@ std::vector<MethodScores> evaluate_replaced(std::span<const EvaluatedMotion> rec
     const std::int64_t context = std::llround(std::ceil(kContext.count() * rate.hertz())) + 1;
     const std::int64_t margin = std::max<std::int64_t>(2, std::llround(0.1 * rate.hertz()));
     Joined joined = join(recording, recordings[replaced.source], replaced, context);
-    const Gap gap = gap_at(joined.motion, recording.groups, joined.gap, joined.gap.size());
+    const SignerRig rig{recording.signer, recording.groups};
+    Regenerator regenerator(
+        {.skeleton = joined.motion.shared_skeleton(), .rate = rate, .rig = &rig, .model = model.get()});
     HandTracker tracker(joined.motion.skeleton(), recording.signer);
     WristMeter meter(rate);
-    BodyGuard guard(joined.motion.skeleton(), recording.signer, recording.groups);
     HandTracks tracks;
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      const Regenerator::Made made =
-          regenerator.make(*methods[m], gap, *model, methods[m]->offered == Offered::signing ? &guard : nullptr);
+      const Regenerator::Made made = regenerator.make(*methods[m], {joined.motion, joined.gap, joined.gap.size()});
       const MutablePoses place = joined.motion.poses(joined.gap);
       std::copy(made.poses.rotations.begin(), made.poses.rotations.end(), place.rotations.begin());
       std::copy(made.poses.translations.begin(), made.poses.translations.end(), place.translations.begin());

@@ -5,12 +5,15 @@
 
 namespace signweave {
 
-MemorySource::MemorySource(Motion motion) : motion_(std::move(motion)) {
-  if (!keeps_hemisphere(motion_)) keep_hemisphere(motion_);
+BorrowedSource::BorrowedSource(const Motion& motion) : motion_(motion) {
   for (const ScalarTrack& track : motion_.tracks()) tracks_.push_back(track.name);
 }
 
-void MemorySource::read(FrameRange frames, MutablePoses out) const {
+MemorySource::MemorySource(Motion motion) : motion_(std::move(motion)), borrowed_(motion_) {
+  if (!keeps_hemisphere(motion_)) keep_hemisphere(motion_);
+}
+
+void BorrowedSource::read(FrameRange frames, MutablePoses out) const {
   assert(frames.begin >= 0 && frames.end <= motion_.frame_count());
   const auto at = static_cast<std::size_t>(frames.begin);
   const std::size_t joints = motion_.skeleton().joint_count();
@@ -19,7 +22,7 @@ void MemorySource::read(FrameRange frames, MutablePoses out) const {
   std::ranges::copy(motion_.translations().subspan(at * moved, out.translations.size()), out.translations.begin());
 }
 
-void MemorySource::read_tracks(FrameRange frames, std::span<const std::span<float>> out) const {
+void BorrowedSource::read_tracks(FrameRange frames, std::span<const std::span<float>> out) const {
   for (std::size_t track = 0; track < out.size(); ++track) {
     if (out[track].empty()) continue;
     const std::vector<float>& values = motion_.tracks()[track].values;

@@ -31,13 +31,12 @@ class MotionSource {
   virtual void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const = 0;
 };
 
-/// A motion in memory.
-class MemorySource : public MotionSource {
+/// A motion in memory that somebody else keeps, and that has its neighbours in one hemisphere.
+class BorrowedSource : public MotionSource {
  public:
-  /// Turns the signs of quaternions that leave their hemisphere.
-  explicit MemorySource(Motion motion);
+  /// The motion must outlive it, and stay as it is.
+  explicit BorrowedSource(const Motion& motion);
 
-  const Motion& motion() const noexcept { return motion_; }
   const std::shared_ptr<const Skeleton>& skeleton() const noexcept override { return motion_.shared_skeleton(); }
   FrameRate rate() const noexcept override { return motion_.rate(); }
   std::int64_t frame_count() const noexcept override { return motion_.frame_count(); }
@@ -46,8 +45,31 @@ class MemorySource : public MotionSource {
   void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const override;
 
  private:
-  Motion motion_;
+  const Motion& motion_;
   std::vector<std::string> tracks_;
+};
+
+/// A motion in memory.
+class MemorySource : public MotionSource {
+ public:
+  /// Turns the signs of quaternions that leave their hemisphere.
+  explicit MemorySource(Motion motion);
+  MemorySource(const MemorySource&) = delete;
+  MemorySource& operator=(const MemorySource&) = delete;
+
+  const Motion& motion() const noexcept { return motion_; }
+  const std::shared_ptr<const Skeleton>& skeleton() const noexcept override { return borrowed_.skeleton(); }
+  FrameRate rate() const noexcept override { return borrowed_.rate(); }
+  std::int64_t frame_count() const noexcept override { return borrowed_.frame_count(); }
+  std::span<const std::string> tracks() const noexcept override { return borrowed_.tracks(); }
+  void read(FrameRange frames, MutablePoses out) const override { borrowed_.read(frames, out); }
+  void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const override {
+    borrowed_.read_tracks(frames, out);
+  }
+
+ private:
+  Motion motion_;
+  BorrowedSource borrowed_;  ///< of it
 };
 
 }  // namespace signweave

@@ -6,14 +6,6 @@
 #include "signweave/motion/blend.h"
 
 namespace signweave {
-namespace {
-
-std::int64_t frames_in(Seconds time, FrameRate rate) {
-  return std::llround(time.count() * rate.hertz());
-}
-
-}  // namespace
-
 const TransitionMethod& method_of(const JunctionSettings& settings, const Laid& laid) noexcept {
   const TransitionMethod* const own = laid.stretch->junction.method;
   return own != nullptr ? *own : *settings.method;
@@ -27,7 +19,7 @@ std::int64_t JunctionFiller::shared(const Laid& a, const Laid& b) noexcept {
 }
 
 std::int64_t JunctionFiller::context() const noexcept {
-  return std::max<std::int64_t>(1, frames_in(kContext, settings_.rate));
+  return static_cast<std::int64_t>(std::ceil(kContext.count() * settings_.rate.hertz() - 1e-6)) + 1;
 }
 
 void JunctionFiller::fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window,
@@ -46,6 +38,7 @@ void JunctionFiller::fill(const Laid& a, const Laid& b, const TransitionCuts& cu
     if (gap.empty()) continue;
     fill_gap(a, b, gap, as_one ? GroupSet::all() : groups_of(kAllTimed[part]), cuts[part], window, scratch.gap);
   }
+  if (method_of(settings_, b).fill->offered != Offered::signing) return;  // shown as it is
   for (const Timed part : {Timed::left, Timed::right}) {
     const TransitionCut& cut = cuts[static_cast<std::size_t>(part)];
     const FrameRange made{a.core_end() + cut.kept_after(), b.core - cut.kept_before()};

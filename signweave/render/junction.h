@@ -69,7 +69,8 @@ class JunctionFiller {
 
   /// The transition: Algorithm 1, lines 3 to 6. The window has what both sides keep of it already, and of both cores
   /// `context()` frames or all; the frames that they share are there as a's, and in `scratch.shared` as b's.
-  /// Quaternions of b in the window may be turned to their negatives.
+  /// Quaternions of b in the window may be turned to their negatives. Arms that were made are kept within what a body
+  /// can do (see BodyGuard), but where the method is offered for evaluation alone.
   void fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, JunctionScratch& scratch);
 
  private:

@@ -140,6 +140,32 @@ Plan plan_of(const Score& score, const std::vector<Stretch>& stretches) {
   return plan;
 }
 
+std::vector<Stretch> stretches_beside(std::span<const FrameRange> gaps, const Stretch& motion) {
+  std::vector<Stretch> stretches;
+  std::int64_t begin = motion.core.begin;
+  for (std::size_t i = 0; i <= gaps.size(); ++i) {
+    Stretch& stretch = stretches.emplace_back(motion);
+    stretch.core = stretch.whole = {begin, i < gaps.size() ? gaps[i].begin : motion.core.end};
+    if (i < gaps.size()) begin = gaps[i].end;
+  }
+  return stretches;
+}
+
+Plan plan_with_gaps(const std::vector<Stretch>& stretches, std::span<const std::int64_t> counts) {
+  Plan plan;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    Laid& laid = plan.laid.emplace_back(lay_by_step(stretches[i], 1));
+    laid.core = plan.frames;
+    plan.frames = laid.core_end();
+    if (i == counts.size()) break;
+    const TransitionCut cut{.length = counts[i]};
+    JunctionCuts& cuts = plan.cuts.emplace_back(JunctionCuts{.parts = {}, .tracks = cut});
+    cuts.parts.fill(cut);
+    plan.frames += cut.length;
+  }
+  return plan;
+}
+
 Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton) {
   Score score{
       .skeleton = skeleton, .rate = settings.rate, .frames = plan.frames, .clips = {}, .junctions = {}, .lanes = {}};

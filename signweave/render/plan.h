@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,12 @@ std::vector<Stretch> stretches_of(const Score& score, const FindSource& find);
 /// What a score says of its stretches, which stretches_of or the score's maker has. `stretches` must outlive it. Throws
 /// Error{bad_input} where more frames are shown than were captured, or lanes do not lie where their cuts put them.
 Plan plan_of(const Score& score, const std::vector<Stretch>& stretches);
+
+/// A motion in which frames are to be made: what is captured before each gap and after the last one. The gaps are
+/// sorted, within `motion`, and at least one frame lies before, between and after them.
+std::vector<Stretch> stretches_beside(std::span<const FrameRange> gaps, const Stretch& motion);
+/// The plan in which such stretches follow each other just as they are, with so many made frames between each two.
+Plan plan_with_gaps(const std::vector<Stretch>& stretches, std::span<const std::int64_t> counts);
 
 /// The score of a plan: it gives the plan back. Its clips name no place and its junctions are numbered in order.
 Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton);

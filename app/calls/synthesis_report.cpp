@@ -30,21 +30,27 @@ json describe(const Synthesis& synthesis) {
     }
     json sign = span_json(placed.sign.span);
     sign["gloss"] = placed.sign.gloss;
+    sign["place"] = placed.place;
+    sign["clip"] = placed.stretch;
     sign["recording"] = synthesis.stretches[placed.stretch].recording;
     sign["recorded"] = span_json(placed.recorded);
     sign["phases"] = std::move(phases);
     signs.push_back(std::move(sign));
   }
   json stretches = json::array();
-  for (const Placed& placed : synthesis.stretches) {
-    stretches.push_back({{"recording", placed.recording},
+  for (std::size_t i = 0; i < synthesis.stretches.size(); ++i) {
+    const Placed& placed = synthesis.stretches[i];
+    stretches.push_back({{"clip", i},
+                         {"place", synthesis.score.clips[i].place},
+                         {"recording", placed.recording},
                          {"frames", frames_json(placed.output)},
                          {"kept_frames", frames_json(placed.core)},
                          {"kept_from_recorded_frame", placed.first_frame},
                          {"recorded_frames_per_frame", placed.step}});
   }
   json junctions = json::array();
-  for (const Junction& junction : synthesis.junctions) {
+  for (std::size_t i = 0; i < synthesis.junctions.size(); ++i) {
+    const Junction& junction = synthesis.junctions[i];
     json parts = json::object();
     for (const Timed part : kAllTimed) {
       const TransitionCut& cut = junction.cuts[static_cast<std::size_t>(part)];
@@ -53,6 +59,9 @@ json describe(const Synthesis& synthesis) {
                                            {"waits", cut.waits}};
     }
     junctions.push_back({{"number", junction.number},
+                         {"place", synthesis.score.clips[i + 1].place},
+                         {"from_clip", i},
+                         {"to_clip", i + 1},
                          {"from", junction.from},
                          {"to", junction.to},
                          {"method", junction.method},

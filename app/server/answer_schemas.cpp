@@ -199,24 +199,31 @@ constexpr const char* kMadeAnswers = R"json({
     "begin_ms": {"type": "integer"}, "end_ms": {"type": "integer"}}},
   "Frames": {"type": "object", "required": ["begin", "end"], "properties": {
     "begin": {"type": "integer"}, "end": {"type": "integer", "description": "the one after the last"}}},
+  "PlaceId": {"type": "integer", "minimum": 0,
+    "description": "the first place of the utterance that it is of, counted from 0; of a junction the one after it"},
+  "ClipId": {"type": "integer", "minimum": 0, "description": "of the score's clips"},
   "Synthesis": {"type": "object",
     "required": ["frames", "frames_per_second", "signs", "stretches", "junctions", "timings", "declarations",
                  "notices"],
     "properties": {
       "frames": {"type": "integer"}, "frames_per_second": {"type": "number"},
       "signs": {"type": "array", "items": {"type": "object",
-        "required": ["gloss", "recording", "begin_ms", "end_ms", "recorded", "phases"], "properties": {
-          "gloss": {"type": "string"}, "recording": {"type": "string"}, "begin_ms": {"type": "integer"},
+        "required": ["gloss", "place", "clip", "recording", "begin_ms", "end_ms", "recorded", "phases"], "properties": {
+          "gloss": {"type": "string"}, "place": {"$ref": "#/components/schemas/PlaceId"},
+          "clip": {"$ref": "#/components/schemas/ClipId"}, "recording": {"type": "string"}, "begin_ms": {"type": "integer"},
           "end_ms": {"type": "integer"}, "recorded": {"$ref": "#/components/schemas/Span"},
           "phases": {"type": "array", "items": {"type": "object", "required": ["kind", "begin_ms", "end_ms"]}}}}},
-      "stretches": {"type": "array", "items": {"type": "object", "required": ["recording", "frames", "kept_frames",
-        "kept_from_recorded_frame", "recorded_frames_per_frame"], "properties": {
+      "stretches": {"type": "array", "items": {"type": "object", "required": ["clip", "place", "recording", "frames",
+        "kept_frames", "kept_from_recorded_frame", "recorded_frames_per_frame"], "properties": {
+          "clip": {"$ref": "#/components/schemas/ClipId"}, "place": {"$ref": "#/components/schemas/PlaceId"},
           "recording": {"type": "string"}, "frames": {"$ref": "#/components/schemas/Frames"},
           "kept_frames": {"$ref": "#/components/schemas/Frames"}, "kept_from_recorded_frame": {"type": "number"},
           "recorded_frames_per_frame": {"type": "number"}}}},
-      "junctions": {"type": "array", "items": {"type": "object", "required": ["number", "from", "to", "method",
-        "frames", "retraction_frames", "preparation_frames", "blend_frames", "parts"], "properties": {
+      "junctions": {"type": "array", "items": {"type": "object", "required": ["number", "place", "from_clip", "to_clip", "from", "to",
+        "method", "frames", "retraction_frames", "preparation_frames", "blend_frames", "parts"], "properties": {
           "number": {"type": "integer", "minimum": 1, "description": "by which `junctions` names it"},
+          "place": {"$ref": "#/components/schemas/PlaceId"}, "from_clip": {"$ref": "#/components/schemas/ClipId"},
+          "to_clip": {"$ref": "#/components/schemas/ClipId"},
           "from": {"type": "string"}, "to": {"type": "string"}, "method": {"type": "string"},
           "frames": {"$ref": "#/components/schemas/Frames"}, "retraction_frames": {"type": "integer"},
           "preparation_frames": {"type": "integer"}, "blend_frames": {"type": "integer"},

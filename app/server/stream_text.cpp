@@ -116,7 +116,7 @@ std::string event_text(const PlayerEvent& event) {
   std::string line = fmt::format(R"({{"type":"{}","frame":{})", event_name(event.kind), event.frame);
   const auto to = std::back_inserter(line);
   if (event.kind == PlayerEvent::Kind::place) {
-    fmt::format_to(to, R"(,"place":{},"gloss":)", event.place);
+    fmt::format_to(to, R"(,"place":{},"clip":{},"gloss":)", event.place, event.clip);
     add_quoted(line, event.gloss);
     fmt::format_to(to, R"(,"token":{},"recording":)", event.token);
     add_quoted(line, event.recording);

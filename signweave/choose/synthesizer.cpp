@@ -23,6 +23,7 @@ using Clock = std::chrono::steady_clock;
 struct Part {
   Candidate candidate;
   std::size_t place = 0;  ///< the first of its places, and so the number of the junction before it
+  std::vector<std::size_t> sign_places = std::vector<std::size_t>(candidate.signs.size(), place);  ///< [sign]
 };
 
 /// Of neighbours whose junction is named the transition is made: who tells how it is to be made wants it so.
@@ -36,6 +37,7 @@ std::vector<Part> merge_neighbours(const Contents& contents, const std::vector<C
                          are_neighbours(contents, merged.back().candidate, next);
     if (goes_on && !named.contains(place)) {
       go_on_with(merged.back().candidate, next);
+      merged.back().sign_places.insert(merged.back().sign_places.end(), next.signs.size(), place);
       continue;
     }
     if (goes_on) {
@@ -96,6 +98,7 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
                          .junction = named == options.junctions.end() ? JunctionChoice{} : named->second,
                          .fingerprint = info.motion_fingerprint,
                          .place = part.place,
+                         .sign_places = std::move(part.sign_places),
                          .noise = snapshot.joins(candidate.recording)->noise});
   }
 

@@ -94,10 +94,16 @@ void GrowingUtterance::sign_next() {
   woven->stretch = stretch_of(decision, first);
   Candidate signs = decision.candidate;
   std::size_t last = first;
-  while (queue_.will_follow(signs, last + 1)) go_on_with(signs, queue_.chosen(++last));
+  std::vector<std::size_t> sign_places(signs.signs.size(), *woven->stretch.place);
+  while (queue_.will_follow(signs, last + 1)) {
+    const Candidate& next = queue_.chosen(++last);
+    sign_places.insert(sign_places.end(), next.signs.size(), last + queue_.forgotten());
+    go_on_with(signs, next);
+  }
   woven->stretch.core = signs.core;
   woven->stretch.whole = signs.whole;
   woven->stretch.signs = signs.signs;
+  woven->stretch.sign_places = std::move(sign_places);
   if (!setup_) setup_ = set_up(base_, open_.snapshot(), decision.contents, woven->stretch, options_);
   setup_->weaver->lay_sign(*woven);
   woven->key = key_of(woven->stretch);
@@ -143,6 +149,7 @@ void GrowingUtterance::go_on_as_captured(std::size_t place) {
   woven.stretch.core.end = candidate.core.end;
   woven.stretch.whole.end = candidate.whole.end;
   woven.stretch.signs = last_sign_.signs->signs;
+  woven.stretch.sign_places.resize(woven.stretch.signs.size(), place + queue_.forgotten());
   setup_->weaver->lay_sign(woven);
   woven.laid.core = before.core;
   woven.laid.before = before.before;

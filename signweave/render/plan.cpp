@@ -58,6 +58,11 @@ std::vector<Lane> lanes_of(const Plan& plan) {
   return lanes;
 }
 
+std::vector<std::size_t> places_of(const Stretch& stretch, std::size_t index) {
+  if (!stretch.sign_places.empty()) return stretch.sign_places;
+  return std::vector<std::size_t>(stretch.signs.size(), stretch.place.value_or(index));
+}
+
 /// Frames of the recording that its core shows: fewer than the stretch has where it was left before its end.
 FrameRange core_of(const Laid& laid) {
   const FrameRange core = laid.stretch->core;
@@ -85,6 +90,7 @@ std::vector<Stretch> stretches_of(const Score& score, const FindSource& find) {
                                                       .signs = clip.signs,
                                                       .fingerprint = clip.source.fingerprint,
                                                       .place = clip.place,
+                                                      .sign_places = clip.sign_places,
                                                       .kind = clip.source.kind,
                                                       .noise = source.noise});
     if (clip.id == 0) continue;
@@ -181,7 +187,8 @@ Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceR
                            .at = {laid.core, laid.core_end()},
                            .standing = laid.standing,
                            .clock = stretch.clock,
-                           .signs = stretch.signs});
+                           .signs = stretch.signs,
+                           .sign_places = places_of(stretch, i)});
     if (i > 0) {
       score.junctions.push_back({.number = stretch.place.value_or(i),
                                  .method = std::string(method_of(settings, laid).name),

@@ -219,8 +219,13 @@ void render(Score score, Renderer& renderer, const std::vector<Stretch>& stretch
   name_sources(plan, out.sources);
   place_stretches(plan, out);
   place_junctions(score, plan, out);
+  out.signs.clear();
   place_signs(stretches, out);
   out.score = std::move(score);
+  std::size_t next = 0;
+  for (const Clip& clip : out.score.clips) {
+    for (const std::size_t place : clip.sign_places) out.signs[next++].place = place;
+  }
 }
 
 }  // namespace signweave

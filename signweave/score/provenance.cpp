@@ -26,10 +26,12 @@ AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& 
   document.properties.insert(document.properties.end(), synthesis.declarations.begin(), synthesis.declarations.end());
   document.types = {{"gloss", Stereotype::none, {}},
                     {"phase", Stereotype::time_subdivision, {}},
+                    {"place", Stereotype::symbolic_association, {}},
                     {"source", Stereotype::none, {}},
                     {"junction", Stereotype::none, {}}};
   Tier gloss{.id = "Gloss", .type = "gloss"};
   Tier phase{.id = "Phase", .type = "phase", .parent = "Gloss"};
+  Tier place{.id = "Place", .type = "place", .parent = "Gloss"};
   Tier source{.id = "Source", .type = "source"};
   Tier junction{.id = "Junction", .type = "junction"};
 
@@ -40,29 +42,35 @@ AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& 
     if (placed.sign.span.duration() <= Milliseconds(0)) continue;
     const std::string id = new_id();
     gloss.annotations.push_back(annotation(placed.sign.span, placed.sign.gloss, id));
+    place.annotations.push_back(
+        annotation(placed.sign.span, fmt::format("place {}, clip {}", placed.place, placed.stretch), new_id(), id));
     for (const Phase& one : placed.sign.phases) {
       phase.annotations.push_back(annotation(one.span, one.label, new_id(), id));
     }
   }
-  for (const Placed& placed : synthesis.stretches) {
+  for (std::size_t i = 0; i < synthesis.stretches.size(); ++i) {
+    const Placed& placed = synthesis.stretches[i];
     const double frames = static_cast<double>(placed.output.end - placed.core.begin) * placed.step;
     const double before = static_cast<double>(placed.core.begin - placed.output.begin) * placed.step;
-    source.annotations.push_back(annotation(span_of(placed.output, clock),
-                                            fmt::format("{} frames {:.10g}..{:.10g}", placed.recording,
-                                                        placed.first_frame - before, placed.first_frame + frames),
-                                            new_id()));
+    source.annotations.push_back(
+        annotation(span_of(placed.output, clock),
+                   fmt::format("clip {}, place {}: {} frames {:.10g}..{:.10g}", i, synthesis.score.clips[i].place,
+                               placed.recording, placed.first_frame - before, placed.first_frame + frames),
+                   new_id()));
   }
-  for (const Junction& one : synthesis.junctions) {
+  for (std::size_t i = 0; i < synthesis.junctions.size(); ++i) {
+    const Junction& one = synthesis.junctions[i];
     const TimeSpan span = span_of(one.frames, clock);
     if (span.duration() <= Milliseconds(0)) continue;
-    junction.annotations.push_back(annotation(
-        span,
-        fmt::format("{} {} ms: {} -> {} (m_i {}, m_j {}, p {})", one.method, span.duration().count(), one.from, one.to,
-                    one.cut.retraction_frames, one.cut.preparation_frames, one.cut.blend_frames),
-        new_id()));
+    junction.annotations.push_back(
+        annotation(span,
+                   fmt::format("clip {} -> {}: {} {} ms: {} -> {} (m_i {}, m_j {}, p {})", i, i + 1, one.method,
+                               span.duration().count(), one.from, one.to, one.cut.retraction_frames,
+                               one.cut.preparation_frames, one.cut.blend_frames),
+                   new_id()));
   }
   document.properties.emplace_back("lastUsedAnnotationId", fmt::format("{}", next - 1));
-  document.tiers = {std::move(gloss), std::move(phase), std::move(source), std::move(junction)};
+  document.tiers = {std::move(gloss), std::move(phase), std::move(place), std::move(source), std::move(junction)};
   return document;
 }
 

@@ -47,9 +47,10 @@ struct Placed {
 
 /// A sign as it lies in the result.
 struct PlacedSign {
-  Sign sign;  ///< times are output time; its phases fill it
-  std::size_t stretch = 0;
-  TimeSpan recorded;  ///< where it was in its recording
+  Sign sign;                ///< times are output time; its phases fill it
+  std::size_t stretch = 0;  ///< which holds it: the id of its clip
+  std::size_t place = 0;    ///< of what was asked for, from 0
+  TimeSpan recorded;        ///< where it was in its recording
 };
 
 /// What was made, and of what.

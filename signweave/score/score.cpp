@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "signweave/core/error.h"
@@ -45,6 +46,9 @@ struct Checker {
     require((at - 1) * clip.step <= core && core <= (at + 1) * clip.step + 1,
             "clip {} shows {} frames in {}, {} a frame; that is not their number", index, clip.core.size(),
             clip.at.size(), clip.step);
+    require(clip.sign_places.size() == clip.signs.size() && std::ranges::is_sorted(clip.sign_places) &&
+                (clip.signs.empty() || clip.sign_places.front() >= clip.place),
+            "the signs of clip {} are of places before its own, {}, or not in their order", index, clip.place);
     require(std::isfinite(clip.clock.origin.count()) && std::isfinite(clip.clock.frame_time.count()) &&
                 clip.clock.frame_time.count() > 0,
             "the clock of clip {} does not go", index);

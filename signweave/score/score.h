@@ -47,6 +47,7 @@ struct Clip {
   std::optional<GroundTransform> standing;  ///< how it is brought to where the signer stands; none: it is there
   FrameClock clock;                         ///< of the recording
   std::vector<Sign> signs;                  ///< that it holds, in the recording's annotation time
+  std::vector<std::size_t> sign_places;     ///< [sign] the place that it is of
   friend bool operator==(const Clip&, const Clip&) = default;
 };
 

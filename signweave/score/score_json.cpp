@@ -26,7 +26,7 @@ Json json_of(const SourceRef& source) {
   if (source.kind != SourceRef::Kind::recording) json["kind"] = name_of(source.kind);
   return json;
 }
-Json json_of(const Sign& sign) {
+Json json_of(const Sign& sign, std::size_t place) {
   Json phases = Json::array();
   for (const Phase& phase : sign.phases) {
     phases.push_back({{"kind", name_of(phase.kind)},
@@ -34,9 +34,15 @@ Json json_of(const Sign& sign) {
                       {"label", phase.label},
                       {"annotation", phase.annotation}});
   }
-  return {{"gloss", sign.gloss},       {"ms", json_of(sign.span)},   {"hand", name_of(sign.hand)},
-          {"signer", sign.signer},     {"tier", sign.tier},          {"annotation", sign.annotation},
-          {"inferred", sign.inferred}, {"phases", std::move(phases)}};
+  return {{"place", place},
+          {"gloss", sign.gloss},
+          {"ms", json_of(sign.span)},
+          {"hand", name_of(sign.hand)},
+          {"signer", sign.signer},
+          {"tier", sign.tier},
+          {"annotation", sign.annotation},
+          {"inferred", sign.inferred},
+          {"phases", std::move(phases)}};
 }
 Json json_of(const Clip& clip) {
   Json standing;
@@ -45,7 +51,7 @@ Json json_of(const Clip& clip) {
     standing = {{"turn", {turn.x(), turn.y(), turn.z(), turn.w()}}, {"shift", {shift.x(), shift.y(), shift.z()}}};
   }
   Json signs = Json::array();
-  for (const Sign& sign : clip.signs) signs.push_back(json_of(sign));
+  for (std::size_t i = 0; i < clip.signs.size(); ++i) signs.push_back(json_of(clip.signs[i], clip.sign_places[i]));
   return {{"id", clip.id},
           {"place", clip.place},
           {"source", json_of(clip.source)},
@@ -229,10 +235,14 @@ Clip clip_from(const Value& value) {
             .at = value["at"].frames(),
             .standing = {},
             .clock = {Seconds(value["clock"]["frame_time"].number()), Seconds(value["clock"]["origin"].number())},
-            .signs = {}};
+            .signs = {},
+            .sign_places = {}};
   if (!value["standing"].is_null()) clip.standing = standing_from(value["standing"]);
   const Value signs = value["signs"];
-  for (std::size_t i = 0; i < signs.size(); ++i) clip.signs.push_back(sign_from(signs.at(i)));
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    clip.signs.push_back(sign_from(signs.at(i)));
+    clip.sign_places.push_back(signs.at(i)["place"].count<std::size_t>());
+  }
   return clip;
 }
 

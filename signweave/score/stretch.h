@@ -30,6 +30,7 @@ struct Stretch {
   std::uint64_t fingerprint = 0;  ///< of the recording's motion file; 0: not known
   std::optional<std::size_t> place =
       {};  ///< of what was asked for, from 0: the first that it is of; none: as it is counted
+  std::vector<std::size_t> sign_places = {};  ///< [sign] the place that it is of; empty: all are of `place`
   SourceRef::Kind kind = SourceRef::Kind::recording;
   /// Of its motion, in the joints of `source`; null: not known, or shown on another skeleton.
   std::shared_ptr<const CaptureNoise> noise = nullptr;

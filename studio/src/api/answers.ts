@@ -66,6 +66,9 @@ export interface Statistics {
 /** One sign of a report: where it is in the new motion and where it was recorded. */
 export interface ReportSign {
   readonly gloss: string
+  /** Of the utterance, from 0. */
+  readonly place: number
+  readonly clip: number
   readonly begin_ms: number
   readonly end_ms: number
   readonly recording: string
@@ -78,6 +81,9 @@ export interface FrameSpan {
 }
 /** Signs of one recording as they were captured, and what of it is kept: frames of the new motion. */
 export interface ReportStretch {
+  readonly clip: number
+  /** The first place of the utterance that it is of. */
+  readonly place: number
   readonly recording: string
   readonly frames: FrameSpan
   readonly kept_frames: FrameSpan
@@ -86,6 +92,8 @@ export interface ReportStretch {
 }
 /** The transition between two stretches. */
 export interface ReportJunction {
+  readonly from_clip: number
+  readonly to_clip: number
   readonly from: string
   readonly to: string
   readonly method: string

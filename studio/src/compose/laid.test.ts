@@ -5,8 +5,10 @@ import { Known, laidOf } from './laid'
 import { documentOf } from './made_document'
 import { placesOf } from './utterance'
 
-const sign = (gloss: string, begin: number, end: number, recording: string, from: number) => ({
+const sign = (gloss: string, place: number, clip: number, begin: number, end: number, recording: string, from: number) => ({
   gloss,
+  place,
+  clip,
   begin_ms: begin,
   end_ms: end,
   recording,
@@ -16,14 +18,18 @@ const sign = (gloss: string, begin: number, end: number, recording: string, from
     { kind: 'stroke', begin_ms: begin + 100, end_ms: end - 100 },
   ],
 })
-const stretch = (recording: string, begin: number, end: number) => ({
+const stretch = (clip: number, place: number, recording: string, begin: number, end: number) => ({
+  clip,
+  place,
   recording,
   frames: { begin, end },
   kept_frames: { begin: begin + 5, end },
   kept_from_recorded_frame: 105,
   recorded_frames_per_frame: 1,
 })
-const junction = (begin: number, end: number) => ({
+const junction = (clip: number, begin: number, end: number) => ({
+  from_clip: clip - 1,
+  to_clip: clip,
   from: 'A',
   to: 'B',
   method: 'gap',
@@ -38,20 +44,20 @@ const kReport: Report = {
   frames: 1000,
   frames_per_second: 100,
   signs: [
-    sign('A', 0, 1000, 'r', 0),
-    sign('B', 1000, 2000, 'r', 1000),
-    sign('C', 2500, 3500, 's', 5000),
-    sign('D', 3500, 4500, 's', 6000),
-    sign('E', 8000, 10_000, 'r', 9000),
+    sign('A', 0, 0, 0, 1000, 'r', 0),
+    sign('B', 1, 0, 1000, 2000, 'r', 1000),
+    sign('C', 2, 1, 2500, 3500, 's', 5000),
+    sign('D', 2, 1, 3500, 4500, 's', 6000),
+    sign('E', 4, 3, 8000, 10_000, 'r', 9000),
   ],
-  stretches: [stretch('r', 0, 200), stretch('s', 240, 460), stretch('s', 500, 700), stretch('r', 790, 1000)],
-  junctions: [junction(200, 245), junction(460, 505), junction(700, 795)],
+  stretches: [stretch(0, 0, 'r', 0, 200), stretch(1, 2, 's', 240, 460), stretch(2, 3, 's', 500, 700), stretch(3, 4, 'r', 790, 1000)],
+  junctions: [junction(1, 200, 245), junction(2, 460, 505), junction(3, 700, 795)],
 }
 const kPlaces = placesOf('A B s@4000..7000 s@100..200 E')
 
 it('finds each place, also where pieces hold several signs or none', () => {
   const { places, seams } = laidOf(kPlaces, kReport)!
-  expect(places.map(({ begin, end, stretch, signs }) => [begin, end, stretch, signs.length])).toEqual([
+  expect(places.map(({ begin, end, clip, signs }) => [begin, end, clip, signs.length])).toEqual([
     [0, 1, 0, 1],
     [1, 2, 0, 1],
     [2.5, 4.5, 1, 2],
@@ -91,20 +97,23 @@ it('draws what was made as its EAF has it', () => {
   expect(tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([
     ['Gloss', 5],
     ['Phase', 10],
+    ['Place', 5],
     ['Source', 4],
     ['Junction', 3],
   ])
-  expect(tiers[2].annotations[1]).toEqual({ begin: 2400, end: 4600, label: 's frames 100..320' })
-  expect(tiers[3].annotations[0].label).toBe('gap 450 ms: A -> B (m_i 1, m_j 2, p 3)')
+  expect(tiers[2].annotations[1].label).toBe('place 1, clip 0')
+  expect(tiers[3].annotations[1]).toEqual({ begin: 2400, end: 4600, label: 'clip 1, place 2: s frames 100..320' })
+  expect(tiers[4].annotations[0].label).toBe('clip 0 -> 1: gap 450 ms: A -> B (m_i 1, m_j 2, p 3)')
   expect(tiers[1].annotations[1]).toEqual({ begin: 100, end: 900, label: 'Stroke' })
   const other = documentOf(kReport, {
     preparation: 'P',
     stroke: 'S',
     retraction: 'R',
+    madePlace: 'p {place}',
     madeSource: '{recording}, images {from} à {to}',
     madeSeam: '{method} en {ms} ms',
   }).tiers
-  expect([other[1].annotations[1].label, other[2].annotations[1].label, other[3].annotations[0].label]).toEqual(['S', 's, images 100 à 320', 'gap en 450 ms'])
+  expect([other[1].annotations[1].label, other[3].annotations[1].label, other[4].annotations[0].label]).toEqual(['S', 's, images 100 à 320', 'gap en 450 ms'])
 })
 
 it('tells the candidates of a place by their tokens, the cheapest first, and what their costs are made of', () => {

@@ -5,8 +5,8 @@ import type { Place } from './project'
 export interface LaidPlace {
   readonly begin: number
   readonly end: number
-  /** Which stretches it begins and ends in: neighbours in a recording share one. */
-  readonly stretch: number
+  /** The clip that it is in: neighbours in a recording share one. */
+  readonly clip: number
   /** One of a gloss, any number of a piece. */
   readonly signs: readonly ReportSign[]
 }
@@ -51,49 +51,31 @@ export class Known {
   }
 }
 
-/** Finds the places of an utterance in the report of what was made of it. None where they are not the report's. */
+/** Where the places of an utterance lie, by the report of what was made of it. None where they are not the report's. */
 export function laidOf(places: readonly Place[], report: Report): Laid | undefined {
   const { signs, stretches, junctions, frames_per_second: rate } = report
+  if (signs.some(({ place }) => place >= places.length)) return undefined
   const laid: LaidPlace[] = []
-  let sign = 0,
-    stretch = -1
-  for (const place of places) {
-    const from = sign
-    if (place.kind === 'sign') ++sign
-    else while (sign < signs.length && isOf(place, signs[sign], signs[sign - 1], sign > from)) ++sign
-    const own = signs.slice(from, sign)
-    if (place.kind === 'sign' && own.length === 0) return undefined
-    stretch = own.length > 0 ? stretchOf(own[0], report, stretch) : stretch + 1
-    const whole = stretches[stretch]
-    if (!whole) return undefined
-    const begin = own.length > 0 ? own[0].begin_ms / 1000 : whole.frames.begin / rate
-    const end = own.length > 0 ? own[own.length - 1].end_ms / 1000 : whole.frames.end / rate
-    laid.push({ begin, end, stretch, signs: own })
+  for (const [place, { kind }] of places.entries()) {
+    const own = signs.filter((sign) => sign.place === place)
+    const alone = stretches.find((stretch) => stretch.place === place)
+    if (own.length === 0 && (kind === 'sign' || !alone)) return undefined
+    laid.push({
+      begin: own.length > 0 ? own[0].begin_ms / 1000 : alone!.frames.begin / rate,
+      end: own.length > 0 ? own[own.length - 1].end_ms / 1000 : alone!.frames.end / rate,
+      clip: own.length > 0 ? own[0].clip : alone!.clip,
+      signs: own,
+    })
   }
-  if (sign !== signs.length) return undefined
   return { places: laid, seams: laid.map((place, k) => (k === 0 ? undefined : seamOf(laid[k - 1], place))) }
 
   function seamOf(before: LaidPlace, after: LaidPlace): Seam | undefined {
-    if (before.stretch === after.stretch) return { kind: 'kept', ...keptBetween(before, after) }
-    const junction = junctions[after.stretch - 1]
+    if (before.clip === after.clip) return { kind: 'kept', ...keptBetween(before, after) }
+    const junction = junctions.find(({ to_clip }) => to_clip === after.clip)
     if (!junction) return undefined
     const { frames, method, retraction_frames: retraction, preparation_frames: preparation, blend_frames: blend } = junction
     return { kind: 'made', begin: frames.begin / rate, end: frames.end / rate, method, retraction, preparation, blend }
   }
-}
-
-/** Whether a sign was recorded inside a piece, after the one before it. */
-function isOf({ recording, from, to }: Extract<Place, { kind: 'piece' }>, sign: ReportSign, before: ReportSign | undefined, begun: boolean): boolean {
-  const { begin_ms, end_ms } = sign.recorded
-  return sign.recording === recording && begin_ms >= from && end_ms <= to && !(begun && before && begin_ms <= before.recorded.begin_ms)
-}
-
-/** The stretch, from `least` on, that keeps the middle of a sign's stroke. */
-function stretchOf(sign: ReportSign, { stretches, frames_per_second: rate }: Report, least: number): number {
-  const stroke = sign.phases?.find(({ kind }) => kind === 'stroke') ?? sign
-  const frame = ((stroke.begin_ms + stroke.end_ms) / 2000) * rate
-  for (let s = Math.max(0, least); s < stretches.length; ++s) if (frame < stretches[s].kept_frames.end + 0.5) return s
-  return stretches.length - 1
 }
 
 /** From the end of the last stroke before to the begin of the first one after. */

@@ -1,11 +1,12 @@
 import type { Report } from '../api/answers'
 import type { Annotation, AnnotationDocument, Tier } from '../annotation/document'
 
-/** How phases, sources and junctions are called, with what is filled in as `{…}`. */
+/** How phases, places, sources and junctions are called, with what is filled in as `{…}`. */
 export interface MadeLabels {
   readonly preparation: string
   readonly stroke: string
   readonly retraction: string
+  readonly madePlace: string
   readonly madeSource: string
   readonly madeSeam: string
 }
@@ -14,11 +15,12 @@ export const kEafLabels: MadeLabels = {
   preparation: 'Preparation',
   stroke: 'Stroke',
   retraction: 'Retraction',
-  madeSource: '{recording} frames {from}..{to}',
-  madeSeam: '{method} {ms} ms: {from} -> {to} (m_i {retraction}, m_j {preparation}, p {blend})',
+  madePlace: 'place {place}, clip {clip}',
+  madeSource: 'clip {clip}, place {place}: {recording} frames {from}..{to}',
+  madeSeam: 'clip {fromClip} -> {toClip}: {method} {ms} ms: {from} -> {to} (m_i {retraction}, m_j {preparation}, p {blend})',
 }
 
-/** What was made as its EAF has it, from the report that comes with the frames: signs, phases, sources, junctions. */
+/** What was made as its EAF has it, from the report that comes with the frames: signs, phases, places, sources, junctions. */
 export function documentOf(report: Report, labels: MadeLabels = kEafLabels): AnnotationDocument {
   const { signs, stretches, junctions, frames_per_second: rate } = report
   const ms = (frame: number) => Math.round((1000 * frame) / rate)
@@ -37,19 +39,38 @@ export function documentOf(report: Report, labels: MadeLabels = kEafLabels): Ann
       ),
       tier('Phase', phases, 'Gloss'),
       tier(
+        'Place',
+        signs.map(({ begin_ms, end_ms, place, clip }) => ({ begin: begin_ms, end: end_ms, label: put(labels.madePlace, { place, clip }) })),
+        'Gloss',
+      ),
+      tier(
         'Source',
-        stretches.map(({ recording, frames, kept_frames, kept_from_recorded_frame: kept, recorded_frames_per_frame: step }) => {
+        stretches.map(({ clip, place, recording, frames, kept_frames, kept_from_recorded_frame: kept, recorded_frames_per_frame: step }) => {
           const from = kept - (kept_frames.begin - frames.begin) * step,
             to = kept + (frames.end - kept_frames.begin) * step
-          return { begin: ms(frames.begin), end: ms(frames.end), label: put(labels.madeSource, { recording, from: Math.round(from), to: Math.round(to) }) }
+          return {
+            begin: ms(frames.begin),
+            end: ms(frames.end),
+            label: put(labels.madeSource, { clip, place, recording, from: Math.round(from), to: Math.round(to) }),
+          }
         }),
       ),
       tier(
         'Junction',
-        junctions.map(({ frames, method, from, to, retraction_frames, preparation_frames, blend_frames }) => {
+        junctions.map(({ from_clip: fromClip, to_clip: toClip, frames, method, from, to, retraction_frames, preparation_frames, blend_frames }) => {
           const begin = ms(frames.begin),
             end = ms(frames.end)
-          const values = { method, ms: end - begin, from, to, retraction: retraction_frames, preparation: preparation_frames, blend: blend_frames }
+          const values = {
+            fromClip,
+            toClip,
+            method,
+            ms: end - begin,
+            from,
+            to,
+            retraction: retraction_frames,
+            preparation: preparation_frames,
+            blend: blend_frames,
+          }
           return { begin, end, label: put(labels.madeSeam, values) }
         }),
       ),

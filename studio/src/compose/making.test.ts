@@ -13,17 +13,35 @@ function reportOf(n: number): Report {
   return {
     frames: 1.5 * n * kRate,
     frames_per_second: kRate,
-    signs: each.map((at) => ({ gloss: 'A', recording: 'r', begin_ms: 1000 * at, end_ms: 1000 * (at + 1), recorded: { begin_ms: 0, end_ms: 1000 } })),
-    stretches: each.map((at) => ({
+    signs: each.map((at, k) => ({
+      gloss: 'A',
+      place: k,
+      clip: k,
+      recording: 'r',
+      begin_ms: 1000 * at,
+      end_ms: 1000 * (at + 1),
+      recorded: { begin_ms: 0, end_ms: 1000 },
+    })),
+    stretches: each.map((at, k) => ({
+      clip: k,
+      place: k,
       recording: 'r',
       frames: range(at, at + 1),
       kept_frames: range(at, at + 1),
       kept_from_recorded_frame: 0,
       recorded_frames_per_frame: 1,
     })),
-    junctions: each
-      .slice(1)
-      .map((at) => ({ frames: range(at - 0.5, at), method: 'gap', from: 'A', to: 'A', retraction_frames: 1, preparation_frames: 1, blend_frames: 1 })),
+    junctions: each.slice(1).map((at, k) => ({
+      from_clip: k,
+      to_clip: k + 1,
+      frames: range(at - 0.5, at),
+      method: 'gap',
+      from: 'A',
+      to: 'A',
+      retraction_frames: 1,
+      preparation_frames: 1,
+      blend_frames: 1,
+    })),
   }
 }
 /** As the server would answer to a project. */

@@ -2,7 +2,7 @@ import { expect, it } from 'vitest'
 import { beside, stepsOfSigns } from './in_step'
 
 it('puts the k-th sign beside the k-th sign, and goes evenly between their bounds', () => {
-  const sign = (begin_ms: number, end_ms: number) => ({ gloss: 'X', begin_ms, end_ms, recording: 'r', recorded: { begin_ms: 0, end_ms: 1 } })
+  const sign = (begin_ms: number, end_ms: number) => ({ gloss: 'X', place: 0, clip: 0, begin_ms, end_ms, recording: 'r', recorded: { begin_ms: 0, end_ms: 1 } })
   const steps = stepsOfSigns(
     [sign(1000, 2000), sign(3000, 4000)],
     [

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "app/calls/selection_report.h"
@@ -100,6 +101,60 @@ Synthesized run(const Database& database, const EditCall& call, std::int64_t mos
   SynthesisOptions options = options_of(call.how);
   options.most_frames = most_frames;
   return synthesize(database, call.recording, edit, options);
+}
+
+namespace {
+
+std::optional<FrameRange> parse_frames(const std::string& text) {
+  FrameRange frames;
+  const char* const end = text.data() + text.size();
+  const auto [dots, wrong_begin] = std::from_chars(text.data(), end, frames.begin);
+  if (wrong_begin != std::errc{} || !std::string_view(dots, end).starts_with("..")) return std::nullopt;
+  const auto [last, wrong_end] = std::from_chars(dots + 2, end, frames.end);
+  if (wrong_end != std::errc{} || last != end || frames.begin < 0 || frames.begin >= frames.end) return std::nullopt;
+  return frames;
+}
+
+/// Part of a score: nothing but motion, and where its frames come from.
+Synthesized run_part(const Database& database, const Score& score, FrameRange frames) {
+  OpenScore open(database, score);
+  Synthesized made;
+  made.contents = open.contents();
+  open.render(frames, made.result.motion);
+  made.result.notices = open.notices();
+  made.result.declarations = open.declarations();
+  made.result.score = score;
+  made.layout_from = score.skeleton.recording;
+  return made;
+}
+
+}  // namespace
+
+std::string check_frames(const std::string& text) {
+  if (text.empty() || parse_frames(text)) return {};
+  return fmt::format("'{}': expected FROM..TO in frames, such as 120..240", printable(text));
+}
+
+SynthesisChoices choices_of(const ScoreCall& call) {
+  SynthesisChoices choices;
+  choices.signing_space = call.signing_space;
+  choices.character = call.character;
+  choices.bvh = call.bvh;
+  return choices;
+}
+
+Synthesized run(const Database& database, const Score& score, const ScoreCall& call,
+                const std::vector<std::string>& formats) {
+  const std::optional<FrameRange> frames = parse_frames(call.frames);
+  if (!frames) return synthesize(database, score);
+  for (const std::string_view whole : {"eaf", "svg", "json"}) {
+    if (std::ranges::find(formats, whole) == formats.end()) continue;
+    throw Error(ErrorCode::bad_input,
+                fmt::format("some frames alone have no annotation, which {} has; leave --frames out, or ask for a "
+                            "format of motion such as bvh",
+                            whole));
+  }
+  return run_part(database, score, *frames);
 }
 
 std::string title_of(const SignCall& call) {

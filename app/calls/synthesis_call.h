@@ -124,6 +124,40 @@ void fields(Visit& visit, EditCall& call) {
   fields(visit, call.how);
 }
 
+/// Renders a score, or some of its frames. Nothing is chosen, and so none of SynthesisChoices but how it is shown and
+/// written.
+struct ScoreCall {
+  std::string frames;
+  bool signing_space = false;
+  std::string character;
+  BvhWriting bvh;
+};
+
+/// Empty, or why `text` is no "FROM..TO" of frames.
+std::string check_frames(const std::string& text);
+
+inline Field frames_field() {
+  return {.name = "frames",
+          .help = "FROM..TO: these frames of the score alone, counted from 0, TO not among them",
+          .check = check_frames};
+}
+
+template <class Visit>
+void fields(Visit& visit, ScoreCall& call) {
+  visit(frames_field(), call.frames);
+  visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, call.signing_space);
+  visit(Field{.name = "character", .help = kCharacterHelp}, call.character);
+  fields(visit, call.bvh);
+}
+
+/// How what it makes is shown and written.
+SynthesisChoices choices_of(const ScoreCall& call);
+/// Throws what `synthesize` of a score throws, Error{bad_input} where the frames are not in the score, or one of
+/// `formats` ("eaf", "bvh", …) has more than motion and only some of the frames are asked for. Of those there are the
+/// motion and where its frames come from, but no signs, stretches or junctions.
+Synthesized run(const Database& database, const Score& score, const ScoreCall& call,
+                const std::vector<std::string>& formats);
+
 /// Of checked fields. Throws Error{bad_input} where a junction is named twice.
 SynthesisOptions options_of(const SynthesisChoices& choices);
 

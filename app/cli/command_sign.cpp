@@ -19,6 +19,16 @@ constexpr std::size_t kLargestScore = std::size_t{256} << 20;
 constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "--align",
                                     "--junction",   "--rate",     "--missing", "--explain"};
 
+/// "bvh" of "out.bvh", and what is made beside.
+std::vector<std::string> endings_of(const Delivery& delivery) {
+  std::vector<std::string> endings;
+  for (const std::string& file : delivery.outputs) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    if (!ending.empty()) endings.push_back(fold_case(ending.substr(1)));
+  }
+  return endings;
+}
+
 }  // namespace
 
 Run sign(CLI::App& verb) {
@@ -26,6 +36,7 @@ Run sign(CLI::App& verb) {
     std::string folder;
     calls::SignCall call;
     std::string from;
+    std::string frames;
     Delivery delivery;
   };
   auto options = std::make_shared<SignArguments>();
@@ -37,6 +48,8 @@ Run sign(CLI::App& verb) {
   verb.add_option("--from", options->from,
                   "render a score that --score wrote, instead of an utterance: nothing is chosen anew")
       ->excludes(utterance);
+  const calls::Field frames = calls::frames_field();
+  verb.add_option("--frames", options->frames, frames.help)->needs("--from")->check(frames.check);
   add_reports(verb, options->delivery);
   return [options, utterance, &verb](Io& io) {
     if (options->from.empty() && utterance->empty()) throw CLI::RequiredError("UTTERANCE or --from");
@@ -51,7 +64,8 @@ Run sign(CLI::App& verb) {
     report_damage(database, io);
     check_signing_space(options->call.how.signing_space, options->delivery.outputs);
     const calls::SharedCharacter character = character_of(options->call.how.character);
-    Synthesized made = score ? synthesize(database, *score) : calls::run(database, options->call);
+    Synthesized made = score ? calls::run(database, *score, {.frames = options->frames}, endings_of(options->delivery))
+                             : calls::run(database, options->call);
     if (character) show_on(made, stance_of(database, signer_of(made)), *character);
     deliver(made, options->call.how, options->delivery, title, character, io);
   };

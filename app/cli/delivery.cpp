@@ -147,6 +147,11 @@ void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, co
     print_selection(made, io);
     print_junctions(made, io);
   }
+  if (result.motion.frame_count() != result.score.frames) {
+    io.out << fmt::format("{} of {} at {} frames a second\n", counted(result.motion.frame_count(), "frame"),
+                          result.score.frames, to_string(result.motion.rate()));
+    return;
+  }
   io.out << fmt::format("{}, {}, {:.2f} s at {} frames a second\n", counted(result.signs.size(), "sign"),
                         counted(result.junctions.size(), "junction"), result.motion.duration().count(),
                         to_string(result.motion.rate()));

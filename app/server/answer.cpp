@@ -19,6 +19,7 @@ const std::vector<AnswerFormat>& answer_formats() {
       if (format.writes()) list.push_back({format.ending.substr(1), format.ending, format.media_type});
     }
     list.push_back({"frames", ".frames", "application/vnd.signweave.frames"});
+    list.push_back({"score", ".score.json", "application/vnd.signweave.score+json"});
     return list;
   }();
   return formats;

@@ -235,6 +235,37 @@ constexpr const char* kMadeAnswers = R"json({
       "weights": {"$ref": "#/components/schemas/Weights"}, "captured_transitions": {"type": "integer"},
       "declarations": {"$ref": "#/components/schemas/Declarations"},
       "notices": {"$ref": "#/components/schemas/Notices"}}},
+  "FramePair": {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 2, "maxItems": 2,
+    "description": "the first, and the one after the last"},
+  "ScoreSource": {"type": "object", "required": ["recording", "fingerprint"], "properties": {
+    "recording": {"type": "string"},
+    "fingerprint": {"type": "string", "description": "of its motion file, hexadecimal; 0: not known"},
+    "kind": {"type": "string", "enum": ["recording", "rest", "shown"]}}},
+  "Score": {"type": "object",
+    "required": ["signweave_score", "skeleton", "rate", "frames", "clips", "junctions", "lanes"],
+    "properties": {
+      "signweave_score": {"type": "integer", "minimum": 1, "description": "the version of the form"},
+      "skeleton": {"$ref": "#/components/schemas/ScoreSource"},
+      "rate": {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 2, "maxItems": 2},
+      "frames": {"type": "integer", "minimum": 1},
+      "clips": {"type": "array", "minItems": 1, "items": {"type": "object",
+        "required": ["id", "place", "source", "whole", "core", "step", "at", "standing", "clock", "signs"],
+        "properties": {
+          "id": {"$ref": "#/components/schemas/ClipId"}, "place": {"$ref": "#/components/schemas/PlaceId"},
+          "source": {"$ref": "#/components/schemas/ScoreSource"},
+          "whole": {"$ref": "#/components/schemas/FramePair"}, "core": {"$ref": "#/components/schemas/FramePair"},
+          "step": {"type": "number"}, "at": {"$ref": "#/components/schemas/FramePair"},
+          "standing": {"type": ["object", "null"]}, "clock": {"type": "object", "required": ["frame_time", "origin"]},
+          "signs": {"type": "array", "items": {"type": "object", "required": ["place", "gloss", "ms", "hand", "signer",
+            "tier", "annotation", "inferred", "phases"]}}}}},
+      "junctions": {"type": "array", "items": {"type": "object", "required": ["number", "method", "chosen"],
+        "properties": {"number": {"type": "integer"}, "method": {"type": "string"}, "chosen": {"type": "string"}}}},
+      "lanes": {"type": "array", "items": {"type": "object", "required": ["channel", "items"], "properties": {
+        "channel": {"type": "string", "enum": ["body", "left", "right", "tracks"]},
+        "items": {"type": "array", "items": {"type": "object", "required": ["at"], "properties": {
+          "at": {"$ref": "#/components/schemas/FramePair"}, "clip": {"$ref": "#/components/schemas/ClipId"},
+          "transition": {"type": "object", "required": ["from", "to", "length", "retraction", "preparation", "blend",
+            "pause", "waits"]}}}}}}}}},
   "Removed": {"type": "object", "required": ["removed"], "properties": {"removed": {"type": "string"}}},
   "Upload": {"type": "object", "required": ["upload", "files"], "properties": {"upload": {"type": "string"},
     "files": {"type": "array", "items": {"type": "object", "required": ["file", "bytes"], "properties": {

@@ -70,7 +70,7 @@ void check_request(const Call& call) {
   const Route& route = call.route;
   if (route.source != Source::query) calls::FieldReader(call.request.query, {}).finish();
   const bool has_body = !call.request.body.empty() && !route.takes_file;
-  if (has_body && route.source != Source::body) {
+  if (has_body && route.source != Source::body && route.takes.empty()) {
     throw Error(ErrorCode::bad_input, fmt::format("{} {} takes no body", route.method, route.path));
   }
   const std::string type = fold_case(trimmed(call.request.content_type.substr(0, call.request.content_type.find(';'))));

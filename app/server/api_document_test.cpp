@@ -214,6 +214,10 @@ TEST(ApiDocument, AnswersToPostAndFaultsFitTheirSchemas) {
   EXPECT_THAT(
       faults_of(json_in(api.send("POST", sign, {{"utterance", "VANNES MATIN"}, {"explain", true}})), "Synthesis"),
       testing::IsEmpty());
+  const json score = json_in(api.send("POST", sign, {{"utterance", "VANNES MATIN"}, {"format", "score"}}));
+  EXPECT_THAT(faults_of(score, "Score"), testing::IsEmpty());
+  EXPECT_THAT(faults_of(json_in(api.send("POST", {"databases", "demo", "score"}, score)), "Synthesis"),
+              testing::IsEmpty());
   EXPECT_THAT(faults_of(json_in(api.send("POST", sign)), "Fault"), testing::IsEmpty());
   EXPECT_THAT(faults_of(json_in(api.get({"databases", "demo", "query"}, {{"text", "="}})), "Fault"),
               testing::IsEmpty());

@@ -146,6 +146,54 @@ TEST(Api, JunctionsAreMadeAsTold) {
   EXPECT_THAT(fault("3=sine"), StartsWith("400 bad_input: no junction 3"));
 }
 
+/// A score sent with some parameters.
+ApiResponse sent_score(const std::string& score, std::map<std::string, std::string> query = {}) {
+  return reading().api().answer({.method = "POST",
+                                 .path = at({"score"}),
+                                 .query = std::move(query),
+                                 .content_type = "application/json",
+                                 .body = score});
+}
+
+TEST(Api, GivesScoresAndRendersThem) {
+  const auto signed_as = [](const char* format) {
+    return reading().send("POST", at({"sign"}), {{"utterance", "VANNES MATIN PLUIE"}, {"format", format}}).body;
+  };
+  const std::string score = signed_as("score");
+  EXPECT_EQ(sent_score(score, {{"format", "bvh"}}).body, signed_as("bvh"));
+  EXPECT_EQ(sent_score(score, {{"format", "eaf"}}).body, signed_as("eaf"));
+  const json report = json_in(sent_score(score));
+  EXPECT_EQ(report["signs"][2]["place"], 2);
+  EXPECT_EQ(report["junctions"][1]["to_clip"], 2);
+  EXPECT_THAT(report["declarations"].dump(), HasSubstr("not LSF"));
+  const ApiResponse part = sent_score(score, {{"format", "bvh"}, {"frames", "10..30"}});
+  EXPECT_THAT(part.body, HasSubstr("Frames: 20"));
+  const auto header = [](const auto& one) { return one.first == "Signweave-Declarations"; };
+  EXPECT_TRUE(std::ranges::any_of(part.headers, header));
+}
+
+TEST(Api, RefusesScoresThatCannotBeRendered) {
+  const std::string score =
+      reading().send("POST", at({"sign"}), {{"utterance", "VANNES MATIN"}, {"format", "score"}}).body;
+  EXPECT_THAT(fault_of(sent_score("")), HasSubstr("the body must be a score"));
+  EXPECT_THAT(fault_of(sent_score("{}")), HasSubstr("score: the whole: it must be a score"));
+  EXPECT_THAT(fault_of(sent_score(score, {{"frames", "10..30"}})), HasSubstr("ask for a format of motion"));
+  EXPECT_THAT(fault_of(sent_score(score, {{"frames", "10..30"}, {"format", "eaf"}})), HasSubstr("no annotation"));
+  EXPECT_THAT(fault_of(sent_score(score, {{"frames", "30..10"}, {"format", "bvh"}})), HasSubstr("expected FROM..TO"));
+  EXPECT_THAT(fault_of(sent_score(score, {{"frames", "10..99999"}, {"format", "bvh"}})),
+              HasSubstr("are not in a score"));
+  EXPECT_THAT(fault_of(sent_score(score, {{"tempo", "2"}})), HasSubstr("tempo"));
+  json changed = json::parse(score);
+  changed["clips"][0]["source"]["fingerprint"] = "1";
+  EXPECT_EQ(sent_score(changed.dump()).status, 409);
+  changed["clips"][0]["source"]["recording"] = "elsewhere";
+  EXPECT_EQ(sent_score(changed.dump()).status, 404);
+  TestApi small(false, {.glosses = 1});
+  EXPECT_EQ(small.send("POST", at({"score"}), json::parse(score)).status, 413);
+  TestApi shorter(false, {.frames = 100});
+  EXPECT_EQ(shorter.send("POST", at({"score"}), json::parse(score)).status, 413);
+}
+
 TEST(Api, AGlossThatIsNotThereHasNearMatches) {
   const std::string fault = fault_of(reading().send("POST", at({"sign"}), {{"utterance", "VANES"}}));
   EXPECT_THAT(fault, StartsWith("404 not_found"));

@@ -7,6 +7,7 @@
 #include "app/server/routes.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/file_format.h"
+#include "signweave/score/score_json.h"
 
 namespace signweave::server {
 
@@ -17,17 +18,24 @@ std::vector<std::string> synthesis_formats() {
   std::vector<std::string> names;
   for (const std::string_view ending : writable_endings()) names.emplace_back(ending.substr(1));
   names.emplace_back("frames");
+  names.emplace_back("score");
+  return names;
+}
+/// A score gives nothing back but what it was.
+std::vector<std::string> score_formats() {
+  std::vector<std::string> names = synthesis_formats();
+  std::erase(names, "score");
   return names;
 }
 /// The annotation of a recording has a route of its own.
 std::vector<std::string> motion_formats() {
-  std::vector<std::string> names = synthesis_formats();
+  std::vector<std::string> names = score_formats();
   std::erase(names, "eaf");
   return names;
 }
 constexpr const char* kSynthesisHelp =
     "the file itself instead of the report: json with every pose, eaf with the annotation, svg as a contact sheet, "
-    "frames with every pose in the bytes of a stream";
+    "frames with every pose in the bytes of a stream, score with what renderScore takes";
 
 }  // namespace
 
@@ -38,6 +46,14 @@ struct Formats<calls::SignCall> {
 };
 template <>
 struct Formats<calls::EditCall> : Formats<calls::SignCall> {};
+template <>
+struct Formats<calls::ScoreCall> {
+  static std::vector<std::string> names() { return score_formats(); }
+  static std::string help() {
+    return "the file itself instead of the report: json with every pose, eaf with the annotation, svg as a contact "
+           "sheet, frames with every pose in the bytes of a stream";
+  }
+};
 template <>
 struct Formats<calls::ExportCall> {
   static std::vector<std::string> names() { return motion_formats(); }
@@ -104,6 +120,7 @@ ApiResponse deliver(Call& call, Synthesized made, const calls::SynthesisChoices&
   };
   if (format.empty()) return json_answer(report_json());
   const AnswerFormat& file = answer_format(format);
+  if (format == "score") return file_answer(file, "signing", json_of(made.result.score));
   if (format == "frames") {
     return file_answer(file, "signing",
                        frames_text(made.result.motion,
@@ -123,6 +140,9 @@ ApiResponse deliver(Call& call, Synthesized made, const calls::SynthesisChoices&
 
 calls::SchemaWriter sign_fields() {
   return calls::schema_of_call<WithFormat<calls::SignCall>>();
+}
+calls::SchemaWriter score_fields() {
+  return calls::schema_of_call<WithFormat<calls::ScoreCall>>();
 }
 calls::SchemaWriter edit_fields() {
   return calls::schema_of_call<WithFormat<calls::EditCall>>();
@@ -145,6 +165,29 @@ ApiResponse sign_utterance(Call& call) {
   const Database& database = call.database().database();
   calls::tell_damage(database, call.listener());
   return deliver(call, calls::run(database, sign, call.state.limits.frames), sign.how, calls::title_of(sign), format);
+}
+
+ApiResponse render_score(Call& call) {
+  const auto [how, asked] = read_parameters<WithFormat<calls::ScoreCall>>(call);
+  const std::string format = wanted_format(call, asked, score_formats());
+  require_sheet(how.signing_space, format);
+  if (format.empty() && !how.frames.empty()) {
+    throw Error(ErrorCode::bad_input, "frames: the report is of the whole score; ask for a format of motion too");
+  }
+  if (call.request.body.empty()) {
+    throw Error(ErrorCode::bad_input, "the body must be a score, as sign and edit give it in the format score");
+  }
+  const Score score = score_from_json(call.request.body, "score");
+  if (score.clips.size() > call.state.limits.glosses) {
+    throw too_large(
+        fmt::format("the score has {} clips, and may have {}", score.clips.size(), call.state.limits.glosses));
+  }
+  if (score.frames > call.state.limits.frames) {
+    throw too_large(fmt::format("the score has {} frames, and may have {}", score.frames, call.state.limits.frames));
+  }
+  const Database& database = call.database().database();
+  calls::tell_damage(database, call.listener());
+  return deliver(call, calls::run(database, score, how, {format}), calls::choices_of(how), "score", format);
 }
 
 ApiResponse edit_recording(Call& call) {

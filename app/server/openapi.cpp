@@ -82,6 +82,9 @@ Json body_of(const Route& route) {
   if (route.takes_file) {
     return {{"required", true}, {"content", {{"application/octet-stream", Json::object()}}}};
   }
+  if (!route.takes.empty()) {
+    return {{"required", true}, {"content", {{"application/json", {{"schema", reference("schemas", route.takes)}}}}}};
+  }
   const Fields fields = fields_of(route);
   Json schema = {{"type", "object"}, {"properties", fields.properties}, {"additionalProperties", false}};
   if (!fields.required.empty()) schema["required"] = fields.required;
@@ -151,7 +154,8 @@ Json openapi_document() {
     Json operation = {{"operationId", std::string(route.id)},
                       {"summary", std::string(route.summary)},
                       {"parameters", parameters_of(route)}};
-    if (route.source == Source::body || route.takes_file) operation["requestBody"] = body_of(route);
+    if (route.source == Source::body || route.takes_file || !route.takes.empty())
+      operation["requestBody"] = body_of(route);
     operation["responses"] = responses_of(route);
     paths[std::string("/").append(route.path)][method] = std::move(operation);
   }

@@ -54,6 +54,7 @@ struct Route {
   bool takes_file = false;                 ///< the request's body is a file
   void (*require)(const Call&) = nullptr;  ///< throws where no such body could make the request good
   std::string_view media_type = {};        ///< of an answer that is a file, where no field tells
+  std::string_view takes = {};  ///< the request's body is a document of this schema, beside fields in the URL
 };
 
 std::span<const Route> routes();
@@ -110,6 +111,7 @@ ApiResponse list_media(Call& call);
 ApiResponse show_media(Call& call);
 ApiResponse put_rendered(Call& call);  // handle_renders.cpp
 void require_render(const Call& call);
+ApiResponse render_score(Call& call);
 ApiResponse sign_utterance(Call& call);  // handle_signing.cpp
 ApiResponse edit_recording(Call& call);
 ApiResponse export_motion(Call& call);
@@ -136,6 +138,7 @@ calls::SchemaWriter xpath_fields();
 calls::SchemaWriter stats_fields();
 calls::SchemaWriter segment_fields();
 calls::SchemaWriter evaluate_fields();
+calls::SchemaWriter score_fields();
 calls::SchemaWriter sign_fields();
 calls::SchemaWriter edit_fields();
 calls::SchemaWriter motion_fields();

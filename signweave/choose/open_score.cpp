@@ -101,8 +101,12 @@ Synthesis OpenScore::synthesize(Synthesis used) {
   out.sources = std::move(used.sources);
   signweave::render(score_, *renderer_, stretches_, std::nullopt, out);
   out.notices = notices_;
-  out.declarations = declarations_of(snapshot_.contents(), stretches_);
+  out.declarations = declarations();
   return out;
+}
+
+std::vector<std::pair<std::string, std::string>> OpenScore::declarations() const {
+  return declarations_of(snapshot_.contents(), stretches_);
 }
 
 }  // namespace signweave

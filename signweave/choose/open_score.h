@@ -56,6 +56,8 @@ class OpenScore {
   const Score& score() const noexcept { return score_; }
   const std::shared_ptr<const Contents>& contents() const noexcept { return snapshot_.shared_contents(); }
   const std::vector<Notice>& notices() const noexcept { return notices_; }
+  /// As Synthesis::declarations.
+  std::vector<std::pair<std::string, std::string>> declarations() const;
   /// Seconds spent reading so far.
   Seconds reading() const noexcept { return reading_; }
 

@@ -153,8 +153,8 @@ constexpr Field kFields[] = {
      [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.loop = truth_of(n, v); }},
 };
 
-constexpr std::array<std::string_view, 10> kTypes = {"open", "sign",  "append", "pause", "resume",
-                                                     "seek", "tempo", "loop",   "stop",  "ping"};
+constexpr std::array<std::string_view, 11> kTypes = {"open",  "sign", "append", "pause", "resume", "seek",
+                                                     "tempo", "loop", "stop",   "score", "ping"};
 
 Control control_of(const nlohmann::json& object) {
   const auto type = object.find("type");

@@ -24,7 +24,7 @@ struct StreamOptions {
   std::string character;  ///< whose joints the frames have; empty: the recording's
 };
 
-enum class Control { open, sign, append, pause, resume, seek, tempo, loop, stop, ping };
+enum class Control { open, sign, append, pause, resume, seek, tempo, loop, stop, score, ping };
 
 /// A message from a stream's client: one JSON object, `{"type": "sign", "utterance": "DEMAIN MATIN", "id": 7}`.
 struct ControlMessage {

@@ -95,6 +95,7 @@ void FrameSender::control(const ControlMessage& message) {
       player_.stop();
       break;
     case Control::open:
+    case Control::score:
     case Control::ping:
       return;
   }

@@ -26,7 +26,8 @@ class FrameSender final : public Paced {
   FrameSender(IoThread& thread, ServedDatabase& database, StreamSocket& out, const StreamOptions& options);
   ~FrameSender() override;
 
-  /// Does what a message asks, but for "open" and "ping". Throws what the player throws, and then nothing has changed.
+  /// Does what a message asks, but for "open", "score" and "ping". Throws what the player throws, and then nothing has
+  /// changed.
   void control(const ControlMessage& message);
   /// To be called after a message was answered: sends what can be sent now.
   void go();
@@ -35,6 +36,7 @@ class FrameSender final : public Paced {
   /// Sends nothing more.
   void stop() noexcept;
   std::uint64_t frame() const noexcept { return player_.frame(); }
+  std::optional<LiveScore> score() const { return player_.score(); }
 
   Clock::time_point tick(Clock::time_point now) noexcept override;
   bool work() override;

@@ -50,6 +50,7 @@ std::string said(const Json& example) {
   const std::string type = example["type"];
   const std::string id = example.contains("id") ? example["id"].dump() : "";
   if (type == "ok") return ok_text(id, example["frame"]);
+  if (type == "score") return score_text(id, std::nullopt, example["frame"]);
   if (type == "error") {
     for (int code = 0; code <= static_cast<int>(ErrorCode::cancelled); ++code) {
       if (calls::name_of(static_cast<ErrorCode>(code)) == example["code"]) {
@@ -62,6 +63,7 @@ std::string said(const Json& example) {
   if (type == "place") {
     event.kind = PlayerEvent::Kind::place;
     event.place = example["place"];
+    event.clip = example["clip"];
     event.gloss = example["gloss"];
     event.token = example["token"];
     event.recording = example["recording"];
@@ -94,7 +96,7 @@ TEST(StreamDocument, EveryAnswerIsAsItIsSaid) {
     EXPECT_EQ(said(example), example.dump()) << line;
     shown.insert(example["type"]);
   }
-  EXPECT_EQ(shown, (std::set<std::string>{"ok", "error", "place", "rest", "end", "seek", "notice"}));
+  EXPECT_EQ(shown, (std::set<std::string>{"ok", "score", "error", "place", "rest", "end", "seek", "notice"}));
 }
 
 TEST(StreamDocument, TheHeaderIsAsItIsSaid) {

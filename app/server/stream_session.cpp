@@ -153,6 +153,9 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
       if (message.control == Control::open) {
         if (sender_) throw Error(ErrorCode::conflict, "'open' comes first, and once");
         sender_.emplace(thread_, database_, socket_.next_layer(), message.open);
+      } else if (message.control == Control::score) {
+        say(score_text(id, sender_ ? sender_->score() : std::nullopt, sender_ ? sender_->frame() : 0));
+        return;
       } else if (message.control != Control::ping) {
         if (!sender_) sender_.emplace(thread_, database_, socket_.next_layer(), StreamOptions{});
         sender_->control(message);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "app/server/test_server.h"
+#include "signweave/score/score_json.h"
 
 namespace signweave::server {
 namespace {
@@ -58,6 +59,23 @@ TEST(Stream, HeaderThenFramesThenTheEnd) {
   }
   EXPECT_EQ(places, 2u);
   EXPECT_GT(expected, 60u);
+}
+
+TEST(Stream, GivesTheScoreOfWhatItShows) {
+  const TestServer server;
+  StreamClient client(server.port());
+  client.say(R"({"type":"score","id":1})");
+  EXPECT_EQ(client.next("score"), nlohmann::json::parse(R"({"type":"score","frame":0,"score":null,"id":1})"));
+  client.say(kFastOpen);
+  client.say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
+  const nlohmann::json first = client.next("place");
+  client.say(R"({"type":"score"})");
+  const nlohmann::json live = client.next("score");
+  const Score score = score_from_json(live["score"].dump(), "stream");
+  EXPECT_GE(live["score_frame"], live["frame"]) << "nothing was left out before it";
+  const Clip& clip = score.clips.at(first["clip"].get<std::size_t>() - live["first_clip"].get<std::size_t>());
+  EXPECT_EQ(clip.source.recording, first["recording"]);
+  EXPECT_EQ(clip.signs.front().gloss, "DEMAIN");
 }
 
 TEST(Stream, PacedFramesComeAtTheirTime) {

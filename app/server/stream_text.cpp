@@ -6,6 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "signweave/score/score_json.h"
+
 namespace signweave::server {
 namespace {
 
@@ -90,6 +92,17 @@ std::string header_text(const StreamHeader& header, const HeaderContext& context
 
 std::string ok_text(std::string_view id, std::uint64_t frame) {
   OrderedJson object = {{"type", "ok"}, {"frame", frame}};
+  add_id(object, id);
+  return line_of(object);
+}
+
+std::string score_text(std::string_view id, const std::optional<LiveScore>& live, std::uint64_t frame) {
+  OrderedJson object = {{"type", "score"}, {"frame", frame}, {"score", nullptr}};
+  if (live) {
+    object["score_frame"] = live->next;
+    object["first_clip"] = live->first_clip;
+    object["score"] = OrderedJson::parse(json_of(live->score));
+  }
   add_id(object, id);
   return line_of(object);
 }

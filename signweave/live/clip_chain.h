@@ -34,7 +34,7 @@ class ClipChain {
   std::optional<LiveScore> score(const Weaver& weaver, const SourceRef& skeleton, std::int64_t next,
                                  std::int64_t end) const;
 
-  static constexpr std::size_t kMostClips = 256;
+  static constexpr std::size_t kMostClips = 64;
 
  private:
   std::deque<std::shared_ptr<Woven>> clips_;

@@ -64,7 +64,7 @@ struct PlayerEvent {
 };
 
 /// What a stream shows, as a score: since its last jump, or since it went over from the middle of a sign to another
-/// utterance. It grows at its end; of more than 256 clips it has the last.
+/// utterance. It grows at its end; of more than 64 clips it has the last.
 struct LiveScore {
   Score score;
   std::int64_t next = 0;       ///< its frame that is shown next

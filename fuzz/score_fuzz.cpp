@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "signweave/choose/concatenate.h"
 #include "signweave/core/error.h"
@@ -39,6 +42,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             .rig = &rig},
            out);
     if (out.motion.frame_count() != score.frames) std::abort();
+    const std::int64_t begin = static_cast<std::int64_t>(size * 131) % score.frames;
+    const FrameRange frames{begin, std::min(score.frames, begin + 1 + static_cast<std::int64_t>(size % 50))};
+    Renderer renderer(plan_of(score, stretches), {.skeleton = source.motion->skeleton(),
+                                                  .rate = score.rate,
+                                                  .method = &transition_methods().front(),
+                                                  .rig = &rig});
+    Motion part;
+    renderer.render(frames, part);
+    const std::size_t joints = part.skeleton().joint_count();
+    const std::span<const Eigen::Quaternionf> whole =
+        std::as_const(out.motion).rotations().subspan(static_cast<std::size_t>(begin) * joints);
+    if (std::memcmp(part.rotations().data(), whole.data(), part.rotations().size_bytes()) != 0) std::abort();
   } catch (const Error&) {
   }
   return 0;

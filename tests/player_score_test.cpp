@@ -155,5 +155,40 @@ TEST(PlayerScore, RendersWhatIsShownWhateverIsAskedFor) {
   for (const std::size_t count : seen) EXPECT_GT(count, 20u);
 }
 
+TEST(PlayerScore, AnotherUtteranceTwiceInOneSign) {
+  // Signs that were recorded one after the other are one clip; the second change comes before the first is shown.
+  for (const std::size_t until : {1u, 20u, 60u, 100u, 130u}) {
+    ComparedPlayer stream({.idle = Idle::end});
+    Player& player = stream.player();
+    player.sign(parse_utterance("BRETAGNE#1 MATIN#1 NUAGES#1"));
+    for (std::size_t taken = 0; taken < until; ++taken) stream.take(1);
+    player.sign(parse_utterance("VANNES"));
+    stream.take(1);
+    player.prepare(64);
+    player.sign(parse_utterance("RENNES"));
+    for (int i = 0; i < 30 && !player.idle(); ++i) stream.take(32);
+    EXPECT_TRUE(player.idle());
+    ASSERT_FALSE(testing::Test::HasFatalFailure()) << until;
+  }
+}
+
+TEST(PlayerScore, HasTheLastClipsOfALongStream) {
+  ComparedPlayer stream({.idle = Idle::end});
+  std::string text;
+  for (int i = 0; i < 40; ++i) text += "VANNES , MATIN#1 , ";
+  stream.player().sign(parse_utterance(text));
+  std::size_t first_clip = 0;
+  for (int i = 0; !stream.player().idle() && i < 1000 && !testing::Test::HasFatalFailure(); ++i) {
+    stream.take(64);
+    if (const auto live = stream.player().score()) {
+      first_clip = live->first_clip;
+      EXPECT_LE(live->score.clips.size(), 64u);
+      EXPECT_EQ(live->score.clips.front().at.begin == 0, first_clip > 0) << "then it begins with a core";
+    }
+  }
+  EXPECT_TRUE(stream.player().idle());
+  EXPECT_EQ(first_clip, 16u);
+}
+
 }  // namespace
 }  // namespace signweave

@@ -9,6 +9,7 @@
 #include "signweave/features/hand_points.h"
 #include "signweave/retarget/retargeted_source.h"
 #include "signweave/retarget/test_other_rig.h"
+#include "signweave/score/score_json.h"
 #include "tests/player_showing.h"
 #include "tests/retarget_figures.h"
 
@@ -233,6 +234,26 @@ TEST(TwoSkeletons, EditsTakeSignsOfTheOther) {
   const auto [turn, way] = greatest_step(made.result.motion);
   EXPECT_LT(turn, 0.25f);
   EXPECT_LT(way, 0.01f);
+}
+
+TEST(TwoSkeletons, AScoreOfBothIsRenderedAgainWholeAndInParts) {
+  const Synthesized made = synthesize(two_rigs(), parse_utterance(kUtterance));
+  const Score score = score_from_json(json_of(made.result.score), "score");
+  const Synthesized again = synthesize(two_rigs(), score);
+  EXPECT_TRUE(same_bits(again.result.motion, made.result.motion));
+  EXPECT_EQ(again.result.notices.size(), 1u);
+  OpenScore open(two_rigs(), score);
+  Motion part;
+  for (const std::int64_t begin : {std::int64_t{150}, std::int64_t{0}, score.frames - 60}) {
+    open.render({begin, begin + 60}, part);
+    for (std::int64_t frame = 0; frame < 60; ++frame) {
+      const PoseView is = std::as_const(part).pose(frame);
+      const PoseView whole = std::as_const(made.result.motion).pose(begin + frame);
+      for (std::size_t joint = 0; joint < is.rotations.size(); ++joint) {
+        EXPECT_EQ(is.rotations[joint].coeffs(), whole.rotations[joint].coeffs()) << begin + frame;
+      }
+    }
+  }
 }
 
 /// What a player shows of a database.

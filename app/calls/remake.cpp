@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include "signweave/choose/captured_spans.h"
 #include "signweave/core/text.h"
@@ -34,6 +33,10 @@ std::optional<TimeSpan> span_in(std::string_view text) {
 
 [[noreturn]] void refuse(std::string_view span, const std::string& what) {
   throw Error(ErrorCode::bad_input, fmt::format("--remake {}: {}", span, what));
+}
+
+[[noreturn]] void refuse_replaced(const std::string& recording) {
+  throw Error(ErrorCode::conflict, fmt::format("'{}' was replaced meanwhile: ask again", recording));
 }
 
 std::string text_of(TimeSpan span) {
@@ -96,7 +99,7 @@ void remake(const Snapshot& snapshot, const RemakeJob& job, Motion& motion, std:
   const std::shared_ptr<const MotionSource> source = snapshot.motion(job.info);
   if (motion.frame_count() != job.shown.size() || source->frame_count() < job.shown.end ||
       difference(motion.skeleton(), *source->skeleton())) {
-    throw Error(ErrorCode::conflict, fmt::format("'{}' was replaced meanwhile: ask again", job.info.name));
+    refuse_replaced(job.info.name);
   }
   SignerModel signer = model_of(*source, job.info.rig);
   JointGroups groups = joint_groups(*source->skeleton(), signer.rig);
@@ -135,6 +138,7 @@ void remake(const Snapshot& snapshot, const RemakeJob& job, Motion& motion, std:
     }
     for (ScalarTrack& track : tracks) {
       const auto at = std::ranges::find(made.tracks(), track.name, &ScalarTrack::name);
+      if (at == made.tracks().end()) refuse_replaced(job.info.name);
       std::ranges::copy(at->values, track.values.begin() + first);
     }
   }

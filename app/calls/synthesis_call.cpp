@@ -115,7 +115,7 @@ std::optional<FrameRange> parse_frames(const std::string& text) {
   return frames;
 }
 
-/// Part of a score: nothing but motion, and where its frames come from.
+/// Part of a score: nothing but motion.
 Synthesized run_part(const Database& database, const Score& score, FrameRange frames) {
   OpenScore open(database, score);
   Synthesized made;
@@ -149,10 +149,9 @@ Synthesized run(const Database& database, const Score& score, const ScoreCall& c
   if (!frames) return synthesize(database, score);
   for (const std::string_view whole : {"eaf", "svg", "json"}) {
     if (std::ranges::find(formats, whole) == formats.end()) continue;
-    throw Error(ErrorCode::bad_input,
-                fmt::format("some frames alone have no annotation, which {} has; leave --frames out, or ask for a "
-                            "format of motion such as bvh",
-                            whole));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("{} is of a whole score: leave --frames out, or ask for a format of motion such as bvh", whole));
   }
   return run_part(database, score, *frames);
 }

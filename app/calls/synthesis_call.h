@@ -153,8 +153,8 @@ void fields(Visit& visit, ScoreCall& call) {
 /// How what it makes is shown and written.
 SynthesisChoices choices_of(const ScoreCall& call);
 /// Throws what `synthesize` of a score throws, Error{bad_input} where the frames are not in the score, or one of
-/// `formats` ("eaf", "bvh", …) has more than motion and only some of the frames are asked for. Of those there are the
-/// motion and where its frames come from, but no signs, stretches or junctions.
+/// `formats` ("eaf", "bvh", …) has more than motion and only some of the frames are asked for. Of those there is
+/// the motion alone: no signs, stretches, junctions or sources.
 Synthesized run(const Database& database, const Score& score, const ScoreCall& call,
                 const std::vector<std::string>& formats);
 

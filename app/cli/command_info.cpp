@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <set>
 
 #include "app/calls/defect_report.h"
 #include "app/calls/json.h"
@@ -17,10 +18,12 @@
 #include "app/cli/rig_report.h"
 #include "signweave/annotation/sign.h"
 #include "signweave/backup/backup.h"
+#include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/annotation_file.h"
 #include "signweave/formats/face_csv.h"
 #include "signweave/formats/file_format.h"
+#include "signweave/score/score_json.h"
 
 namespace signweave::cli {
 namespace {
@@ -153,6 +156,25 @@ void info_of_annotation(const std::string& path, Io& io) {
   print_notices(io, notices);
 }
 
+/// What a score says, for people; with --json what it is of.
+void info_of_score(const std::string& path, Io& io) {
+  const Score score = score_from_json(read_file(path, kLargestScore), path);
+  if (!io.json) {
+    io.out << to_string(score);
+    return;
+  }
+  std::set<std::string> recordings;
+  for (const Clip& clip : score.clips) {
+    if (!clip.source.recording.empty()) recordings.insert(clip.source.recording);
+  }
+  io.out << text_of(json{{"file", path},
+                         {"format", "score"},
+                         {"frames", score.frames},
+                         {"frames_per_second", score.rate.hertz()},
+                         {"clips", score.clips.size()},
+                         {"recordings", recordings}});
+}
+
 }  // namespace
 
 Run info(CLI::App& verb) {
@@ -166,7 +188,7 @@ Run info(CLI::App& verb) {
   verb.add_option("PATH", options->path,
                   "a database, a backup, a motion file " + readable_endings(FileKind::motion) +
                       ", an annotation file " + readable_endings(FileKind::annotation) +
-                      " or a face capture (.face.csv)")
+                      ", a face capture (.face.csv) or a score (.json)")
       ->required();
   verb.add_option("RECORDING", options->recording, "of a database: all that is known of this one");
   verb.add_option("--rig", options->rig, "a mapping file (part = joint) that says which joint plays which part")
@@ -199,6 +221,8 @@ Run info(CLI::App& verb) {
       info_of_annotation(options->path, io);
     } else if (kind == FileKind::face) {
       info_of_face(options->path, io);
+    } else if (fold_case(std::filesystem::path(options->path).extension().string()) == ".json") {
+      info_of_score(options->path, io);
     } else if (kind == FileKind::motion_part) {
       throw Error(ErrorCode::unsupported, options->path +
                                               ": holds no motion of its own; name a motion file beside it " +

@@ -12,9 +12,6 @@
 namespace signweave::cli {
 namespace {
 
-/// Bytes; a sign takes about two thousand.
-constexpr std::size_t kLargestScore = std::size_t{256} << 20;
-
 /// What a score has decided already. (Named to CLI11, its help would list them all.)
 constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "--align",
                                     "--junction",   "--rate",     "--missing", "--explain"};

@@ -136,6 +136,13 @@ void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, co
   print_notices(io, made.result.notices);
   for (const auto& [name, value] : made.result.declarations) io.err << "signweave: " << value << '\n';
   const Synthesis& result = made.result;
+  if (io.json && result.stretches.empty()) {  // a part of a score
+    io.out << text_of(nlohmann::json{{"files", delivery.outputs},
+                                     {"frames", result.motion.frame_count()},
+                                     {"frames_per_second", result.motion.rate().hertz()},
+                                     {"score_frames", result.score.frames}});
+    return;
+  }
   if (io.json) {
     nlohmann::json report = report_of(made, choices);
     report["files"] = delivery.outputs;
@@ -147,7 +154,7 @@ void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, co
     print_selection(made, io);
     print_junctions(made, io);
   }
-  if (result.motion.frame_count() != result.score.frames) {
+  if (result.stretches.empty()) {  // a part
     io.out << fmt::format("{} of {} at {} frames a second\n", counted(result.motion.frame_count(), "frame"),
                           result.score.frames, to_string(result.motion.rate()));
     return;

@@ -146,6 +146,12 @@ bool Api::takes_file(const ApiRequest& request) const {
   });
 }
 
+bool Api::takes_document(const ApiRequest& request) const {
+  return std::ranges::any_of(routes(), [&](const Route& route) {
+    return !route.takes.empty() && route.method == request.method && match(route, request.path);
+  });
+}
+
 std::optional<ApiResponse> Api::refusal(const ApiRequest& request) {
   std::string allowed;
   bool wanted = false;

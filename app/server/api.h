@@ -58,6 +58,8 @@ class Api {
   ApiResponse answer(ApiRequest request);
   /// True where the body of such a request belongs in a file (`body_file`): the server need not hold it.
   bool takes_file(const ApiRequest& request) const;
+  /// True where the body is a document that may be larger than a call's parameters: a score.
+  bool takes_document(const ApiRequest& request) const;
   /// The answer to a request whose body need not come, for no body could make it good: the database is not writable,
   /// there is no such upload. None where the body is wanted.
   std::optional<ApiResponse> refusal(const ApiRequest& request);

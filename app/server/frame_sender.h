@@ -21,6 +21,7 @@ namespace signweave::server {
 /// A player and its way to one client: takes frames at their time, or as fast as the client does, and sends them. At
 /// most one message of frames is under way; those that fall due meanwhile are taken and left out. Belongs to its I/O
 /// thread; the socket must outlive it.
+/// More than fifteen members: one object per stream, which keeps together what each frame needs.
 class FrameSender final : public Paced {
  public:
   FrameSender(IoThread& thread, ServedDatabase& database, StreamSocket& out, const StreamOptions& options);
@@ -36,7 +37,7 @@ class FrameSender final : public Paced {
   /// Sends nothing more.
   void stop() noexcept;
   std::uint64_t frame() const noexcept { return player_.frame(); }
-  std::optional<LiveScore> score() const { return player_.score(); }
+  std::optional<LiveScore> score(std::size_t most_clips) const { return player_.score(most_clips); }
 
   Clock::time_point tick(Clock::time_point now) noexcept override;
   bool work() override;

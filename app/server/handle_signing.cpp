@@ -33,9 +33,10 @@ std::vector<std::string> motion_formats() {
   std::erase(names, "eaf");
   return names;
 }
-constexpr const char* kSynthesisHelp =
+constexpr const char* kScoreHelp =
     "the file itself instead of the report: json with every pose, eaf with the annotation, svg as a contact sheet, "
-    "frames with every pose in the bytes of a stream, score with what renderScore takes";
+    "frames with every pose in the bytes of a stream";
+const std::string kSynthesisHelp = std::string(kScoreHelp) + ", score with what renderScore takes";
 
 }  // namespace
 
@@ -49,10 +50,7 @@ struct Formats<calls::EditCall> : Formats<calls::SignCall> {};
 template <>
 struct Formats<calls::ScoreCall> {
   static std::vector<std::string> names() { return score_formats(); }
-  static std::string help() {
-    return "the file itself instead of the report: json with every pose, eaf with the annotation, svg as a contact "
-           "sheet, frames with every pose in the bytes of a stream";
-  }
+  static std::string help() { return kScoreHelp; }
 };
 template <>
 struct Formats<calls::ExportCall> {

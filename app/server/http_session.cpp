@@ -186,8 +186,11 @@ void HttpSession::go_on() {
               .body = {},
               .body_file = {}};
   const bool to_file = context.api.takes_file(request_);
-  const std::uint64_t most = to_file ? context.options.limits.file_bytes : context.options.limits.body_bytes;
-  if (parser_->content_length() && *parser_->content_length() > most) return reply(too_long(most));
+  const ServerLimits& limits = context.options.limits;
+  most_body_ = to_file                                ? limits.file_bytes
+               : context.api.takes_document(request_) ? limits.score_bytes
+                                                      : limits.body_bytes;
+  if (parser_->content_length() && *parser_->content_length() > most_body_) return reply(too_long(most_body_));
   body_size_ = 0;
   state_ = State::body;
   within(context.options.limits.body_time);
@@ -247,10 +250,8 @@ void HttpSession::read_body() {
 
 void HttpSession::store_body(std::size_t bytes) {
   if (!socket_.is_open()) return;
-  const ServerLimits& limits = thread_.context.options.limits;
   body_size_ += bytes;
-  const std::uint64_t most = in_file_ ? limits.file_bytes : limits.body_bytes;
-  if (body_size_ > most) return reply(too_long(most));
+  if (body_size_ > most_body_) return reply(too_long(most_body_));
   if (!in_file_) {
     if (body_size_ > kChunk && !hold(bytes)) {
       thread_.metrics.refused.add();

@@ -15,6 +15,7 @@
 namespace signweave::server {
 
 /// One HTTP connection: reads a request, answers it, reads the next. A WebSocket's connection goes over to a stream.
+/// More than fifteen members: one state machine, whose steps share socket, request, answer and deadline.
 class HttpSession : public Connection, public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(IoThread& thread, boost::asio::ip::tcp::socket socket);
@@ -77,6 +78,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   ApiRequest request_;
   bool in_file_ = false;  // the body goes into request_.body_file
   int body_file_ = -1;
+  std::uint64_t most_body_ = 0;  // bytes that the body may have
   std::uint64_t body_size_ = 0;
   std::uint64_t held_ = 0;  // bytes of the body or the answer that count with those of all connections
   std::string chunk_;       // of a body or a file

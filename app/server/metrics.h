@@ -46,6 +46,7 @@ enum class RouteClass { api, file, health, metrics, stream, refused };
 constexpr std::size_t kRouteClasses = 6;
 
 /// What one I/O thread counts.
+/// More than fifteen members: a number of /metrics each.
 struct alignas(64) Metrics {
   std::array<std::array<Counter, 6>, kRouteClasses> requests;  ///< [class][status / 100]
   std::array<Histogram, kRouteClasses> latency;  ///< [class], first byte of the header to last of the answer

@@ -10,6 +10,7 @@
 namespace signweave::server {
 
 /// What the server grants one client, one address and all together. What goes beyond is refused with a clear answer.
+/// More than fifteen members: a limit each.
 struct ServerLimits {
   // Connections.
   std::size_t connections = 4'096;
@@ -20,7 +21,8 @@ struct ServerLimits {
   // Requests.
   std::uint32_t header_bytes = 16 * 1024;
   std::size_t target_bytes = 8 * 1024;
-  std::uint64_t body_bytes = 1 << 20;  ///< of a body that is held in memory
+  std::uint64_t body_bytes = 1 << 20;    ///< of a body that is held in memory
+  std::uint64_t score_bytes = 32 << 20;  ///< of a score, which is held in memory as well; a sign takes about 2,000
   std::uint64_t file_bytes = 2'000'000'000;
   std::uint64_t held_bytes = 512 << 20;  ///< of all bodies and answers that are held in memory; an answer may go alone
   std::size_t calls = 64;                ///< being answered or waiting for it

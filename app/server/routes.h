@@ -111,8 +111,8 @@ ApiResponse list_media(Call& call);
 ApiResponse show_media(Call& call);
 ApiResponse put_rendered(Call& call);  // handle_renders.cpp
 void require_render(const Call& call);
-ApiResponse render_score(Call& call);
 ApiResponse sign_utterance(Call& call);  // handle_signing.cpp
+ApiResponse render_score(Call& call);
 ApiResponse edit_recording(Call& call);
 ApiResponse export_motion(Call& call);
 ApiResponse export_annotation(Call& call);

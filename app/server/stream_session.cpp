@@ -1,5 +1,6 @@
 #include "app/server/stream_session.h"
 
+#include <fmt/format.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -145,6 +146,19 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
     say(error_text(code, text, id));
   }
 
+  /// As many of the last clips as a message may hold.
+  void tell_score(std::string_view id) {
+    const std::size_t most = thread_.context.options.limits.unread_bytes / 2;
+    std::string text;
+    for (std::size_t clips = Player::kMostScoreClips; clips > 0; clips /= 4) {
+      text = score_text(id, sender_ ? sender_->score(clips) : std::nullopt, sender_ ? sender_->frame() : 0);
+      tokens_ -= static_cast<double>(text.size()) / 4'096;  // making it takes time
+      if (text.size() <= most) return say(text);
+    }
+    throw Error(ErrorCode::unsupported,
+                fmt::format("the score of one clip has {} bytes, and a message may have {}", text.size(), most));
+  }
+
   void answer(std::string_view text) {
     std::string id;
     try {
@@ -154,7 +168,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
         if (sender_) throw Error(ErrorCode::conflict, "'open' comes first, and once");
         sender_.emplace(thread_, database_, socket_.next_layer(), message.open);
       } else if (message.control == Control::score) {
-        say(score_text(id, sender_ ? sender_->score() : std::nullopt, sender_ ? sender_->frame() : 0));
+        tell_score(id);
         return;
       } else if (message.control != Control::ping) {
         if (!sender_) sender_.emplace(thread_, database_, socket_.next_layer(), StreamOptions{});

@@ -97,14 +97,15 @@ std::string ok_text(std::string_view id, std::uint64_t frame) {
 }
 
 std::string score_text(std::string_view id, const std::optional<LiveScore>& live, std::uint64_t frame) {
-  OrderedJson object = {{"type", "score"}, {"frame", frame}, {"score", nullptr}};
+  std::string line = fmt::format(R"({{"type":"score","frame":{})", frame);
   if (live) {
-    object["score_frame"] = live->next;
-    object["first_clip"] = live->first_clip;
-    object["score"] = OrderedJson::parse(json_of(live->score));
+    line += fmt::format(R"(,"score_frame":{},"first_clip":{},"score":{})", live->next, live->first_clip,
+                        json_line_of(live->score));
+  } else {
+    line += R"(,"score":null)";
   }
-  add_id(object, id);
-  return line_of(object);
+  if (!id.empty()) line += fmt::format(R"(,"id":{})", id);
+  return line += '}';
 }
 
 std::string error_text(ErrorCode code, std::string_view message, std::string_view id) {

@@ -33,6 +33,7 @@ void put_on_skeleton(std::vector<Stretch>& stretches, const std::string& referen
   std::map<std::string, std::shared_ptr<const MotionSource>> mapped;  // by recording
   for (Stretch& stretch : stretches) {
     if (have_same_joints(stretch.source->skeleton(), home.skeleton())) continue;
+    if (stretch.kind != SourceRef::Kind::recording) require_same_joints(reference, home.skeleton(), stretch);
     std::shared_ptr<const MotionSource>& source = mapped[stretch.recording];
     if (!source) {
       if (!target) target = body_of(contents, reference, home);

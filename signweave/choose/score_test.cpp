@@ -188,11 +188,36 @@ TEST(ScoreOfStretches, FaultsSayWhereAndWhat) {
   EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": [20, 9000000000000000000]"),
               HasSubstr("my.json: clip 0 is at frames 20 to 9000000000000000000 of"));
   EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": [20, 50]"), HasSubstr("clip 0 shows 40 frames in 30, 1 a frame"));
+  EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": [20, 61]"), HasSubstr("clip 0 shows 40 frames in 41, 1 a frame"));
+  EXPECT_THAT(fault_of("\"rate\": [100, 1]", "\"rate\": [1, 9000000000]"), HasSubstr("a score has 0.001 to 1000000"));
+  EXPECT_THAT(fault_of("\"frame_time\": 0.01", "\"frame_time\": 0"), HasSubstr("the clock of clip 0 begins at 0 s"));
+  EXPECT_THAT(fault_of("\"ms\": [70, 920]", "\"ms\": [-9223372036854775807, 920]"), HasSubstr("lies at no time"));
   EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": 20"), HasSubstr("clips[0].at: it must be a list"));
   EXPECT_THAT(fault_of("\"recording\": \"B\"", "\"kind\": \"shown\", \"recording\": \"B\""),
               HasSubstr("clip 1 names a recording, and is of what was shown before"));
   EXPECT_THAT(fault_of("\"recording\": \"B\"", "\"kind\": \"dream\", \"recording\": \"B\""),
               HasSubstr("one of recording, rest, shown"));
+}
+
+TEST(ScoreOfStretches, ACrossFadeOfOneLaneAloneIsRefused) {
+  // What is compared between the two sides is then told by the body's cut: it would lie outside of the other lanes.
+  Score score =
+      concatenate(stretches_to_join(), {.method = find_transition_method("overlap"), .duration = 200ms}).score;
+  ASSERT_GT(std::get<Transition>(score.lanes[0].items[1].what).cut.overlap(), 0);
+  EXPECT_NO_THROW(check(score, "score"));
+  for (std::size_t lane = 1; lane < score.lanes.size(); ++lane) {
+    std::vector<Item>& items = score.lanes[lane].items;
+    Transition& made = std::get<Transition>(items[1].what);
+    made.cut.retraction_frames = made.cut.preparation_frames = 0;
+    items[0].at.end = items[1].at.begin = score.clips[0].at.end;
+    items[1].at.end = items[2].at.begin = score.clips[1].at.begin;
+  }
+  try {
+    check(score, "score");
+    ADD_FAILURE() << "no fault";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("junction 1 is cross-faded, and so must be cut alike"));
+  }
 }
 
 TEST(ScoreOfStretches, ClipsThatTheirMotionDoesNotHaveAreRefused) {

@@ -131,6 +131,7 @@ struct Storage {
 ///
 /// Readers see a recording whole or not at all, and are never blocked. One process at a time may open it read_write.
 /// Const functions may be called from several threads at once; the others from one.
+/// More than fifteen members: what is known of the newest state lies beside the mutex that guards it.
 class Database {
  public:
   using Progress = std::function<void(double fraction)>;

@@ -59,6 +59,7 @@ struct Recording {
 };
 
 /// What a database knows of a recording without reading its motion or document.
+/// More than fifteen members: a fact of the catalogue entry each.
 struct RecordingInfo {
   std::string name;
   std::string signer;

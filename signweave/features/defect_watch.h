@@ -21,6 +21,7 @@ struct Found {
 /// Jumps of joints in their parents, of translated joints and of the root in the room. A step from one frame to the
 /// next is compared with those beside it: a quick movement speeds up and slows down, a jump does neither. One frame
 /// that is out of place makes two steps, there and back, which are judged as one.
+/// More than fifteen members: what has been seen so far of joints, of the root and of the frame at hand.
 class JumpWatch {
  public:
   /// True for what is no defect: a jump that begins in a frame, of a joint (kNoJoint: the whole body).

@@ -18,6 +18,7 @@
 namespace signweave::asf {
 
 /// Reads the numbers of frame after frame. All that it is given must outlive it.
+/// More than fifteen members: a reader's state, of the file and of the frame at hand.
 class AmcReader {
  public:
   /// Reads what stands before the first frame. Throws Error{bad_input}.

@@ -30,6 +30,7 @@ struct Change {
 };
 
 /// A store that this process has open, shared by all who opened it.
+/// More than fifteen members: each lock stands with what it guards.
 class VersionedStore {
  public:
   static std::shared_ptr<VersionedStore> acquire(const std::filesystem::path& folder, Access access,

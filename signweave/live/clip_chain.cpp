@@ -13,15 +13,13 @@ void ClipChain::begin(std::shared_ptr<Woven> clip) {
 
 void ClipChain::add(std::shared_ptr<Woven> clip) {
   clip->number = next_number_++;
+  if (!clip->stretch.place) clip->stretch.place = clips_.empty() ? 0 : clips_.back()->stretch.place;
   clips_.push_back(std::move(clip));
   if (clips_.size() > kMostClips) clips_.pop_front();
 }
 
 void ClipChain::end_with(const std::shared_ptr<Woven>& clip) {
-  if (std::ranges::find(clips_, clip) == clips_.end()) {
-    begin(clip);
-    return;
-  }
+  if (std::ranges::find(clips_, clip) == clips_.end()) clips_ = {clip};
   while (clips_.back() != clip) clips_.pop_back();
   next_number_ = clip->number + 1;
 }
@@ -32,23 +30,26 @@ void ClipChain::replace_back(std::shared_ptr<Woven> clip) {
 }
 
 std::optional<LiveScore> ClipChain::score(const Weaver& weaver, const SourceRef& skeleton, std::int64_t next,
-                                          std::int64_t end) const {
+                                          std::int64_t end, std::size_t most_clips) const {
   if (clips_.empty()) return std::nullopt;
+  const std::size_t left_out = clips_.size() - std::min(clips_.size(), std::max<std::size_t>(most_clips, 1));
   Plan plan;
-  for (const std::shared_ptr<Woven>& clip : clips_) {
-    plan.laid.push_back(clip->laid);
-    if (plan.laid.size() > 1) plan.cuts.push_back(*clip->cuts);
+  for (std::size_t i = left_out; i < clips_.size(); ++i) {
+    plan.laid.push_back(clips_[i]->laid);
+    if (i > left_out) plan.cuts.push_back(*clips_[i]->cuts);
   }
   Laid& front = plan.laid.front();
   Laid& back = plan.laid.back();
-  front.before = clips_.front()->cuts ? 0 : front.preparation;  // what led to it is not of this score
+  front.before = clips_[left_out]->cuts ? 0 : front.preparation;  // what led to it is not of this score
   const std::int64_t begin = front.begin();
   for (Laid& laid : plan.laid) laid.core -= begin;
   plan.frames = end - begin;
+  if (plan.frames <= back.core) return std::nullopt;  // nothing of it is known yet
   back.core_frames = std::min(back.core_frames, plan.frames - back.core);
   back.after = plan.frames - back.core_end();
-  return LiveScore{
-      .score = score_of(plan, weaver.settings(), skeleton), .next = next - begin, .first_clip = clips_.front()->number};
+  return LiveScore{.score = score_of(plan, weaver.settings(), skeleton),
+                   .next = next - begin,
+                   .first_clip = clips_[left_out]->number};
 }
 
 }  // namespace signweave

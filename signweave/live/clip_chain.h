@@ -30,11 +30,12 @@ class ClipChain {
   /// The last clip as it is now: shorter than it was.
   void replace_back(std::shared_ptr<Woven> clip);
 
-  /// The score up to output frame `end`; `next`: the frame that is shown next. Throws nothing but std::bad_alloc.
-  std::optional<LiveScore> score(const Weaver& weaver, const SourceRef& skeleton, std::int64_t next,
-                                 std::int64_t end) const;
+  /// The score up to output frame `end`, of the last clips; `next`: the frame that is shown next. None where nothing
+  /// of it is known.
+  std::optional<LiveScore> score(const Weaver& weaver, const SourceRef& skeleton, std::int64_t next, std::int64_t end,
+                                 std::size_t most_clips) const;
 
-  static constexpr std::size_t kMostClips = 64;
+  static constexpr std::size_t kMostClips = Player::kMostScoreClips;
 
  private:
   std::deque<std::shared_ptr<Woven>> clips_;

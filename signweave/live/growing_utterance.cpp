@@ -110,7 +110,7 @@ std::shared_ptr<const Motion> GrowingUtterance::join(Woven& a, Woven& b) {
       b.laid.before = 0;
       lay_after(a.laid, b.laid, made->cuts);
       b.cuts = made->cuts;
-      b.laid.standing = made->transform;
+      b.laid.standing = made->standing;
       return made->frames;
     }
   }
@@ -250,6 +250,7 @@ bool GrowingUtterance::finish_sign(std::int64_t next) {
   if (woven == nullptr) return false;
   const Laid& laid = woven->laid;
   if (woven->stretch.kind == SourceRef::Kind::rest || next < laid.core || next >= laid.core_end()) return false;
+  std::optional<std::size_t> last_place;  // none: all of its signs are finished
   FrameRange core = woven->stretch.core;
   FrameRange whole = woven->stretch.whole;
   const auto entry = std::ranges::find(entries_, woven, &Entry::woven);
@@ -259,16 +260,24 @@ bool GrowingUtterance::finish_sign(std::int64_t next) {
     if (next >= laid.frame_of(candidate.core.end)) continue;
     core.end = candidate.core.end;
     whole.end = candidate.whole.end;
+    last_place = place + queue_.forgotten();
     break;
   }
   auto last = std::make_shared<Woven>();
   last->stretch = woven->stretch;
   last->stretch.core.end = core.end;
   last->stretch.whole = whole;
+  if (last_place) {
+    const auto end = std::ranges::upper_bound(last->stretch.sign_places, *last_place);
+    const auto kept = end - last->stretch.sign_places.begin();
+    last->stretch.signs.erase(last->stretch.signs.begin() + kept, last->stretch.signs.end());
+    last->stretch.sign_places.erase(end, last->stretch.sign_places.end());
+  }
   setup_->weaver->lay_sign(*last);
   last->laid.core = laid.core;
   last->laid.before = laid.before;
   last->laid.standing = woven->laid.standing;
+  last->laid.core_frames = std::min(last->laid.core_frames, laid.core_frames);
   last->cuts = woven->cuts;
   const auto soon = static_cast<std::int64_t>(kFinished.count() * setup_->header.rate.hertz());
   if (last->laid.core_end() - next > soon) {
@@ -278,6 +287,7 @@ bool GrowingUtterance::finish_sign(std::int64_t next) {
   }
   chain_.end_with(woven);
   chain_.replace_back(last);
+  timeline_.replace(woven, last);
   last_sign_.woven = std::move(last);
   end_with_last_sign();
   return true;
@@ -386,9 +396,9 @@ Milliseconds GrowingUtterance::time_of(std::int64_t frames) const noexcept {
   return Milliseconds(std::llround(static_cast<double>(frames) * 1000.0 / setup_->header.rate.hertz()));
 }
 
-std::optional<LiveScore> GrowingUtterance::score(std::int64_t next) const {
+std::optional<LiveScore> GrowingUtterance::score(std::int64_t next, std::size_t most_clips) const {
   if (!setup_) return std::nullopt;
-  return chain_.score(*setup_->weaver, setup_->skeleton, next, end());
+  return chain_.score(*setup_->weaver, setup_->skeleton, next, end(), most_clips);
 }
 
 }  // namespace signweave

@@ -47,7 +47,7 @@ class GrowingUtterance {
 
   const StreamHeader* header() const noexcept { return setup_ ? &setup_->header : nullptr; }
   /// What the timeline shows, with the frame of it that is shown next; see LiveScore.
-  std::optional<LiveScore> score(std::int64_t next) const;
+  std::optional<LiveScore> score(std::int64_t next, std::size_t most_clips) const;
   std::shared_ptr<const MotionSource> rest() const noexcept { return setup_ ? setup_->living : nullptr; }
 
   /// The timeline is known up to this frame.

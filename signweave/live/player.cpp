@@ -206,8 +206,8 @@ std::optional<PlayerEvent> Player::take_event() noexcept {
   return event;
 }
 
-std::optional<LiveScore> Player::score() const {
-  return state_->growing.score(state_->position());
+std::optional<LiveScore> Player::score(std::size_t most_clips) const {
+  return state_->growing.score(state_->position(), most_clips);
 }
 
 std::shared_ptr<const MotionSource> Player::rest() const noexcept {

@@ -128,7 +128,7 @@ class Player {
   /// What is shown and, as far as that is known, will be: rendered, frame `next` of it and those after it are what the
   /// stream shows from here on at tempo 1, with the same bits up to the signs of quaternions. None before anything is
   /// known.
-  std::optional<LiveScore> score() const;
+  std::optional<LiveScore> score(std::size_t most_clips = kMostScoreClips) const;
   /// The frames of its clips of SourceRef::Kind::rest; null where the stream never rests.
   std::shared_ptr<const MotionSource> rest() const noexcept;
 
@@ -137,6 +137,7 @@ class Player {
   bool idle() const noexcept;
 
   static constexpr std::size_t kMostReady = 64;
+  static constexpr std::size_t kMostScoreClips = 64;
 
  private:
   struct State;

@@ -36,6 +36,12 @@ void Timeline::forget(std::int64_t taken) noexcept {
   while (!segments_.empty() && segments_.front().frames.end <= taken) segments_.pop_front();
 }
 
+void Timeline::replace(const std::shared_ptr<Woven>& clip, const std::shared_ptr<Woven>& by) noexcept {
+  for (Segment& segment : segments_) {
+    if (segment.clip == clip) segment.clip = by;
+  }
+}
+
 const Timeline::Segment* Timeline::segment_at(std::int64_t frame) const noexcept {
   const auto at = std::ranges::find_if(
       segments_, [&](const Segment& one) { return one.frames.begin <= frame && frame < one.frames.end; });

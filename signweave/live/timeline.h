@@ -28,6 +28,9 @@ class Timeline {
   /// Frames before that one are not needed again.
   void forget(std::int64_t taken) noexcept;
 
+  /// What is shown of a clip is from now on of another one, which lies as it does.
+  void replace(const std::shared_ptr<Woven>& clip, const std::shared_ptr<Woven>& by) noexcept;
+
   /// The clip of which a frame is shown, or null.
   std::shared_ptr<Woven> clip_at(std::int64_t frame) const noexcept;
   /// The frame after those that are shown from the same thing as `frame`; `frame` where that is not known.

@@ -9,7 +9,7 @@ std::shared_ptr<const MadeTransition> made_of(std::int64_t frames) {
   const auto skeleton =
       std::make_shared<const Skeleton>(std::vector<Joint>{{"Hips", kNoJoint, {0, 0, 0}, true}}, std::vector<Tip>{});
   return std::make_shared<const MadeTransition>(MadeTransition{
-      .cuts = {}, .transform = {}, .frames = std::make_shared<Motion>(skeleton, FrameRate{60, 1}, frames)});
+      .cuts = {}, .standing = {}, .frames = std::make_shared<Motion>(skeleton, FrameRate{60, 1}, frames)});
 }
 
 TEST(TransitionCacheTest, GivesBackWhatWasKept) {

@@ -14,6 +14,7 @@ namespace signweave {
 
 /// One query over one table of segments: bound and planned once, run as often as wanted. Borrows both. For one thread.
 /// A partner that is a sequence has a search of its own, which finds what there is in one recording at a time.
+/// More than fifteen members: what is bound and planned once, and where the search is, each step of it uses.
 class Search {
  public:
   /// Stops while it binds and plans, too, where `limits` say so.

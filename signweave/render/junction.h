@@ -8,7 +8,7 @@
 #include "signweave/score/stretch.h"
 #include "signweave/transition/body_guard.h"
 
-/// One junction at a time, from nothing but its two sides: `concatenate` makes all those of a result with it, and
+/// One junction at a time, from nothing but its two sides: a `Renderer` makes all those of a score with it, and
 /// `Weaver` one after another while an utterance grows. So both make the same of the same stretches.
 namespace signweave {
 
@@ -70,7 +70,7 @@ class JunctionFiller {
   /// The transition: Algorithm 1, lines 3 to 6. The window has what both sides keep of it already, and of both cores
   /// `context()` frames or all; the frames that they share are there as a's, and in `scratch.shared` as b's.
   /// Quaternions of b in the window may be turned to their negatives. Arms that were made are kept within what a body
-  /// can do (see BodyGuard), but where the method is offered for evaluation alone.
+  /// can do (see BodyGuard), except where the method is offered for evaluation alone.
   void fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, JunctionScratch& scratch);
 
  private:

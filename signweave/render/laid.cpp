@@ -6,8 +6,13 @@
 namespace signweave {
 namespace {
 
-/// How many frames of the source are read at a time where they are interpolated.
+/// How many frames of the source are read at a time, at most and about, where they are interpolated.
 constexpr std::int64_t kChunk = 256;
+
+/// As many output frames are made of those.
+std::int64_t chunk_of(const Laid& laid) noexcept {
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(static_cast<double>(kChunk) / laid.step), 1, kChunk);
+}
 
 /// The frames of the source between which some output frames lie.
 FrameRange needed(const Laid& laid, FrameRange output) {
@@ -59,8 +64,9 @@ void read_frames(const Laid& laid, FrameRange output, MutablePoses out) {
   const std::size_t joints = source.skeleton()->joint_count();
   const std::size_t moved = source.skeleton()->translation_count();
   Motion captured;
-  for (std::int64_t begin = output.begin; begin < output.end; begin += kChunk) {
-    const std::int64_t end = std::min(begin + kChunk, output.end);
+  const std::int64_t chunk = chunk_of(laid);
+  for (std::int64_t begin = output.begin; begin < output.end; begin += chunk) {
+    const std::int64_t end = std::min(begin + chunk, output.end);
     const FrameRange frames = needed(laid, {begin, end});
     captured.reset(source.skeleton(), source.rate(), frames.size());
     source.read(frames, captured.poses({0, frames.size()}));
@@ -80,25 +86,29 @@ void read_tracks(const Laid& laid, FrameRange output, std::span<const std::span<
     source.read_tracks({first, first + output.size()}, out);
     return;
   }
-  const FrameRange frames = needed(laid, output);
+  const std::int64_t chunk = chunk_of(laid);
   std::vector<std::vector<float>> captured(out.size());
   std::vector<std::span<float>> spans(out.size());
-  for (std::size_t track = 0; track < out.size(); ++track) {
-    if (out[track].empty()) continue;
-    captured[track].resize(static_cast<std::size_t>(frames.size()));
-    spans[track] = captured[track];
-  }
-  source.read_tracks(frames, spans);
-  for (std::size_t track = 0; track < out.size(); ++track) {
-    const std::vector<float>& values = captured[track];
-    if (values.empty()) continue;
-    for (std::int64_t frame = output.begin; frame < output.end; ++frame) {
-      const double at = laid.frame_at(frame) - static_cast<double>(frames.begin);
-      const auto before = static_cast<std::size_t>(at);
-      const std::size_t after = std::min(before + 1, values.size() - 1);
-      const auto part = static_cast<float>(at - static_cast<double>(before));
-      out[track][static_cast<std::size_t>(frame - output.begin)] =
-          values[before] + part * (values[after] - values[before]);
+  for (std::int64_t begin = output.begin; begin < output.end; begin += chunk) {
+    const std::int64_t end = std::min(begin + chunk, output.end);
+    const FrameRange frames = needed(laid, {begin, end});
+    for (std::size_t track = 0; track < out.size(); ++track) {
+      if (out[track].empty()) continue;
+      captured[track].resize(static_cast<std::size_t>(frames.size()));
+      spans[track] = captured[track];
+    }
+    source.read_tracks(frames, spans);
+    for (std::size_t track = 0; track < out.size(); ++track) {
+      const std::vector<float>& values = captured[track];
+      if (values.empty()) continue;
+      for (std::int64_t frame = begin; frame < end; ++frame) {
+        const double at = laid.frame_at(frame) - static_cast<double>(frames.begin);
+        const auto before = static_cast<std::size_t>(at);
+        const std::size_t after = std::min(before + 1, values.size() - 1);
+        const auto part = static_cast<float>(at - static_cast<double>(before));
+        out[track][static_cast<std::size_t>(frame - output.begin)] =
+            values[before] + part * (values[after] - values[before]);
+      }
     }
   }
 }

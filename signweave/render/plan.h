@@ -44,7 +44,7 @@ std::vector<Stretch> stretches_beside(std::span<const FrameRange> gaps, const St
 /// The plan in which such stretches follow each other just as they are, with so many made frames between each two.
 Plan plan_with_gaps(const std::vector<Stretch>& stretches, std::span<const std::int64_t> counts);
 
-/// The score of a plan: it gives the plan back. Its clips name no place and its junctions are numbered in order.
+/// The score of a plan: it gives the plan back. A clip whose stretch names no place has that of its number.
 Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton);
 
 }  // namespace signweave

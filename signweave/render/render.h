@@ -10,8 +10,8 @@
 
 namespace signweave {
 
-/// Renders a plan: any frames of it, in any order, any number of times, always with the same bits. Belongs to one
-/// thread.
+/// Renders a plan: any frames of it, in any order, any number of times, always with the same bits; of clips whose
+/// motion is put onto another skeleton up to the signs of quaternions. Belongs to one thread.
 class Renderer {
  public:
   /// What the settings and the plan's stretches point to must outlive it.
@@ -21,10 +21,10 @@ class Renderer {
   /// Names of the scalar tracks: those that any of its clips has.
   const std::vector<std::string>& tracks() const noexcept { return tracks_; }
 
-  /// Makes the frames `frames`, which must lie in the plan, with their tracks; `out` then has these alone, and its
-  /// memory is used again. Costs what they cost, and a transition of which any frame is asked for its whole: nothing
-  /// more in a long score but, once, a few frames of every junction before them. Throws Error{corrupt},
-  /// Error{bad_input} for frames that are not in the plan.
+  /// Makes the frames `frames`, which must lie in the plan, with their tracks; `out` then has these alone. Costs what
+  /// they cost, and a transition of which any frame is asked for its whole: nothing more in a long score but, once, a
+  /// few frames of every junction before them. Throws Error{corrupt}, Error{bad_input} for frames that are not in the
+  /// plan.
   void render(FrameRange frames, Motion& out);
   /// The same of all frames, where `fetch` put those that were captured into `out` and gave back `used`.
   void render_fetched(Motion& out, std::vector<ScalarTrack> used);

@@ -30,6 +30,7 @@ struct RetargetOptions {
 
 /// Puts poses of one skeleton onto a character (docs/retargeting.md). Belongs to one thread; after construction
 /// nothing is allocated.
+/// More than fifteen members: a part or a measure of the two bodies each.
 class Retargeter {
  public:
   /// `signer` says which joint of the source is what and how large its body is: signer_body of a whole motion, since an

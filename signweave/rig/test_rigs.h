@@ -10,6 +10,7 @@
 namespace signweave {
 
 /// For tests: what one rig calls the joints of a body. `@` stands for the side; an empty name leaves a joint out.
+/// More than fifteen members: a joint each.
 struct RigNaming {
   std::string left = "Left", right = "Right";
   std::string hips = "Hips", spine = "Spine", chest = "Spine1", neck = "Neck", head = "Head";

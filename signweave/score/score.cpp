@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "signweave/core/error.h"
+#include "signweave/core/text.h"
 #include "signweave/score/junction_choice.h"
 
 namespace signweave {
@@ -24,6 +25,9 @@ struct Checker {
     throw Error(ErrorCode::bad_input, fmt::format("{}: {}", where, fmt::format(text, std::forward<Args>(args)...)));
   }
   static bool in_range(std::int64_t number) noexcept { return number >= 0 && number <= kMostFrameNumber; }
+  static bool in_range(TimeSpan span) noexcept {
+    return span.begin.count() >= -kMostFrameNumber && span.begin <= span.end && span.end.count() <= kMostFrameNumber;
+  }
 
   void clip(const Clip& clip, std::size_t index) const {
     require(clip.id == index, "clip {} has the id {}; ids count from 0 in the order of the clips", index, clip.id);
@@ -43,15 +47,20 @@ struct Checker {
             "clip {} begins before the core of the one before it ends", index);
     const auto at = static_cast<double>(clip.at.size());
     const auto core = static_cast<double>(clip.core.size());
-    require((at - 1) * clip.step <= core && core <= (at + 1) * clip.step + 1,
+    require(at <= std::max(1.0, std::round(core / clip.step)) && core <= (at + 1) * clip.step + 1,
             "clip {} shows {} frames in {}, {} a frame; that is not their number", index, clip.core.size(),
             clip.at.size(), clip.step);
     require(clip.sign_places.size() == clip.signs.size() && std::ranges::is_sorted(clip.sign_places) &&
                 (clip.signs.empty() || clip.sign_places.front() >= clip.place),
             "the signs of clip {} are of places before its own, {}, or not in their order", index, clip.place);
-    require(std::isfinite(clip.clock.origin.count()) && std::isfinite(clip.clock.frame_time.count()) &&
-                clip.clock.frame_time.count() > 0,
-            "the clock of clip {} does not go", index);
+    const double frame_time = clip.clock.frame_time.count();
+    require(std::abs(clip.clock.origin.count()) <= 1e9 && frame_time >= 1e-6 && frame_time <= 1e4,
+            "the clock of clip {} begins at {} s and goes {} s a frame", index, clip.clock.origin.count(), frame_time);
+    for (const Sign& sign : clip.signs) {
+      require(in_range(sign.span) && std::ranges::all_of(
+                                         sign.phases, [](TimeSpan span) { return in_range(span); }, &Phase::span),
+              "a sign of clip {} lies at no time, or ends before it begins", index);
+    }
     if (!clip.standing) return;
     require(clip.standing->shift.allFinite() && std::abs(clip.standing->turn.norm() - 1) < 1e-3f,
             "clip {} stands nowhere: its turn must be a unit quaternion, its shift three numbers", index);
@@ -102,9 +111,9 @@ struct Checker {
 std::string name_of(const Clip& clip) {
   if (clip.source.kind == SourceRef::Kind::shown) return "what was shown before";
   std::string signs;
-  for (const Sign& sign : clip.signs) signs += (signs.empty() ? "" : " ") + sign.gloss;
+  for (const Sign& sign : clip.signs) signs += (signs.empty() ? "" : " ") + printable(sign.gloss);
   if (signs.empty()) signs = clip.source.kind == SourceRef::Kind::rest ? "at rest" : "a piece";
-  return fmt::format("{} from '{}'", signs, clip.source.recording);
+  return fmt::format("{} from '{}'", signs, printable(clip.source.recording));
 }
 
 }  // namespace
@@ -140,8 +149,10 @@ void check(const Score& score, const std::string& where) {
   checker.require(!score.clips.empty(), "a score without a clip; it must have one");
   checker.require(score.skeleton.kind == SourceRef::Kind::recording && !score.skeleton.recording.empty(),
                   "'skeleton' names no recording");
-  checker.require(score.rate.numerator > 0 && score.rate.denominator > 0, "{}/{} frames a second", score.rate.numerator,
-                  score.rate.denominator);
+  constexpr std::int64_t kMostInRate = 1'000'000'000;
+  checker.require(score.rate.numerator > 0 && score.rate.numerator <= kMostInRate && score.rate.denominator > 0 &&
+                      score.rate.denominator <= kMostInRate && score.rate.hertz() >= 1e-3 && score.rate.hertz() <= 1e6,
+                  "{}/{} frames a second; a score has 0.001 to 1000000", score.rate.numerator, score.rate.denominator);
   checker.require(score.frames > 0 && score.frames <= kMostFrames, "{} frames; a score has 1 to {}", score.frames,
                   kMostFrames);
   for (std::size_t i = 0; i < score.clips.size(); ++i) checker.clip(score.clips[i], i);
@@ -164,12 +175,20 @@ void check(const Score& score, const std::string& where) {
           "junction {} is {} frames long in lane '{}' and {} in '{}'; lanes cut it apart, but all have one length",
           i + 1, length(lane), name_of(kChannels[lane]), length(0), name_of(kChannels[0]));
     }
+    // A cross-fade is of the whole body.
+    const auto cut = [&](Channel lane) {
+      return std::get<Transition>(score.lanes[static_cast<std::size_t>(lane)].items[2 * i + 1].what).cut;
+    };
+    const TransitionCut body = cut(Channel::body), left = cut(Channel::left), right = cut(Channel::right);
+    checker.require((body == left && body == right) || body.overlap() + left.overlap() + right.overlap() == 0,
+                    "junction {} is cross-faded, and so must be cut alike in the lanes of the body and both arms",
+                    i + 1);
   }
 }
 
 std::string to_string(const Score& score) {
   std::string text = fmt::format("{} frames at {} frames a second, with the joints of '{}'\n", score.frames,
-                                 to_string(score.rate), score.skeleton.recording);
+                                 to_string(score.rate), printable(score.skeleton.recording));
   for (std::size_t i = 0; i < score.clips.size(); ++i) {
     const Clip& clip = score.clips[i];
     if (i > 0) {

@@ -266,7 +266,9 @@ Item item_from(const Value& value) {
 
 }  // namespace
 
-std::string json_of(const Score& score) {
+namespace {
+
+Json tree_of(const Score& score) {
   Json clips = Json::array();
   for (const Clip& clip : score.clips) clips.push_back(json_of(clip));
   Json junctions = Json::array();
@@ -279,14 +281,23 @@ std::string json_of(const Score& score) {
     for (const Item& item : lane.items) items.push_back(json_of(item));
     lanes.push_back({{"channel", name_of(lane.channel)}, {"items", std::move(items)}});
   }
-  const Json all{{"signweave_score", kScoreVersion},
-                 {"skeleton", json_of(score.skeleton)},
-                 {"rate", {score.rate.numerator, score.rate.denominator}},
-                 {"frames", score.frames},
-                 {"clips", std::move(clips)},
-                 {"junctions", std::move(junctions)},
-                 {"lanes", std::move(lanes)}};
-  return with_short_lists(all.dump(1, ' ', false, Json::error_handler_t::replace)) + "\n";
+  return {{"signweave_score", kScoreVersion},
+          {"skeleton", json_of(score.skeleton)},
+          {"rate", {score.rate.numerator, score.rate.denominator}},
+          {"frames", score.frames},
+          {"clips", std::move(clips)},
+          {"junctions", std::move(junctions)},
+          {"lanes", std::move(lanes)}};
+}
+
+}  // namespace
+
+std::string json_of(const Score& score) {
+  return with_short_lists(tree_of(score).dump(1, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
+
+std::string json_line_of(const Score& score) {
+  return tree_of(score).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 Score score_from_json(std::string_view text, const std::string& file) {

@@ -20,6 +20,7 @@ namespace signweave {
 ///
 /// Rows are numbered recording by recording, the recordings by name, and within one as in its chunk; after the rows of
 /// a sign tier come its units. Texts, tiers and recordings are numbered within the table.
+/// More than fifteen members: a column or an index each.
 class SegmentTable {
  public:
   struct Source {

@@ -15,6 +15,7 @@ inline constexpr float kFingerDepthAllowed = 0.002f;
 
 /// Keeps the fingers of one hand that were made out of each other. Made once per signer, it belongs to one thread; the
 /// second gap of some length allocates nothing. (ours)
+/// More than fifteen members: the hand once, then buffers of the gap at hand.
 class FingerGuard {
  public:
   FingerGuard() = default;

@@ -37,6 +37,7 @@ struct JointReaches {
 
 /// Memory that methods use; kept from gap to gap, so that nothing is allocated once it has grown. How far it grows
 /// depends on the joints, the frames within kContext and the spans of the model, never on how long a gap is.
+/// More than fifteen members: a buffer each.
 struct GapScratch {
   std::vector<Eigen::Vector3f> before;        ///< one joint's way up to the left border, backwards from it
   std::vector<Eigen::Vector3f> after;         ///< and from the right border on

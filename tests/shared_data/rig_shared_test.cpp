@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 using enum Part;
 
 /// What the joints of one exporter are, read off its files by eye. `@` stands for the side.
+/// More than fifteen members: a joint each.
 struct Expected {
   std::string files;  ///< what their paths begin with, below bvh/
   std::string convention;

@@ -1,0 +1,12 @@
+#pragma once
+
+/// A class of which nobody says why it has so many.
+class Many {
+ public:
+  int function(int a);
+
+ private:
+  int a_, b_, c_, d_, e_, f_, g_, h_;
+  int i_, j_, k_, l_, m_, n_, o_;
+  int p_ = 0;
+};

@@ -43,7 +43,7 @@ AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& 
     const std::string id = new_id();
     gloss.annotations.push_back(annotation(placed.sign.span, placed.sign.gloss, id));
     place.annotations.push_back(
-        annotation(placed.sign.span, fmt::format("place {}, clip {}", placed.place, placed.stretch), new_id(), id));
+        annotation(placed.sign.span, fmt::format("{}, clip {}", placed.place, placed.stretch), new_id(), id));
     for (const Phase& one : placed.sign.phases) {
       phase.annotations.push_back(annotation(one.span, one.label, new_id(), id));
     }

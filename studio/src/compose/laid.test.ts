@@ -101,7 +101,7 @@ it('draws what was made as its EAF has it', () => {
     ['Source', 4],
     ['Junction', 3],
   ])
-  expect(tiers[2].annotations[1].label).toBe('place 1, clip 0')
+  expect(tiers[2].annotations[1].label).toBe('1, clip 0')
   expect(tiers[3].annotations[1]).toEqual({ begin: 2400, end: 4600, label: 'clip 1, place 2: s frames 100..320' })
   expect(tiers[4].annotations[0].label).toBe('clip 0 -> 1: gap 450 ms: A -> B (m_i 1, m_j 2, p 3)')
   expect(tiers[1].annotations[1]).toEqual({ begin: 100, end: 900, label: 'Stroke' })

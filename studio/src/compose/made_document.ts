@@ -15,7 +15,7 @@ export const kEafLabels: MadeLabels = {
   preparation: 'Preparation',
   stroke: 'Stroke',
   retraction: 'Retraction',
-  madePlace: 'place {place}, clip {clip}',
+  madePlace: '{place}, clip {clip}',
   madeSource: 'clip {clip}, place {place}: {recording} frames {from}..{to}',
   madeSeam: 'clip {fromClip} -> {toClip}: {method} {ms} ms: {from} -> {to} (m_i {retraction}, m_j {preparation}, p {blend})',
 }

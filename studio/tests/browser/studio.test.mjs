@@ -262,7 +262,7 @@ test('shows an edited recording beside the original, sign by sign', async () => 
   near(steps[0], 5, 1e-6)
   assert.ok(Math.abs(steps[2] - 40) > 0.05, 'the original goes on by time')
   await until(async () =>
-    assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 4), ['Gloss', 'Phase', 'Source', 'Junction']),
+    assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 5), ['Gloss', 'Phase', 'Place', 'Source', 'Junction']),
   )
   await page.evaluate(() => (window.signweaveStage.transport.seek(29.4), window.signweaveStage.touch())) // both hands are up in both
   await drawn(page)

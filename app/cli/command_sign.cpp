@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -7,6 +8,7 @@
 #include "app/cli/command.h"
 #include "app/cli/delivery.h"
 #include "signweave/core/atomic_file.h"
+#include "signweave/core/text.h"
 #include "signweave/score/score_json.h"
 
 namespace signweave::cli {

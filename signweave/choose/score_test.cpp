@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <filesystem>
+
 #include "signweave/choose/concatenate.h"
+#include "signweave/core/atomic_file.h"
 #include "signweave/core/error.h"
 #include "signweave/render/render.h"
 #include "signweave/score/score_json.h"
@@ -197,6 +200,11 @@ TEST(ScoreOfStretches, FaultsSayWhereAndWhat) {
               HasSubstr("clip 1 names a recording, and is of what was shown before"));
   EXPECT_THAT(fault_of("\"recording\": \"B\"", "\"kind\": \"dream\", \"recording\": \"B\""),
               HasSubstr("one of recording, rest, shown"));
+}
+
+TEST(ScoreOfStretches, TheFuzzTargetBeginsWithScoresThatAreRead) {
+  const std::filesystem::path file = std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "testdata/score/three_signs.json";
+  EXPECT_EQ(score_from_json(read_file(file), "three_signs.json").clips.size(), 3u);
 }
 
 TEST(ScoreOfStretches, ACrossFadeOfOneLaneAloneIsRefused) {

@@ -1,7 +1,6 @@
 #include "signweave/evaluation/regenerate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <memory>
 #include <utility>
@@ -32,7 +31,7 @@ bool same_but_signs(PoseView a, PoseView b) {
 }  // namespace
 
 Gap gap_at(const Motion& motion, const JointGroups& groups, FrameRange frames, std::int64_t count) {
-  const auto context = static_cast<std::int64_t>(std::ceil(kContext.count() * motion.rate().hertz() - 1e-6)) + 1;
+  const std::int64_t context = context_frames(motion.rate());
   return {.skeleton = &motion.skeleton(),
           .groups = &groups,
           .rate = motion.rate(),

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "signweave/core/time.h"
 #include "signweave/features/capture_noise.h"

@@ -185,7 +185,7 @@ std::vector<MethodScores> evaluate_replaced(std::span<const EvaluatedMotion> rec
       model = trainer.model_without(folds.of[replaced.span.recording]);
     }
     const FrameRate rate = recording.motion.rate();
-    const std::int64_t context = std::llround(std::ceil(kContext.count() * rate.hertz())) + 1;
+    const std::int64_t context = context_frames(rate);
     const std::int64_t margin = std::max<std::int64_t>(2, std::llround(0.1 * rate.hertz()));
     Joined joined = join(recording, recordings[replaced.source], replaced, context);
     const SignerRig rig{recording.signer, recording.groups};

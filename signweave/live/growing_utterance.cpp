@@ -22,7 +22,7 @@ GrowingUtterance::GrowingUtterance(SigningBase& base, const PlayerOptions& optio
     : base_(base), options_(options), open_(base.database()), queue_(base, open_, options_) {}
 
 std::int64_t GrowingUtterance::history() const noexcept {
-  return setup_ ? static_cast<std::int64_t>(std::ceil(kContext.count() * setup_->header.rate.hertz())) + 1 : 1;
+  return setup_ ? context_frames(setup_->header.rate) : 1;
 }
 
 bool GrowingUtterance::extend(const FrameRing& shown) {

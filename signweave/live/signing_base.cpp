@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/choose/notices.h"

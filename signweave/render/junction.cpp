@@ -1,11 +1,11 @@
 #include "signweave/render/junction.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "signweave/motion/blend.h"
 
 namespace signweave {
+
 const TransitionMethod& method_of(const JunctionSettings& settings, const Laid& laid) noexcept {
   const TransitionMethod* const own = laid.stretch->junction.method;
   return own != nullptr ? *own : *settings.method;
@@ -19,7 +19,7 @@ std::int64_t JunctionFiller::shared(const Laid& a, const Laid& b) noexcept {
 }
 
 std::int64_t JunctionFiller::context() const noexcept {
-  return static_cast<std::int64_t>(std::ceil(kContext.count() * settings_.rate.hertz() - 1e-6)) + 1;
+  return context_frames(settings_.rate);
 }
 
 void JunctionFiller::fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window,

@@ -28,7 +28,6 @@ struct Laid {
   std::int64_t begin() const noexcept { return core - before; }             ///< its first output frame
   std::int64_t core_end() const noexcept { return core + core_frames; }     ///< output frame after its core
   std::int64_t end() const noexcept { return core + core_frames + after; }  ///< output frame after its last
-  FrameRange all() const noexcept { return {begin(), end()}; }
   bool captured_as_is() const noexcept { return step == 1.0; }
   /// The recording's frame that is shown at an output frame.
   double frame_at(std::int64_t output) const noexcept;

@@ -59,8 +59,9 @@ std::vector<Lane> lanes_of(const Plan& plan) {
 }
 
 std::vector<std::size_t> places_of(const Stretch& stretch, std::size_t index) {
-  if (!stretch.sign_places.empty()) return stretch.sign_places;
-  return std::vector<std::size_t>(stretch.signs.size(), stretch.place.value_or(index));
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < stretch.signs.size(); ++i) places.push_back(place_of_sign(stretch, i, index));
+  return places;
 }
 
 /// Frames of the recording that its core shows: fewer than the stretch has where it was left before its end.

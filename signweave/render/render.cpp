@@ -85,19 +85,13 @@ void place_junctions(const Score& score, const Plan& plan, Synthesis& out) {
   }
 }
 
-/// Goes on from where `made` was taken from: copies some of its frames.
+/// Copies some frames of what was made from frame `from` of the output on.
 void copy(const Motion& made, std::int64_t from, FrameRange frames, Motion& out) {
-  const auto first = static_cast<std::size_t>(frames.begin - from);
-  const auto count = static_cast<std::size_t>(frames.size());
-  const std::size_t joints = made.skeleton().joint_count();
-  const std::size_t moved = made.skeleton().translation_count();
+  const FrameRange here{frames.begin - from, frames.end - from};
   out.reset(made.shared_skeleton(), made.rate(), frames.size());
-  const MutablePoses to = out.poses({0, frames.size()});
-  std::ranges::copy(made.rotations().subspan(first * joints, count * joints), to.rotations.begin());
-  std::ranges::copy(made.translations().subspan(first * moved, count * moved), to.translations.begin());
+  BorrowedSource(made).read(here, out.poses({0, frames.size()}));
   for (const ScalarTrack& track : made.tracks()) {
-    const float* const values = track.values.data() + first;
-    out.add_track({track.name, {values, values + count}});
+    out.add_track({track.name, {track.values.begin() + here.begin, track.values.begin() + here.end}});
   }
 }
 
@@ -128,6 +122,7 @@ Renderer::Part Renderer::part_with(FrameRange frames) const {
 const JointSigns& Renderer::turned_in(std::size_t clip) {
   const std::size_t joints = settings_.skeleton->joint_count();
   if (turned_.empty()) turned_.emplace_back(joints, false);
+  if (clip < turned_.size()) return turned_[clip];
   const JointGroups& groups = settings_.rig->groups;
   Motion left(settings_.skeleton, settings_.rate, 1);
   Motion right(settings_.skeleton, settings_.rate, 1);
@@ -222,10 +217,6 @@ void render(Score score, Renderer& renderer, const std::vector<Stretch>& stretch
   out.signs.clear();
   place_signs(stretches, out);
   out.score = std::move(score);
-  std::size_t next = 0;
-  for (const Clip& clip : out.score.clips) {
-    for (const std::size_t place : clip.sign_places) out.signs[next++].place = place;
-  }
 }
 
 }  // namespace signweave

@@ -18,8 +18,6 @@ class Renderer {
   Renderer(Plan plan, const JunctionSettings& settings);
 
   const Plan& plan() const noexcept { return plan_; }
-  /// Names of the scalar tracks: those that any of its clips has.
-  const std::vector<std::string>& tracks() const noexcept { return tracks_; }
 
   /// Makes the frames `frames`, which must lie in the plan, with their tracks; `out` then has these alone. Costs what
   /// they cost, and a transition of which any frame is asked for its whole: nothing more in a long score but, once, a
@@ -43,8 +41,8 @@ class Renderer {
   Plan plan_;
   JunctionSettings settings_;
   JunctionFiller filler_;
-  std::vector<std::string> tracks_;
-  std::vector<JointSigns> turned_;  ///< [clip] as far as it was asked for
+  std::vector<std::string> tracks_;  ///< names: those that any of its clips has
+  std::vector<JointSigns> turned_;   ///< [clip] as far as it was asked for
   JunctionScratch scratch_;
   Motion window_;
 };

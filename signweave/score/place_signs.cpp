@@ -30,7 +30,8 @@ void place_signs_of(const Stretch& stretch, const Placed& placed, std::size_t in
   };
   for (std::size_t i = 0; i < stretch.signs.size(); ++i) {
     const Sign& source = stretch.signs[i];
-    PlacedSign sign{.sign = source, .stretch = index, .recorded = source.span};
+    PlacedSign sign{
+        .sign = source, .stretch = index, .place = place_of_sign(stretch, i, index), .recorded = source.span};
     const auto recorded_stroke = source.stroke_span();
     // Where the core begins or ends with the stroke. At a piece cut through a sign it does not: that sign stays as it
     // was.

@@ -36,6 +36,11 @@ struct Stretch {
   std::shared_ptr<const CaptureNoise> noise = nullptr;
 };
 
+/// The place that one of its signs is of; `number`: the place of a stretch that names none.
+inline std::size_t place_of_sign(const Stretch& stretch, std::size_t sign, std::size_t number) {
+  return stretch.sign_places.empty() ? stretch.place.value_or(number) : stretch.sign_places[sign];
+}
+
 /// Where a stretch is from, as a score names it.
 inline SourceRef source_of(const Stretch& stretch) {
   return {stretch.kind, stretch.recording, stretch.fingerprint};

@@ -50,5 +50,7 @@ struct Gap {
 
 /// As far as a method looks at either side.
 inline constexpr Seconds kContext{0.3};
+/// That in frames, inclusive of both ends.
+std::int64_t context_frames(FrameRate rate) noexcept;
 
 }  // namespace signweave

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 
 namespace signweave::bench {
 

@@ -11,7 +11,7 @@
 
 #include "bench/measure.h"
 #include "demo/corpus.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "signweave/motion_db/compact.h"
 #include "signweave/motion_db/quantise.h"
 

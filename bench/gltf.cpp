@@ -18,8 +18,8 @@
 
 #include "bench/measure.h"
 #include "bench/table.h"
-#include "signweave/formats/gltf.h"
-#include "signweave/formats/gltf_read.h"
+#include "signweave/formats/gltf/gltf.h"
+#include "signweave/formats/gltf/read.h"
 
 namespace {
 

@@ -25,10 +25,10 @@
 #include "demo/corpus.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text_reader.h"
-#include "signweave/formats/bvh.h"
-#include "signweave/formats/bvh_frames.h"
-#include "signweave/formats/bvh_hierarchy.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/bvh/bvh.h"
+#include "signweave/formats/bvh/frames.h"
+#include "signweave/formats/bvh/hierarchy.h"
+#include "signweave/formats/eaf/eaf.h"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include "demo/sheets.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/error.h"
-#include "signweave/formats/bvh.h"
-#include "signweave/formats/eaf.h"
-#include "signweave/formats/face_csv.h"
+#include "signweave/formats/bvh/bvh.h"
+#include "signweave/formats/eaf/eaf.h"
+#include "signweave/formats/face/face_csv.h"
 
 namespace {
 

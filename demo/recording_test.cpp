@@ -13,8 +13,8 @@
 
 #include "demo/corpus.h"
 #include "demo/test_rate.h"
-#include "signweave/formats/bvh.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/bvh/bvh.h"
+#include "signweave/formats/eaf/eaf.h"
 #include "signweave/motion/kinematics.h"
 
 namespace signweave::demo {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "signweave/formats/contact_sheet.h"
+#include "signweave/drawing/contact_sheet.h"
 
 namespace signweave::demo {
 namespace {

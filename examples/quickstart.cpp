@@ -7,7 +7,7 @@
 #include "signweave/choose/synthesizer.h"
 #include "signweave/database/database.h"
 #include "signweave/database/import.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "signweave/query/parse.h"
 
 int main(int argc, char** argv) {

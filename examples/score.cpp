@@ -7,7 +7,7 @@
 
 #include "signweave/choose/synthesizer.h"
 #include "signweave/core/atomic_file.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "signweave/live/player.h"
 #include "signweave/score/score_json.h"
 

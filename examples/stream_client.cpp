@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "signweave/core/error.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "signweave/live/frame_codec.h"
 #include "signweave/notation/utterance.h"
 

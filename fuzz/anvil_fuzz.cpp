@@ -6,7 +6,7 @@
 #include "signweave/annotation/sign.h"
 #include "signweave/core/error.h"
 #include "signweave/formats/annotation_file.h"
-#include "signweave/formats/anvil.h"
+#include "signweave/formats/anvil/anvil.h"
 
 /// Any bytes are read as ANVIL or refused with an Error, with and without themselves as their specification. What was
 /// read is read again from what is kept of it, and is written as EAF that can be read, or refused.

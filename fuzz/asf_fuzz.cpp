@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "signweave/formats/asf.h"
+#include "signweave/formats/asf/asf.h"
 
 using namespace signweave;
 

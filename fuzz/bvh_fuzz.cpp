@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 
 using namespace signweave;
 

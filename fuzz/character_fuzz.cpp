@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "signweave/core/error.h"
-#include "signweave/formats/gltf_character.h"
+#include "signweave/formats/gltf/character.h"
 #include "signweave/retarget/character.h"
 
 using namespace signweave;

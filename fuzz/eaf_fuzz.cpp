@@ -5,7 +5,7 @@
 
 #include "signweave/annotation/sign.h"
 #include "signweave/core/error.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 
 /// Any bytes are read as EAF or refused with an Error. What was read is written back byte for byte; with one label
 /// changed, or from its model alone, it is written as a file that can be read, or refused.

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "signweave/formats/face_csv.h"
+#include "signweave/formats/face/face_csv.h"
 
 using namespace signweave;
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "signweave/formats/fbx.h"
+#include "signweave/formats/fbx/fbx.h"
 
 using namespace signweave;
 

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "signweave/core/error.h"
-#include "signweave/formats/gltf.h"
-#include "signweave/formats/gltf_read.h"
+#include "signweave/formats/gltf/gltf.h"
+#include "signweave/formats/gltf/read.h"
 
 using namespace signweave;
 

@@ -9,7 +9,7 @@
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
 #include "signweave/database/test_recording.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 #include "signweave/motion/kinematics.h"
 #include "signweave/rig/rig_map.h"
 #include "signweave/score/provenance.h"

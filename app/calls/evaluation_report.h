@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "signweave/drawing/error_plot.h"
 #include "signweave/evaluation/bootstrap.h"
 #include "signweave/evaluation/evaluate.h"
-#include "signweave/formats/error_plot.h"
 
 namespace signweave::calls {
 

@@ -11,7 +11,7 @@
 #include "app/calls/characters.h"
 #include "signweave/annotation/document.h"
 #include "signweave/choose/synthesizer.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "signweave/motion/motion.h"
 #include "signweave/rig/rig_map.h"
 

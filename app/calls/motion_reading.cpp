@@ -1,6 +1,6 @@
 #include "app/calls/motion_reading.h"
 
-#include "signweave/formats/face_csv.h"
+#include "signweave/formats/face/face_csv.h"
 
 namespace signweave::calls {
 std::string check_timecode(const std::string& text) {

@@ -6,7 +6,7 @@
 
 #include "app/calls/field.h"
 #include "signweave/core/error.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "signweave/motion/motion.h"
 
 namespace signweave::calls {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "signweave/formats/transition_plot.h"
+#include "signweave/drawing/transition_plot.h"
 #include "signweave/semantic_db/semantic_db.h"
 
 namespace signweave::calls {

@@ -21,7 +21,7 @@
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/annotation_file.h"
-#include "signweave/formats/face_csv.h"
+#include "signweave/formats/face/face_csv.h"
 #include "signweave/formats/file_format.h"
 #include "signweave/score/score_json.h"
 

@@ -11,7 +11,7 @@
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/validators.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 
 namespace signweave::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "app/cli/progress.h"
 #include "signweave/database/database.h"
 #include "signweave/features/phase_proposals.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 #include "signweave/formats/file_format.h"
 
 namespace signweave::cli {

@@ -8,7 +8,7 @@
 #include "app/calls/stats_call.h"
 #include "app/calls/table.h"
 #include "app/server/routes.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 
 namespace signweave::server {
 

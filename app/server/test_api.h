@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "app/server/api.h"
-#include "signweave/formats/bvh.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/bvh/bvh.h"
+#include "signweave/formats/eaf/eaf.h"
 #include "signweave/kv/test_folder.h"
 #include "tests/demo_database.h"
 

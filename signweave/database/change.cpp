@@ -11,7 +11,7 @@
 #include "signweave/database/measure.h"
 #include "signweave/database/movement.h"
 #include "signweave/database/tables.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 #include "signweave/motion_db/quantise.h"
 #include "signweave/semantic_db/semantic_db.h"
 #include "signweave/semantic_db/table_store.h"

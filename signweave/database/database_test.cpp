@@ -12,7 +12,7 @@
 
 #include "signweave/database/check.h"
 #include "signweave/database/test_recording.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 #include "signweave/query/parse.h"
 
 namespace signweave {

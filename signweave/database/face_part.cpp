@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "signweave/core/text.h"
-#include "signweave/formats/face_csv.h"
+#include "signweave/formats/face/face_csv.h"
 
 namespace signweave {
 

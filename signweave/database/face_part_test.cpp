@@ -7,7 +7,7 @@
 
 #include "signweave/database/import.h"
 #include "signweave/database/test_recording.h"
-#include "signweave/formats/gltf.h"
+#include "signweave/formats/gltf/gltf.h"
 
 namespace signweave {
 namespace {

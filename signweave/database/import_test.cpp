@@ -6,7 +6,7 @@
 #include "signweave/core/atomic_file.h"
 #include "signweave/database/check.h"
 #include "signweave/database/test_import.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 #include "signweave/query/parse.h"
 
 namespace signweave {

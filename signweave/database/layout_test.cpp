@@ -12,7 +12,7 @@
 
 #include "signweave/database/check.h"
 #include "signweave/database/test_recording.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "signweave/motion_db/quantise.h"
 #include "signweave/query/parse.h"
 

@@ -9,7 +9,7 @@
 #include "signweave/database/catalogue.h"
 #include "signweave/database/database.h"
 #include "signweave/database/measure.h"
-#include "signweave/formats/face_csv.h"
+#include "signweave/formats/face/face_csv.h"
 #include "signweave/query/watch.h"
 #include "signweave/semantic_db/semantic_db.h"
 #include "signweave/semantic_db/trace_store.h"

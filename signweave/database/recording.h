@@ -11,7 +11,7 @@
 #include "signweave/core/error.h"
 #include "signweave/core/time.h"
 #include "signweave/features/defects.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "signweave/motion/motion.h"
 #include "signweave/motion_db/access_mode.h"
 #include "signweave/motion_db/motion_db.h"

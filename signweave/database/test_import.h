@@ -9,8 +9,8 @@
 
 #include "signweave/database/import.h"
 #include "signweave/database/test_recording.h"
-#include "signweave/formats/bvh.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/bvh/bvh.h"
+#include "signweave/formats/eaf/eaf.h"
 
 namespace signweave::testing_database {
 

@@ -9,8 +9,8 @@
 #include "signweave/database/import.h"
 #include "signweave/database/test_recording.h"
 #include "signweave/features/gaze.h"
-#include "signweave/formats/eaf.h"
-#include "signweave/formats/face_csv.h"
+#include "signweave/formats/eaf/eaf.h"
+#include "signweave/formats/face/face_csv.h"
 #include "signweave/query/parse.h"
 #include "signweave/rig/test_rig.h"
 

@@ -3,7 +3,7 @@
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/bytes.h"
 #include "signweave/core/text.h"
-#include "signweave/formats/anvil.h"
+#include "signweave/formats/anvil/anvil.h"
 
 namespace signweave::annotation_file {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 
 /// Annotation files of every format that is read: EAF and ANVIL. Which of them a text is, its root element tells.
 namespace signweave::annotation_file {

@@ -8,10 +8,10 @@
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/bytes.h"
 #include "signweave/core/text.h"
-#include "signweave/formats/asf.h"
-#include "signweave/formats/fbx.h"
+#include "signweave/formats/asf/asf.h"
+#include "signweave/formats/fbx/fbx.h"
 #include "signweave/formats/file_format.h"
-#include "signweave/formats/gltf_read.h"
+#include "signweave/formats/gltf/read.h"
 
 namespace signweave::motion_file {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 
 /// Motion files of every format that is read. Which one a file is, its ending tells (see file_format.h).
 namespace signweave::motion_file {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "signweave/formats/eaf_xml.h"
+#include "signweave/formats/eaf/xml.h"
 
 /// A document as libxml2's tree, for evaluate.cpp only.
 namespace signweave::xpath {

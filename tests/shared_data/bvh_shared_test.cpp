@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "signweave/core/atomic_file.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 
 namespace signweave::bvh {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "signweave/features/defects.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 
 namespace signweave {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "signweave/annotation/sign.h"
 #include "signweave/core/atomic_file.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 
 /// Annotation files made by others, in the folder SIGNWEAVE_SHARED_DATA.
 namespace signweave {

@@ -7,7 +7,7 @@
 
 #include "signweave/evaluation/bootstrap.h"
 #include "signweave/evaluation/evaluate.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 
 namespace signweave {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "signweave/features/hand_motion.h"
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 
 namespace signweave {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "signweave/core/text.h"
 #include "signweave/database/import.h"
-#include "signweave/formats/eaf.h"
+#include "signweave/formats/eaf/eaf.h"
 #include "signweave/kv/test_folder.h"
 #include "signweave/query/parse.h"
 

@@ -4,7 +4,7 @@
 
 #include <iostream>
 
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "tests/retarget_figures.h"
 
 namespace signweave {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "signweave/rig/rig_map.h"
 
 namespace signweave {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "signweave/formats/bvh.h"
+#include "signweave/formats/bvh/bvh.h"
 #include "signweave/live/frame_codec.h"
 
 namespace {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "signweave/drawing/body_plan.h"
+
+namespace signweave {
+
+/// One way in which the face can move: how far each vertex goes at weight 1.
+struct FaceTarget {
+  std::string name;                     ///< ARKit's, such as "jawOpen"
+  std::vector<Eigen::Vector3f> deltas;  ///< [vertex], metres
+};
+
+/// Brows, eyes and a mouth, drawn flat on the front of a head.
+struct FaceMesh {
+  std::vector<Eigen::Vector3f> positions;  ///< metres, in the plan's pose
+  std::vector<Eigen::Vector3f> normals;    ///< unit
+  std::vector<std::uint32_t> indices;      ///< three a triangle
+  std::vector<FaceTarget> targets;
+};
+
+/// The names that the drawn face has a target for. Left and right are the person's own.
+std::span<const char* const> face_target_names();
+
+/// The face of a head, with targets of the given names (of those above) in their order.
+FaceMesh face_mesh(const HeadShape& head, const std::vector<std::string>& targets);
+
+}  // namespace signweave

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "signweave/formats/bvh/bvh.h"
+
+/// Between a BVH file's space and ours (metres, Y up, right-handed). Part of formats/bvh, not for others.
+namespace signweave::bvh {
+
+/// One change of basis for the whole file, rest pose and frames alike: offset' = unit · C · offset, q' = C q C⁻¹.
+/// It only swaps and negates components, so going there and back gives the same bits.
+struct Space {
+  UpAxis up = UpAxis::y;
+  bool mirrored = false;  ///< C also reflects x
+
+  Eigen::Vector3f to_ours(const Eigen::Vector3f& v) const noexcept {
+    const Eigen::Vector3f turned = up == UpAxis::z ? Eigen::Vector3f(v.x(), v.z(), -v.y()) : v;
+    return mirrored ? Eigen::Vector3f(-turned.x(), turned.y(), turned.z()) : turned;
+  }
+  Eigen::Vector3f to_file(const Eigen::Vector3f& v) const noexcept {
+    const Eigen::Vector3f turned = mirrored ? Eigen::Vector3f(-v.x(), v.y(), v.z()) : v;
+    return up == UpAxis::z ? Eigen::Vector3f(turned.x(), -turned.z(), turned.y()) : turned;
+  }
+  Eigen::Quaternionf to_ours(const Eigen::Quaternionf& q) const noexcept { return with_axis(q, to_ours(axis(q))); }
+  Eigen::Quaternionf to_file(const Eigen::Quaternionf& q) const noexcept { return with_axis(q, to_file(axis(q))); }
+
+ private:
+  // The axis of a rotation is a pseudovector: a reflection turns it the other way once more.
+  Eigen::Vector3f axis(const Eigen::Quaternionf& q) const noexcept {
+    return mirrored ? Eigen::Vector3f(-q.vec()) : Eigen::Vector3f(q.vec());
+  }
+  static Eigen::Quaternionf with_axis(const Eigen::Quaternionf& q, const Eigen::Vector3f& v) noexcept {
+    return {q.w(), v.x(), v.y(), v.z()};
+  }
+};
+
+/// A length of the file in metres; the writer looks for numbers that this takes back to the same bits.
+inline float to_metres(float length, double unit) noexcept {
+  return static_cast<float>(static_cast<double>(length) * unit);
+}
+
+}  // namespace signweave::bvh

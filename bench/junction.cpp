@@ -44,20 +44,20 @@ std::shared_ptr<const MotionSource> moving(std::int64_t frames) {
 }
 
 /// Signs from all over the recording, one after another.
-std::vector<Stretch> signs(const std::shared_ptr<const MotionSource>& source, int count) {
-  std::vector<Stretch> stretches;
+std::vector<MotionClip> signs(const std::shared_ptr<const MotionSource>& source, int count) {
+  std::vector<MotionClip> clips;
   const std::int64_t places = source->frame_count() / (3 * kSign) - 1;
   for (int i = 0; i < count; ++i) {
     const std::int64_t begin = (i * 7) % places * 3 * kSign;
-    Stretch stretch{.recording = "bench", .source = source};
-    stretch.whole = {begin, begin + 3 * kSign};
-    stretch.core = {begin + kSign, begin + 2 * kSign};
-    stretch.clock = {.frame_time = Seconds(0.01)};
-    stretch.signs.push_back({.gloss = "SIGN", .span = span_of(stretch.whole, stretch.clock)});
-    stretch.signs.back().phases.push_back({PhaseKind::stroke, span_of(stretch.core, stretch.clock), "Stroke", {}});
-    stretches.push_back(std::move(stretch));
+    MotionClip clip{.recording = "bench", .source = source};
+    clip.whole = {begin, begin + 3 * kSign};
+    clip.core = {begin + kSign, begin + 2 * kSign};
+    clip.clock = {.frame_time = Seconds(0.01)};
+    clip.signs.push_back({.gloss = "SIGN", .span = span_of(clip.whole, clip.clock)});
+    clip.signs.back().phases.push_back({PhaseKind::stroke, span_of(clip.core, clip.clock), "Stroke", {}});
+    clips.push_back(std::move(clip));
   }
-  return stretches;
+  return clips;
 }
 
 /// The slerp that every transition needs at least: one per joint and frame.
@@ -89,21 +89,21 @@ class Utterance {
  public:
   Utterance(const char* method, std::shared_ptr<const MotionSource> source, int count)
       : source_(std::move(source)),
-        stretches_(signs(source_, count)),
+        clips_(signs(source_, count)),
         options_{.method = find_transition_method(method), .duration = Milliseconds(740)} {
     join();
     copies_.reset(source_->skeleton(), source_->rate(), used_.motion.frame_count());
     copy();
   }
 
-  std::int64_t junctions() const noexcept { return static_cast<std::int64_t>(stretches_.size()) - 1; }
+  std::int64_t junctions() const noexcept { return static_cast<std::int64_t>(clips_.size()) - 1; }
   std::int64_t transition_frames() const noexcept { return 74 * junctions(); }
-  void join() { used_ = concatenate(stretches_, options_, std::move(used_)); }
+  void join() { used_ = concatenate(clips_, options_, std::move(used_)); }
   void copy() {
     std::int64_t at = 0;
-    for (const Stretch& stretch : stretches_) {
+    for (const MotionClip& clip : clips_) {
       const std::int64_t end = std::min(at + kSign + 74, copies_.frame_count());
-      source_->read({stretch.whole.begin, stretch.whole.begin + end - at}, copies_.poses({at, end}));
+      source_->read({clip.whole.begin, clip.whole.begin + end - at}, copies_.poses({at, end}));
       at = end;
     }
     bench::keep(copies_);
@@ -117,7 +117,7 @@ class Utterance {
 
  private:
   std::shared_ptr<const MotionSource> source_;
-  std::vector<Stretch> stretches_;
+  std::vector<MotionClip> clips_;
   ConcatenateOptions options_;
   Synthesis used_;
   Motion copies_;

@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     std::cout << part.frame_count() << " of " << open.score().frames << " frames in " << argv[4] << '\n';
 
     // 3. Stream it: frame by frame in the bytes that a client reads, with events that name the clips of the score.
-    SigningBase base(database);
+    SharedSigningCache base(database);
     Player player(base, {.idle = Idle::end});
     player.sign(utterance);
     std::size_t frames = 0;

@@ -32,10 +32,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (to_string(score).empty()) std::abort();
   if (score.frames > 20'000) return 0;
   try {
-    const std::vector<Stretch> stretches = stretches_of(score, [](const SourceRef&) { return source; });
-    const SignerRig rig = signer_rig_of(stretches.front());
+    const std::vector<MotionClip> clips = clips_of(score, [](const SourceRef&) { return source; });
+    const SignerRig rig = signer_rig_of(clips.front());
     Synthesis out;
-    render(score, stretches,
+    render(score, clips,
            {.skeleton = source.motion->skeleton(),
             .rate = score.rate,
             .method = &transition_methods().front(),
@@ -44,10 +44,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (out.motion.frame_count() != score.frames) std::abort();
     const std::int64_t begin = static_cast<std::int64_t>(size * 131) % score.frames;
     const FrameRange frames{begin, std::min(score.frames, begin + 1 + static_cast<std::int64_t>(size % 50))};
-    Renderer renderer(plan_of(score, stretches), {.skeleton = source.motion->skeleton(),
-                                                  .rate = score.rate,
-                                                  .method = &transition_methods().front(),
-                                                  .rig = &rig});
+    Renderer renderer(plan_of(score, clips), {.skeleton = source.motion->skeleton(),
+                                              .rate = score.rate,
+                                              .method = &transition_methods().front(),
+                                              .rig = &rig});
     Motion part;
     renderer.render(frames, part);
     const std::size_t joints = part.skeleton().joint_count();

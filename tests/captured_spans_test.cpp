@@ -94,7 +94,7 @@ TEST(RecordedMethod, StrokesKeepTheirBits) {
   const Synthesized recorded = sign_with(two_recordings_corpus(), "VANNES PLUIE MATIN", "recorded");
   const Synthesized other = sign_with(two_recordings_corpus(), "VANNES PLUIE MATIN", "kriging");
   std::size_t compared = 0;
-  for (const Placed& placed : recorded.result.stretches) {
+  for (const ShownClip& placed : recorded.result.clips) {
     for (std::int64_t frame = placed.core.begin; frame < placed.core.end; ++frame, ++compared) {
       for (std::size_t joint = 0; joint < recorded.result.motion.skeleton().joint_count(); ++joint) {
         const Eigen::Vector4f a = recorded.result.motion.pose(frame).rotations[joint].coeffs();

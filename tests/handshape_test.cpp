@@ -55,7 +55,7 @@ TEST(HandshapeOnTheDemo, IsReachedByTheBeginOfTheStrokeWhateverTheMethod) {
       const RigMap rig = model_of(made.motion).rig;
       for (std::size_t i = 0; i < made.junctions.size(); ++i) {
         const Junction& junction = made.junctions[i];
-        const Placed& to = made.stretches[i + 1];
+        const ShownClip& to = made.clips[i + 1];
         ASSERT_EQ(to.core.begin, junction.frames.end);
         const Motion& recording = recordings.at(to.recording);
         for (const Side side : kSides) {

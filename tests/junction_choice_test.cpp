@@ -68,7 +68,7 @@ TEST(Junctions, ThatAreNamedAreMadeBetweenRecordedNeighbours) {
   EXPECT_EQ(made.result.junctions[0].to, "NUAGES");
   EXPECT_EQ(made.result.junctions[0].method, "hermite");
   EXPECT_EQ(made.result.junctions[1].method, "taught");
-  EXPECT_EQ(made.result.stretches.size(), 3u);
+  EXPECT_EQ(made.result.clips.size(), 3u);
   ASSERT_EQ(made.result.notices.size(), 1u);
   EXPECT_EQ(made.result.notices[0].where, "meteo");
   EXPECT_THAT(made.result.notices[0].text, HasSubstr("'MATIN' and 'NUAGES' were signed one after the other"));

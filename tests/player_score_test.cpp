@@ -25,7 +25,7 @@ class ComparedPlayer {
     const StreamHeader* const header = player_.header();
     if (header == nullptr) return;
     if (shown_.frame_count() == 0) begin(*header);
-    const std::optional<LiveScore> live = player_.score();
+    const std::optional<ShownScore> live = player_.score();
     const std::int64_t before = shown_.frame_count();
     std::vector<float> tracks(header->tracks.size());
     Motion room(header->skeleton, header->rate, 1);
@@ -52,7 +52,7 @@ class ComparedPlayer {
   }
 
   /// The frames that were shown before a score began.
-  ScoreSource frames_before(const LiveScore& live, std::int64_t taken) const {
+  ScoreSource frames_before(const ShownScore& live, std::int64_t taken) const {
     const std::int64_t count = live.score.clips.front().core.size();
     const std::int64_t end = taken - (live.next - count);
     Motion motion(shown_.shared_skeleton(), shown_.rate(), 0);
@@ -63,7 +63,7 @@ class ComparedPlayer {
     return {std::make_shared<MemorySource>(std::move(motion)), nullptr};
   }
 
-  void compare(const LiveScore& live, std::int64_t before) {
+  void compare(const ShownScore& live, std::int64_t before) {
     for (const Clip& clip : live.score.clips) ++seen_[static_cast<std::size_t>(clip.source.kind)];
     const Score read = score_from_json(json_of(live.score), "stream");
     EXPECT_EQ(read, live.score);

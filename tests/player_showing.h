@@ -25,8 +25,8 @@ inline const Database& corpus() {
   return *database;
 }
 
-inline SigningBase& base() {
-  static SigningBase shared(corpus());
+inline SharedSigningCache& base() {
+  static SharedSigningCache shared(corpus());
   return shared;
 }
 

@@ -95,7 +95,7 @@ TEST(Player, WhatFollowsAWordThatIsNotOverIsJoinedToIt) {
       return std::ranges::find(shown.events, place, &PlayerEvent::place)->frame;
     };
     EXPECT_EQ(of(1) - of(0),
-              static_cast<std::uint64_t>(made.result.stretches[1].core.begin - made.result.stretches[0].core.begin));
+              static_cast<std::uint64_t>(made.result.clips[1].core.begin - made.result.clips[0].core.begin));
   }
 }
 

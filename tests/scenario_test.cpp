@@ -65,15 +65,15 @@ Edit scenario_2() {
 /// Every frame that a recording gave has that recording's own bits (its root may be aligned).
 void expect_captured_frames_are_kept(const Synthesis& made) {
   std::map<std::string, Motion> sources;
-  for (const Placed& placed : made.stretches) {
+  for (const ShownClip& placed : made.clips) {
     if (!sources.contains(placed.recording)) sources.emplace(placed.recording, edited_corpus().read(placed.recording));
   }
   std::size_t kept = 0;
   for (std::int64_t frame = 0; frame < made.motion.frame_count(); ++frame) {
     const FrameSource& source = made.sources[static_cast<std::size_t>(frame)];
-    if (source.stretch == FrameSource::kNone) continue;
+    if (source.clip == FrameSource::kNone) continue;
     ASSERT_EQ(source.frame, std::floor(source.frame));
-    const Motion& recording = sources.at(made.stretches[static_cast<std::size_t>(source.stretch)].recording);
+    const Motion& recording = sources.at(made.clips[static_cast<std::size_t>(source.clip)].recording);
     const PoseView captured = recording.pose(static_cast<std::int64_t>(source.frame));
     const PoseView shown = made.motion.pose(frame);
     for (std::size_t joint = 1; joint < shown.rotations.size(); ++joint) {
@@ -159,10 +159,10 @@ TEST_P(Scenario, WhatElanShowsIsConsistent) {
   EXPECT_EQ(back.document.find_tier("Source")->annotations.size(), 9u);
 }
 
-TEST_P(Scenario, UneditedStretchesStayAsCaptured) {
+TEST_P(Scenario, UneditedClipsStayAsCaptured) {
   const Synthesized made = edit(scenario_1());
   const Motion meteo = edited_corpus().read("meteo");
-  const Placed& first = made.result.stretches.front();
+  const ShownClip& first = made.result.clips.front();
   for (std::int64_t frame = 0; frame < first.core.end; ++frame) {
     for (std::size_t joint = 0; joint < meteo.skeleton().joint_count(); ++joint) {  // the root too: nothing is aligned
       const auto& a = made.result.motion.pose(frame).rotations[joint].coeffs();
@@ -234,7 +234,7 @@ TEST(Seams, VelocityGoesOnWhereMadeFramesMeetCapturedOnes) {
       const Junction& junction = made.junctions[i];
       for (const Side side : kSides) {
         const auto hand = static_cast<std::size_t>(side);
-        const auto look = [&](const Placed& placed, std::int64_t seam) {
+        const auto look = [&](const ShownClip& placed, std::int64_t seam) {
           const auto& path = captured.at(placed.recording)[hand];
           const std::int64_t there = static_cast<std::int64_t>(placed.first_frame) + seam - placed.core.begin;
           double usual = kUnseen;
@@ -247,8 +247,8 @@ TEST(Seams, VelocityGoesOnWhereMadeFramesMeetCapturedOnes) {
         };
         // The trunk carries the hand: its seams are the hand's too.
         for (const TransitionCut& cut : {junction.cuts[0], junction.cuts[1 + hand]}) {
-          look(made.stretches[i], junction.frames.begin + cut.kept_after() - 1);
-          look(made.stretches[i + 1], junction.frames.end - cut.kept_before());
+          look(made.clips[i], junction.frames.begin + cut.kept_after() - 1);
+          look(made.clips[i + 1], junction.frames.end - cut.kept_before());
         }
       }
     }

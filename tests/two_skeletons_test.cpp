@@ -89,8 +89,8 @@ std::size_t for_frames_of(const Synthesis& made, const std::string& recording, S
   std::size_t count = 0;
   for (std::int64_t frame = 0; frame < made.motion.frame_count(); ++frame) {
     const FrameSource& source = made.sources[static_cast<std::size_t>(frame)];
-    if (source.stretch == FrameSource::kNone) continue;
-    if (made.stretches[static_cast<std::size_t>(source.stretch)].recording != recording) continue;
+    if (source.clip == FrameSource::kNone) continue;
+    if (made.clips[static_cast<std::size_t>(source.clip)].recording != recording) continue;
     see(frame, static_cast<std::int64_t>(source.frame));
     ++count;
   }
@@ -229,7 +229,7 @@ TEST(TwoSkeletons, EditsTakeSignsOfTheOther) {
   EXPECT_EQ(made.layout_from, "meteo");
   EXPECT_EQ(made.result.notices.size(), 1u);
   std::size_t others = 0;
-  for (const Placed& placed : made.result.stretches) others += placed.recording == "villes" ? 1 : 0;
+  for (const ShownClip& placed : made.result.clips) others += placed.recording == "villes" ? 1 : 0;
   EXPECT_EQ(others, 2u);
   const auto [turn, way] = greatest_step(made.result.motion);
   EXPECT_LT(turn, 0.25f);
@@ -258,7 +258,7 @@ TEST(TwoSkeletons, AScoreOfBothIsRenderedAgainWholeAndInParts) {
 
 /// What a player shows of a database.
 Shown shown_of(const Database& database, const std::string& utterance, SynthesisOptions synthesis = {}) {
-  SigningBase shared(database);
+  SharedSigningCache shared(database);
   Player player(shared, {.synthesis = std::move(synthesis), .idle = Idle::end});
   player.sign(parse_utterance(utterance));
   Shown shown;
@@ -282,7 +282,7 @@ TEST(TwoSkeletons, APlayerShowsWhatIsSynthesized) {
 }
 
 TEST(TwoSkeletons, APlayerRestsAndGoesOnAcrossThem) {
-  SigningBase shared(two_rigs());
+  SharedSigningCache shared(two_rigs());
   Player player(shared, {.recording = "meteo"});
   Shown shown;
   show(player, shown, 100);
@@ -328,7 +328,7 @@ TEST(TwoSkeletons, AMissingHandIsRefusedByName) {
   EXPECT_THAT(refusal(*database, "VANNES PLUIE"),
               HasSubstr("recording 'meteo' cannot be put onto the skeleton of 'villes'"));
   // A player leaves the places out.
-  SigningBase shared(*database);
+  SharedSigningCache shared(*database);
   Player player(shared, {.idle = Idle::end});
   player.sign(parse_utterance("BONJOUR VANNES PLUIE"));
   Shown shown;

@@ -11,7 +11,7 @@
 #include "app/calls/files.h"
 #include "app/calls/json.h"
 #include "app/calls/motion_writing.h"
-#include "app/calls/remake.h"
+#include "app/calls/regenerate.h"
 #include "app/calls/synthesis_call.h"
 #include "signweave/database/database.h"
 

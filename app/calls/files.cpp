@@ -68,9 +68,9 @@ std::string synthesis_json(const Synthesis& result) {
   json document = describe(result);
   json sources = json::array();
   for (const FrameSource& source : result.sources) {
-    // Each output frame: its recording's stretch and frame, or the junction that made it.
-    if (source.stretch != FrameSource::kNone) {
-      sources.push_back({{"stretch", source.stretch}, {"frame", source.frame}});
+    // Each output frame: its recording's clip and frame, or the junction that made it.
+    if (source.clip != FrameSource::kNone) {
+      sources.push_back({{"stretch", source.clip}, {"frame", source.frame}});
     } else {
       sources.push_back({{"junction", source.junction}});
     }
@@ -161,10 +161,10 @@ ContactSheetOptions sheet_options(const Synthesis& synthesis, const std::string&
     add(0.5, " ··", Worth::middle);
     add(0.9, " ···", Worth::side);
   }
-  for (std::size_t i = 0; i < synthesis.stretches.size(); ++i) {  // bare pieces have no sign to show
-    const Placed& placed = synthesis.stretches[i];
+  for (std::size_t i = 0; i < synthesis.clips.size(); ++i) {  // bare pieces have no sign to show
+    const ShownClip& placed = synthesis.clips[i];
     const bool bare = std::none_of(synthesis.signs.begin(), synthesis.signs.end(),
-                                   [&](const PlacedSign& sign) { return sign.stretch == i; });
+                                   [&](const PlacedSign& sign) { return sign.clip == i; });
     for (const int part : {1, 5, 9}) {
       const Worth worth = part == 5 ? Worth::middle : Worth::side;
       if (bare) cells.push_back({placed.core.begin + placed.core.size() * part / 10, placed.recording, worth});

@@ -154,7 +154,7 @@ void fields(Visit& visit, ScoreCall& call) {
 SynthesisChoices choices_of(const ScoreCall& call);
 /// Throws what `synthesize` of a score throws, Error{bad_input} where the frames are not in the score, or one of
 /// `formats` ("eaf", "bvh", …) has more than motion and only some of the frames are asked for. Of those there is
-/// the motion alone: no signs, stretches, junctions or sources.
+/// the motion alone: no signs, clips, junctions or sources.
 Synthesized run(const Database& database, const Score& score, const ScoreCall& call,
                 const std::vector<std::string>& formats);
 
@@ -168,7 +168,7 @@ Synthesized run(const Database& database, const EditCall& call, std::int64_t mos
 std::string title_of(const SignCall& call);
 std::string title_of(const EditCall& call);
 
-/// Signs, stretches and junctions (describe), how long each step took and, where that was asked for, what there was to
+/// Signs, clips and junctions (describe), how long each step took and, where that was asked for, what there was to
 /// choose from.
 nlohmann::json report_of(const Synthesized& made, const SynthesisChoices& choices);
 

@@ -31,22 +31,22 @@ json describe(const Synthesis& synthesis) {
     json sign = span_json(placed.sign.span);
     sign["gloss"] = placed.sign.gloss;
     sign["place"] = placed.place;
-    sign["clip"] = placed.stretch;
-    sign["recording"] = synthesis.stretches[placed.stretch].recording;
+    sign["clip"] = placed.clip;
+    sign["recording"] = synthesis.clips[placed.clip].recording;
     sign["recorded"] = span_json(placed.recorded);
     sign["phases"] = std::move(phases);
     signs.push_back(std::move(sign));
   }
-  json stretches = json::array();
-  for (std::size_t i = 0; i < synthesis.stretches.size(); ++i) {
-    const Placed& placed = synthesis.stretches[i];
-    stretches.push_back({{"clip", i},
-                         {"place", synthesis.score.clips[i].place},
-                         {"recording", placed.recording},
-                         {"frames", frames_json(placed.output)},
-                         {"kept_frames", frames_json(placed.core)},
-                         {"kept_from_recorded_frame", placed.first_frame},
-                         {"recorded_frames_per_frame", placed.step}});
+  json clips = json::array();
+  for (std::size_t i = 0; i < synthesis.clips.size(); ++i) {
+    const ShownClip& placed = synthesis.clips[i];
+    clips.push_back({{"clip", i},
+                     {"place", synthesis.score.clips[i].place},
+                     {"recording", placed.recording},
+                     {"frames", frames_json(placed.output)},
+                     {"kept_frames", frames_json(placed.core)},
+                     {"kept_from_recorded_frame", placed.first_frame},
+                     {"recorded_frames_per_frame", placed.step}});
   }
   json junctions = json::array();
   for (std::size_t i = 0; i < synthesis.junctions.size(); ++i) {
@@ -75,7 +75,7 @@ json describe(const Synthesis& synthesis) {
   return {{"frames", synthesis.motion.frame_count()},
           {"frames_per_second", synthesis.motion.rate().hertz()},
           {"signs", std::move(signs)},
-          {"stretches", std::move(stretches)},
+          {"stretches", std::move(clips)},
           {"junctions", std::move(junctions)}};
 }
 

@@ -6,7 +6,7 @@
 
 namespace signweave::calls {
 
-/// Signs, stretches and junctions of a synthesis, without its poses.
+/// Signs, clips and junctions of a synthesis, without its poses.
 nlohmann::json describe(const Synthesis& synthesis);
 
 }  // namespace signweave::calls

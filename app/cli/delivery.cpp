@@ -136,7 +136,7 @@ void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, co
   print_notices(io, made.result.notices);
   for (const auto& [name, value] : made.result.declarations) io.err << "signweave: " << value << '\n';
   const Synthesis& result = made.result;
-  if (io.json && result.stretches.empty()) {  // a part of a score
+  if (io.json && result.clips.empty()) {  // a part of a score
     io.out << text_of(nlohmann::json{{"files", delivery.outputs},
                                      {"frames", result.motion.frame_count()},
                                      {"frames_per_second", result.motion.rate().hertz()},
@@ -154,7 +154,7 @@ void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, co
     print_selection(made, io);
     print_junctions(made, io);
   }
-  if (result.stretches.empty()) {  // a part
+  if (result.clips.empty()) {  // a part
     io.out << fmt::format("{} of {} at {} frames a second\n", counted(result.motion.frame_count(), "frame"),
                           result.score.frames, to_string(result.motion.rate()));
     return;

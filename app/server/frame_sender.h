@@ -37,7 +37,7 @@ class FrameSender final : public Paced {
   /// Sends nothing more.
   void stop() noexcept;
   std::uint64_t frame() const noexcept { return player_.frame(); }
-  std::optional<LiveScore> score(std::size_t most_clips) const { return player_.score(most_clips); }
+  std::optional<ShownScore> score(std::size_t most_clips) const { return player_.score(most_clips); }
 
   Clock::time_point tick(Clock::time_point now) noexcept override;
   bool work() override;

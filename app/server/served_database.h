@@ -24,7 +24,7 @@ class ServedDatabase {
 
   const std::string& name() const noexcept { return name_; }
   const Database& database() const noexcept { return database_; }
-  SigningBase& signing() noexcept { return signing_; }
+  SharedSigningCache& signing() noexcept { return signing_; }
   bool writable() const noexcept { return writable_; }
   /// See Database::announce; to be called before anything is served.
   void announce(std::string_view who) noexcept { database_.announce(who); }
@@ -41,7 +41,7 @@ class ServedDatabase {
   std::string name_;
   bool writable_;
   Database database_;
-  SigningBase signing_;
+  SharedSigningCache signing_;
   std::mutex changing_;
   std::mutex stances_lock_;
   std::shared_ptr<const Contents> stances_of_;

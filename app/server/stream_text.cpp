@@ -96,7 +96,7 @@ std::string ok_text(std::string_view id, std::uint64_t frame) {
   return line_of(object);
 }
 
-std::string score_text(std::string_view id, const std::optional<LiveScore>& live, std::uint64_t frame) {
+std::string score_text(std::string_view id, const std::optional<ShownScore>& live, std::uint64_t frame) {
   std::string line = fmt::format(R"({{"type":"score","frame":{})", frame);
   if (live) {
     line += fmt::format(R"(,"score_frame":{},"first_clip":{},"score":{})", live->next, live->first_clip,

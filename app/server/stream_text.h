@@ -26,7 +26,7 @@ std::string header_text(const StreamHeader& header, const HeaderContext& context
 /// {"type": "ok", …}; `frame` is the next frame's number.
 std::string ok_text(std::string_view id, std::uint64_t frame);
 /// {"type": "score", …}; without one, its score is null. `frame` is the next frame's number.
-std::string score_text(std::string_view id, const std::optional<LiveScore>& live, std::uint64_t frame);
+std::string score_text(std::string_view id, const std::optional<ShownScore>& live, std::uint64_t frame);
 std::string error_text(ErrorCode code, std::string_view message, std::string_view id);
 /// The same; of glosses that are not there it lists those that were probably meant.
 std::string error_text(const Error& error, std::string_view id);

@@ -10,7 +10,7 @@
 
 namespace signweave::bench {
 
-/// What came of many paced streams over a stretch of time, as their client saw it.
+/// What came of many paced streams over a clip of time, as their client saw it.
 struct Paced {
   double seconds = 0;
   std::uint64_t frames = 0;  ///< that came

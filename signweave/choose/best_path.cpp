@@ -43,7 +43,7 @@ class Forward {
               [&](std::uint32_t a, std::uint32_t b) { return made_[a] != made_[b] ? made_[a] < made_[b] : a < b; });
     sorted_.assign((count + kLanes - 1) / kLanes * kLanes, std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < count; ++i) sorted_[i] = made_[order_[i]];
-    if (place.joins.empty()) lanes_.lay(*before.ends, order_, scale_);
+    if (place.joins.empty()) lanes_.place(*before.ends, order_, scale_);
     out.cost.resize(place.size());
     out.from.resize(place.size());
     for (std::size_t b = 0; b < place.size(); ++b) reach(place, b, out);
@@ -171,7 +171,7 @@ std::vector<float> PathAhead::transitions_between(const PlaceCosts& before, cons
   std::copy(before.made_after.begin(), before.made_after.end(), made.begin());
   std::vector<std::uint32_t> order(before.size());
   std::iota(order.begin(), order.end(), 0u);
-  if (!given) lanes_.lay(*before.ends, order, scale_);
+  if (!given) lanes_.place(*before.ends, order, scale_);
   std::array<float, kLanes> costs{};
   for (std::size_t b = 0; b < count; ++b) {
     if (!given) lanes_.compare_with(place.ends->begin(b));

@@ -199,7 +199,7 @@ TEST(JoinLanes, CostWhatTheTermsSay) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 37; i-- > 0;) order.push_back(i);
   JoinLanes lanes;
-  lanes.lay(both, order, scale);
+  lanes.place(both, order, scale);
   ASSERT_EQ(lanes.blocks(), 3u);
   std::array<float, JoinEnds::kLanes> before{};
   for (std::size_t lane = 0; lane < before.size(); ++lane) before[lane] = 0.1f * static_cast<float>(lane);

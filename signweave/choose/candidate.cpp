@@ -148,7 +148,7 @@ std::optional<Candidate> candidate_of_run(const Contents& contents, std::size_t 
   return run;
 }
 
-void go_on_with(Candidate& last, const Candidate& next) {
+void extend_with(Candidate& last, const Candidate& next) {
   last.signs.insert(last.signs.end(), next.signs.begin(), next.signs.end());
   last.left_out.insert(last.left_out.end(), next.left_out.begin(), next.left_out.end());
   last.core.end = next.core.end;

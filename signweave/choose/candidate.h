@@ -11,7 +11,7 @@
 
 namespace signweave {
 
-/// A stretch of one recording that may fill one place: mostly one sign, in an edit a run of signs as captured.
+/// A clip of one recording that may fill one place: mostly one sign, in an edit a run of signs as captured.
 struct Candidate {
   std::size_t recording = 0;   ///< index into Contents::recordings
   std::vector<Sign> signs;     ///< in time order; empty for a bare piece of a recording
@@ -37,8 +37,8 @@ std::vector<Candidate> candidates_for(const Contents& contents, const Place& pla
 /// its last. None where no sign has a stroke inside the motion.
 std::optional<Candidate> candidate_of_run(const Contents& contents, std::size_t recording, std::vector<Sign> signs);
 
-/// Makes `last` go on with the signs of `next`, which was recorded after it (`are_neighbours`): one stretch, with the
+/// Makes `last` go on with the signs of `next`, which was recorded after it (`are_neighbours`): one clip, with the
 /// recorded transition inside.
-void go_on_with(Candidate& last, const Candidate& next);
+void extend_with(Candidate& last, const Candidate& next);
 
 }  // namespace signweave

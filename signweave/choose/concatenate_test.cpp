@@ -11,9 +11,9 @@ namespace signweave {
 namespace {
 
 using testing_motion::angle;
+using testing_motion::clip;
 using testing_motion::motion_of;
 using testing_motion::small_skeleton;
-using testing_motion::stretch;
 
 /// Every rule below holds for each method.
 class Concatenate : public testing::TestWithParam<std::string> {
@@ -28,15 +28,15 @@ bool same_up_to_sign(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
 }
 
 TEST_P(Concatenate, StrokesKeepTheirBits) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20),
-                                          stretch("C", 1.7f, 15, 50, 40)};
-  const Synthesis made = concatenate(stretches, options());
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    const Placed& placed = made.stretches[i];
-    ASSERT_EQ(placed.core.size(), stretches[i].core.size());
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20),
+                                         clip("C", 1.7f, 15, 50, 40)};
+  const Synthesis made = concatenate(clips, options());
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    const ShownClip& placed = made.clips[i];
+    ASSERT_EQ(placed.core.size(), clips[i].core.size());
     for (std::int64_t k = 0; k < placed.core.size(); ++k) {
       const PoseView kept = made.motion.pose(placed.core.begin + k);
-      const PoseView captured = motion_of(stretches[i]).pose(stretches[i].core.begin + k);
+      const PoseView captured = motion_of(clips[i]).pose(clips[i].core.begin + k);
       for (std::size_t joint = 1; joint < kept.rotations.size(); ++joint) {  // the root is aligned
         EXPECT_TRUE(same_up_to_sign(kept.rotations[joint], captured.rotations[joint])) << i << ' ' << k << ' ' << joint;
       }
@@ -45,36 +45,36 @@ TEST_P(Concatenate, StrokesKeepTheirBits) {
 }
 
 TEST_P(Concatenate, TransitionsLastAsLongAsAsked) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20)};
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20)};
   for (const Milliseconds duration : {10ms, 200ms, 735ms, 3'000ms}) {
-    const Synthesis made = concatenate(stretches, options(duration));
+    const Synthesis made = concatenate(clips, options(duration));
     ASSERT_EQ(made.junctions.size(), 1u);
     EXPECT_EQ(made.junctions[0].frames.size(), std::llround(static_cast<double>(duration.count()) / 10.0));
-    EXPECT_EQ(made.junctions[0].frames.begin, made.stretches[0].core.end);
-    EXPECT_EQ(made.junctions[0].frames.end, made.stretches[1].core.begin);
+    EXPECT_EQ(made.junctions[0].frames.begin, made.clips[0].core.end);
+    EXPECT_EQ(made.junctions[0].frames.end, made.clips[1].core.begin);
   }
 }
 
 TEST_P(Concatenate, APauseLengthensTheTransition) {
-  std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20)};
-  stretches[1].pause_before = 350ms;
-  EXPECT_EQ(concatenate(stretches, options()).junctions[0].frames.size(), 85);
+  std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20)};
+  clips[1].pause_before = 350ms;
+  EXPECT_EQ(concatenate(clips, options()).junctions[0].frames.size(), 85);
 }
 
 TEST_P(Concatenate, EveryFrameKnowsWhereItComesFrom) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20, {50, 1})};
-  const Synthesis made = concatenate(stretches, options());
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20, {50, 1})};
+  const Synthesis made = concatenate(clips, options());
   ASSERT_EQ(made.sources.size(), static_cast<std::size_t>(made.motion.frame_count()));
   Pose captured(made.motion.skeleton());
   std::size_t made_frames = 0;
   for (std::size_t frame = 0; frame < made.sources.size(); ++frame) {
     const FrameSource& source = made.sources[frame];
-    if (source.stretch == FrameSource::kNone) {
+    if (source.clip == FrameSource::kNone) {
       ++made_frames;
       EXPECT_EQ(source.junction, 0);
       continue;
     }
-    const Stretch& from = stretches[static_cast<std::size_t>(source.stretch)];
+    const MotionClip& from = clips[static_cast<std::size_t>(source.clip)];
     EXPECT_GE(source.frame, static_cast<double>(from.whole.begin));
     EXPECT_LT(source.frame, static_cast<double>(from.whole.end));
     sample(motion_of(from), source.frame, captured.view());
@@ -87,9 +87,9 @@ TEST_P(Concatenate, EveryFrameKnowsWhereItComesFrom) {
 }
 
 TEST_P(Concatenate, NothingJumps) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20),
-                                          stretch("C", 1.7f, 0, 50, 0)};
-  const Synthesis made = concatenate(stretches, options(735ms));
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20),
+                                         clip("C", 1.7f, 0, 50, 0)};
+  const Synthesis made = concatenate(clips, options(735ms));
   for (std::int64_t frame = 1; frame < made.motion.frame_count(); ++frame) {
     const PoseView before = made.motion.pose(frame - 1);
     const PoseView now = made.motion.pose(frame);
@@ -102,32 +102,30 @@ TEST_P(Concatenate, NothingJumps) {
 }
 
 TEST_P(Concatenate, MissingPhasesAreNoFault) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 0, 40, 0), stretch("B", 0.8f, 0, 1, 0),
-                                          stretch("C", 1.1f, 0, 5, 0)};
-  const Synthesis made = concatenate(stretches, options());
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 0, 40, 0), clip("B", 0.8f, 0, 1, 0), clip("C", 1.1f, 0, 5, 0)};
+  const Synthesis made = concatenate(clips, options());
   EXPECT_EQ(made.motion.frame_count(), 40 + 50 + 1 + 50 + 5);
   EXPECT_EQ(made.junctions[0].cut.retraction_frames, 0);
 }
 
 TEST_P(Concatenate, TheHighestRateWins) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 10, 30, 10, {30, 1}),
-                                          stretch("B", 0.8f, 40, 120, 40, {120, 1})};
-  const Synthesis made = concatenate(stretches, options());
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 10, 30, 10, {30, 1}), clip("B", 0.8f, 40, 120, 40, {120, 1})};
+  const Synthesis made = concatenate(clips, options());
   EXPECT_EQ(made.motion.rate(), (FrameRate{120, 1}));
-  EXPECT_EQ(made.stretches[0].core.size(), 120);  // one second
-  EXPECT_EQ(made.stretches[1].core.size(), 120);
-  EXPECT_DOUBLE_EQ(made.stretches[0].step, 0.25);
+  EXPECT_EQ(made.clips[0].core.size(), 120);  // one second
+  EXPECT_EQ(made.clips[1].core.size(), 120);
+  EXPECT_DOUBLE_EQ(made.clips[0].step, 0.25);
   ConcatenateOptions slower = options();
   slower.rate = {60, 1};
-  EXPECT_EQ(concatenate(stretches, slower).stretches[1].core.size(), 60);
+  EXPECT_EQ(concatenate(clips, slower).clips[1].core.size(), 60);
 }
 
 TEST_P(Concatenate, AtAnotherRateAStrokeIsItsSourceInterpolatedToTheLastFrame) {
-  const Stretch slow = stretch("A", 0.1f, 10, 20, 0, {50, 1});
-  const Synthesis made = concatenate({slow, stretch("B", 0.8f, 30, 33, 20)}, options());
+  const MotionClip slow = clip("A", 0.1f, 10, 20, 0, {50, 1});
+  const Synthesis made = concatenate({slow, clip("B", 0.8f, 30, 33, 20)}, options());
   const Motion recording = testing_motion::moving(45, {50, 1}, 0.1f);
   Pose expected(recording.skeleton());
-  const Placed& placed = made.stretches[0];
+  const ShownClip& placed = made.clips[0];
   ASSERT_EQ(placed.core.size(), 40);
   for (std::int64_t k = 0; k < placed.core.size(); ++k) {
     sample(recording, static_cast<double>(slow.core.begin) + 0.5 * static_cast<double>(k), expected.view());
@@ -139,22 +137,22 @@ TEST_P(Concatenate, AtAnotherRateAStrokeIsItsSourceInterpolatedToTheLastFrame) {
 }
 
 TEST_P(Concatenate, TempoScalesSignsAndTransitions) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 30, 20)};
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 30, 20)};
   ConcatenateOptions twice = options(600ms);
   twice.tempo = 2;
-  const Synthesis made = concatenate(stretches, twice);
-  EXPECT_EQ(made.stretches[0].core.size(), 20);
+  const Synthesis made = concatenate(clips, twice);
+  EXPECT_EQ(made.clips[0].core.size(), 20);
   EXPECT_EQ(made.junctions[0].frames.size(), 30);
 }
 
 TEST_P(Concatenate, ManySignsDoNotDrift) {
-  std::vector<Stretch> stretches;
+  std::vector<MotionClip> clips;
   for (int i = 0; i < 1'000; ++i) {
-    stretches.push_back(stretch("R" + std::to_string(i % 7), 0.1f + 0.37f * static_cast<float>(i % 7), 5, 8, 5));
+    clips.push_back(clip("R" + std::to_string(i % 7), 0.1f + 0.37f * static_cast<float>(i % 7), 5, 8, 5));
   }
-  const Synthesis made = concatenate(stretches, options(100ms));
-  const Standing home = standing_over(made.motion, made.stretches[0].core);
-  for (const Placed& placed : {made.stretches[1], made.stretches[500], made.stretches.back()}) {
+  const Synthesis made = concatenate(clips, options(100ms));
+  const Standing home = standing_over(made.motion, made.clips[0].core);
+  for (const ShownClip& placed : {made.clips[1], made.clips[500], made.clips.back()}) {
     const Standing there = standing_over(made.motion, placed.core);
     EXPECT_LT((there.position - home.position).norm(), 1e-4f);
     EXPECT_NEAR(there.heading, home.heading, 1e-3f);
@@ -162,20 +160,20 @@ TEST_P(Concatenate, ManySignsDoNotDrift) {
 }
 
 TEST_P(Concatenate, AlignmentCanBeLeftOut) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20)};
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20)};
   ConcatenateOptions none = options();
   none.alignment = Alignment::none;
-  const Synthesis made = concatenate(stretches, none);
-  const PoseView kept = made.motion.pose(made.stretches[1].core.begin);
-  const PoseView captured = motion_of(stretches[1]).pose(stretches[1].core.begin);
+  const Synthesis made = concatenate(clips, none);
+  const PoseView kept = made.motion.pose(made.clips[1].core.begin);
+  const PoseView captured = motion_of(clips[1]).pose(clips[1].core.begin);
   EXPECT_TRUE(same_up_to_sign(kept.rotations[0], captured.rotations[0]));
   EXPECT_EQ(kept.translations[0], captured.translations[0]);
 }
 
 TEST_P(Concatenate, OffsetsMayDifferAndTheFirstAreTaken) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25, {100, 1}, small_skeleton(0.3f)),
-                                          stretch("B", 0.8f, 30, 33, 20, {100, 1}, small_skeleton(0.35f))};
-  const Synthesis made = concatenate(stretches, options());
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25, {100, 1}, small_skeleton(0.3f)),
+                                         clip("B", 0.8f, 30, 33, 20, {100, 1}, small_skeleton(0.35f))};
+  const Synthesis made = concatenate(clips, options());
   EXPECT_FLOAT_EQ(made.motion.skeleton().joint(2).offset.x(), 0.3f);
 }
 
@@ -185,10 +183,9 @@ TEST_P(Concatenate, OtherJointsAreRefusedByName) {
                                                                          {"LeftArm", 1, {0.3f, 0, 0}, false},
                                                                          {"Hand", 2, {0.3f, 0, 0}, false}},
                                                       std::vector<Tip>{});
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25),
-                                          stretch("B", 0.8f, 30, 33, 20, {100, 1}, other)};
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20, {100, 1}, other)};
   try {
-    concatenate(stretches, options());
+    concatenate(clips, options());
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("'Arm' in one and 'LeftArm' in the other"));
@@ -196,9 +193,9 @@ TEST_P(Concatenate, OtherJointsAreRefusedByName) {
 }
 
 TEST_P(Concatenate, SignsAreFilledByTheirPhases) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20),
-                                          stretch("C", 1.7f, 0, 50, 0)};
-  const Synthesis made = concatenate(stretches, options());
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20),
+                                         clip("C", 1.7f, 0, 50, 0)};
+  const Synthesis made = concatenate(clips, options());
   ASSERT_EQ(made.signs.size(), 3u);
   for (std::size_t i = 0; i < made.signs.size(); ++i) {
     const Sign& sign = made.signs[i].sign;
@@ -207,18 +204,18 @@ TEST_P(Concatenate, SignsAreFilledByTheirPhases) {
     EXPECT_EQ(sign.phases.back().span.end, sign.span.end);
     for (std::size_t p = 1; p < sign.phases.size(); ++p)
       EXPECT_EQ(sign.phases[p - 1].span.end, sign.phases[p].span.begin);
-    EXPECT_EQ(sign.stroke_span(), span_of(made.stretches[i].core, {Seconds(0.01), Seconds(0)}));
+    EXPECT_EQ(sign.stroke_span(), span_of(made.clips[i].core, {Seconds(0.01), Seconds(0)}));
     if (i > 0) {
       EXPECT_EQ(made.signs[i - 1].sign.span.end, sign.span.begin);
     }
   }
-  EXPECT_EQ(made.signs[0].recorded, stretches[0].signs[0].span);
+  EXPECT_EQ(made.signs[0].recorded, clips[0].signs[0].span);
 }
 
 TEST(Crossfading, DoesNotJumpWhereTheSidesPassHalfATurnApart) {
   // One joint turns from 70 to 110 degrees on one side and from -70 to -110 on the other: 140 to 220 degrees apart.
   const auto turning = [](const std::string& name, float sense) {
-    Stretch result = stretch(name, 0.0f, 60, 20, 60);
+    MotionClip result = clip(name, 0.0f, 60, 20, 60);
     Motion motion = motion_of(result);
     for (std::int64_t at = result.whole.begin; at < motion.frame_count(); ++at) {
       const std::int64_t frame = at - result.whole.begin;
@@ -243,12 +240,12 @@ TEST(Crossfading, DoesNotJumpWhereTheSidesPassHalfATurnApart) {
 }
 
 TEST_P(Concatenate, HoldsAreKeptAsAnnotated) {
-  std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 60), stretch("B", 0.8f, 30, 33, 20)};
-  Sign& sign = stretches[0].signs[0];
+  std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 60), clip("B", 0.8f, 30, 33, 20)};
+  Sign& sign = clips[0].signs[0];
   sign.phases.back().span.begin += 100ms;  // the hands wait before they leave
   sign.phases.insert(sign.phases.end() - 1,
                      {PhaseKind::hold, {sign.phases[1].span.end, sign.phases[1].span.end + 100ms}, "Hold", {}});
-  const Synthesis made = concatenate(stretches, options());
+  const Synthesis made = concatenate(clips, options());
   const std::vector<Phase>& phases = made.signs[0].sign.phases;
   const std::int64_t kept = std::min<std::int64_t>(10, made.junctions[0].cut.kept_after());
   if (kept == 0) {  // the cut was chosen before it
@@ -264,46 +261,46 @@ TEST_P(Concatenate, HoldsAreKeptAsAnnotated) {
 }
 
 TEST_P(Concatenate, APieceThatIsCutThroughASignSaysNothingFalseOfIt) {
-  std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 100, 25), stretch("B", 0.8f, 30, 33, 20)};
-  Sign& sign = stretches[0].signs[0];  // its stroke ends long before the piece does
+  std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 100, 25), clip("B", 0.8f, 30, 33, 20)};
+  Sign& sign = clips[0].signs[0];  // its stroke ends long before the piece does
   sign.phases[1].span.end = sign.phases[1].span.begin + 400ms;
   sign.phases.back().span.begin = sign.phases[1].span.end;
-  const Synthesis made = concatenate(stretches, options());
+  const Synthesis made = concatenate(clips, options());
   EXPECT_EQ(made.signs[0].sign.stroke_span()->duration(), 400ms);
 }
 
 TEST_P(Concatenate, TheReferenceGivesSkeletonAndStanding) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25, {100, 1}, small_skeleton(0.3f)),
-                                          stretch("B", 0.8f, 30, 33, 20, {100, 1}, small_skeleton(0.35f))};
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25, {100, 1}, small_skeleton(0.3f)),
+                                         clip("B", 0.8f, 30, 33, 20, {100, 1}, small_skeleton(0.35f))};
   ConcatenateOptions second = options();
   second.reference = 1;
-  const Synthesis made = concatenate(stretches, second);
+  const Synthesis made = concatenate(clips, second);
   EXPECT_FLOAT_EQ(made.motion.skeleton().joint(2).offset.x(), 0.35f);
-  EXPECT_EQ(made.motion.pose(made.stretches[1].core.begin).translations[0],
-            motion_of(stretches[1]).pose(stretches[1].core.begin).translations[0]);
+  EXPECT_EQ(made.motion.pose(made.clips[1].core.begin).translations[0],
+            motion_of(clips[1]).pose(clips[1].core.begin).translations[0]);
 }
 
-/// The stretch with a face track that holds one value.
-Stretch with_track(Stretch stretch, const std::string& name, float value) {
-  Motion motion = motion_of(stretch);
+/// The clip with a face track that holds one value.
+MotionClip with_track(MotionClip clip, const std::string& name, float value) {
+  Motion motion = motion_of(clip);
   motion.add_track({name, std::vector<float>(static_cast<std::size_t>(motion.frame_count()), value)});
-  stretch.source = std::make_shared<MemorySource>(std::move(motion));
-  return stretch;
+  clip.source = std::make_shared<MemorySource>(std::move(motion));
+  return clip;
 }
 
 TEST_P(Concatenate, ScalarTracksComeAlong) {
-  const std::vector<Stretch> stretches = {with_track(stretch("A", 0.1f, 20, 40, 25), "jawOpen", 0.8f),
-                                          with_track(stretch("B", 0.8f, 30, 33, 20, {50, 1}), "browInnerUp", 0.5f)};
-  const Synthesis made = concatenate(stretches, options());
+  const std::vector<MotionClip> clips = {with_track(clip("A", 0.1f, 20, 40, 25), "jawOpen", 0.8f),
+                                         with_track(clip("B", 0.8f, 30, 33, 20, {50, 1}), "browInnerUp", 0.5f)};
+  const Synthesis made = concatenate(clips, options());
   ASSERT_EQ(made.motion.tracks().size(), 2u);
   const ScalarTrack& jaw = made.motion.tracks()[0];
   const ScalarTrack& brow = made.motion.tracks()[1];
   EXPECT_EQ(jaw.name, "jawOpen");
   EXPECT_EQ(brow.name, "browInnerUp");
   ASSERT_EQ(jaw.values.size(), static_cast<std::size_t>(made.motion.frame_count()));
-  for (const Placed& placed : made.stretches) {
+  for (const ShownClip& placed : made.clips) {
     for (std::int64_t frame = placed.core.begin; frame < placed.core.end; ++frame) {
-      const bool first = &placed == &made.stretches[0];
+      const bool first = &placed == &made.clips[0];
       EXPECT_EQ(jaw.values[static_cast<std::size_t>(frame)], first ? 0.8f : 0.0f);  // bit for bit in a stroke
       EXPECT_EQ(brow.values[static_cast<std::size_t>(frame)], first ? 0.0f : 0.5f);
     }
@@ -315,16 +312,16 @@ TEST_P(Concatenate, ScalarTracksComeAlong) {
 }
 
 TEST_P(Concatenate, SignsOfQuaternionsInASourceDoNotMatter) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 40, 40, 45), stretch("B", 0.8f, 40, 33, 40)};
-  std::vector<Stretch> flipped = stretches;
-  for (Stretch& one : flipped) {
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 40, 40, 45), clip("B", 0.8f, 40, 33, 40)};
+  std::vector<MotionClip> flipped = clips;
+  for (MotionClip& one : flipped) {
     Motion motion = motion_of(one);
     for (std::int64_t frame = 0; frame < motion.frame_count(); frame += 2) {
       for (Eigen::Quaternionf& q : motion.pose(frame).rotations) q.coeffs() *= -1.0f;
     }
     one.source = std::make_shared<MemorySource>(std::move(motion));
   }
-  const Synthesis expected = concatenate(stretches, options());
+  const Synthesis expected = concatenate(clips, options());
   const Synthesis made = concatenate(flipped, options());
   for (std::size_t i = 0; i < expected.motion.rotations().size(); ++i) {
     ASSERT_LT(angle(made.motion.rotations()[i], expected.motion.rotations()[i]), 1e-5) << i;
@@ -332,10 +329,10 @@ TEST_P(Concatenate, SignsOfQuaternionsInASourceDoNotMatter) {
 }
 
 TEST_P(Concatenate, RatesThatAskForATerabyteAreRefused) {
-  const std::vector<Stretch> stretches = {stretch("slow", 0.1f, 2, 4, 2, {1, 10'000}),
-                                          stretch("fast", 0.8f, 2, 4, 2, {1'000'000, 1})};
+  const std::vector<MotionClip> clips = {clip("slow", 0.1f, 2, 4, 2, {1, 10'000}),
+                                         clip("fast", 0.8f, 2, 4, 2, {1'000'000, 1})};
   try {
-    concatenate(stretches, options());
+    concatenate(clips, options());
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("('slow' has"));
@@ -343,7 +340,7 @@ TEST_P(Concatenate, RatesThatAskForATerabyteAreRefused) {
 }
 
 TEST_P(Concatenate, AStrokeShorterThanAFrameHasAMillisecondAtLeast) {
-  Stretch one = stretch("A", 0.1f, 20, 40, 25, {30, 1});
+  MotionClip one = clip("A", 0.1f, 20, 40, 25, {30, 1});
   const Milliseconds begin = one.signs[0].phases[1].span.begin;
   one.signs[0].phases[1].span.end = begin + 8ms;
   one.signs[0].phases[2].span.begin = begin + 8ms;
@@ -353,7 +350,7 @@ TEST_P(Concatenate, AStrokeShorterThanAFrameHasAMillisecondAtLeast) {
   one.signs[0].span.end = begin + 60ms;
   one.signs[0].phases[2].span.end = begin + 60ms;
   one.signs.push_back(second);
-  const Synthesis made = concatenate({stretch("B", 0.8f, 20, 33, 20, {30, 1}), one}, options());
+  const Synthesis made = concatenate({clip("B", 0.8f, 20, 33, 20, {30, 1}), one}, options());
   ASSERT_EQ(made.signs.size(), 3u);
   const auto stroke = made.signs[1].sign.stroke_span();
   ASSERT_TRUE(stroke);
@@ -361,11 +358,11 @@ TEST_P(Concatenate, AStrokeShorterThanAFrameHasAMillisecondAtLeast) {
 }
 
 TEST_P(Concatenate, TheMemoryOfAnOlderResultIsUsedAgain) {
-  const std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 20)};
-  Synthesis first = concatenate(stretches, options());
+  const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20)};
+  Synthesis first = concatenate(clips, options());
   const auto* const memory = first.motion.rotations().data();
   const Motion expected = first.motion;
-  const Synthesis second = concatenate(stretches, options(), std::move(first));
+  const Synthesis second = concatenate(clips, options(), std::move(first));
   EXPECT_EQ(second.motion.rotations().data(), memory);
   ASSERT_EQ(second.motion.frame_count(), expected.frame_count());
   for (std::size_t i = 0; i < expected.rotations().size(); ++i) {

@@ -39,10 +39,10 @@ struct Lift {
   float stroke = 0;
   float after = 0;
 };
-Stretch lifted(const std::string& name, Lift left, Lift right, std::int64_t preparation = 40, std::int64_t stroke = 30,
-               std::int64_t retraction = 40) {
+MotionClip lifted(const std::string& name, Lift left, Lift right, std::int64_t preparation = 40,
+                  std::int64_t stroke = 30, std::int64_t retraction = 40) {
   const auto smooth = [](float t) { return t * t * t * (10.0f + t * (-15.0f + 6.0f * t)); };
-  Stretch result = testing_motion::stretch(name, 0.0f, preparation, stroke, retraction, {100, 1}, person());
+  MotionClip result = testing_motion::clip(name, 0.0f, preparation, stroke, retraction, {100, 1}, person());
   Motion motion(person(), {100, 1}, result.source->frame_count());
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
     const auto part = [frame](std::int64_t from, std::int64_t count) {
@@ -64,10 +64,10 @@ Stretch lifted(const std::string& name, Lift left, Lift right, std::int64_t prep
   return result;
 }
 
-Synthesis join(const std::vector<Stretch>& stretches, const GapMethod& fill, Milliseconds duration = 600ms) {
+Synthesis join(const std::vector<MotionClip>& clips, const GapMethod& fill, Milliseconds duration = 600ms) {
   const SignerRig rig = rig_of_person();
   const TransitionMethod method{"chosen", "", nullptr, &fill};
-  return concatenate(stretches, {.method = &method, .duration = duration, .rig = &rig});
+  return concatenate(clips, {.method = &method, .duration = duration, .rig = &rig});
 }
 
 std::vector<const GapMethod*> methods_for_signing() {
@@ -83,8 +83,8 @@ RC_GTEST_PROP(CutPoints, ACutHasTheLengthAskedForAndKeepsNoMoreThanThereIs, ()) 
   const auto frames = [] { return *rc::gen::inRange<std::int64_t>(0, 90); };
   const std::int64_t preparation = frames();
   const std::int64_t retraction = frames();
-  const Stretch a = lifted("A", {lift(), lift(), lift()}, {lift(), lift(), lift()}, frames(), 20, retraction);
-  const Stretch b = lifted("B", {lift(), lift(), lift()}, {lift(), lift(), lift()}, preparation, 20, frames());
+  const MotionClip a = lifted("A", {lift(), lift(), lift()}, {lift(), lift(), lift()}, frames(), 20, retraction);
+  const MotionClip b = lifted("B", {lift(), lift(), lift()}, {lift(), lift(), lift()}, preparation, 20, frames());
   const std::int64_t length = *rc::gen::inRange<std::int64_t>(1, 150);
   const Synthesis made = join({a, b}, *find_gap_method("gap"), Milliseconds(10 * length));
   const Junction& junction = made.junctions[0];
@@ -103,8 +103,8 @@ RC_GTEST_PROP(CutPoints, ACutHasTheLengthAskedForAndKeepsNoMoreThanThereIs, ()) 
 
 TEST(CutPoints, AHandThatIsWhereItIsNeededDoesNotGoDownAndComeUpAgain) {
   // The right hand signs on at another height; the left is held up by both signs, and rests before and after.
-  const Stretch a = lifted("A", {0, 1.0f, 0}, {0, 0.6f, 0});
-  const Stretch b = lifted("B", {0, 1.0f, 0}, {0, 1.4f, 0});
+  const MotionClip a = lifted("A", {0, 1.0f, 0}, {0, 0.6f, 0});
+  const MotionClip b = lifted("B", {0, 1.0f, 0}, {0, 1.4f, 0});
   for (const GapMethod* method : methods_for_signing()) {
     const Synthesis made = join({a, b}, *method);
     const Junction& junction = made.junctions[0];
@@ -126,8 +126,8 @@ TEST(CutPoints, AHandThatIsWhereItIsNeededDoesNotGoDownAndComeUpAgain) {
 
 TEST(CutPoints, ARetractionThatLeadsOnIsKept) {
   // Both were captured on the way to where the other is: A's hands go up after it, B's come from below.
-  const Stretch a = lifted("A", {0, 0.2f, 0.6f}, {0, 0.2f, 0.6f});
-  const Stretch b = lifted("B", {0.6f, 1.0f, 1.0f}, {0.6f, 1.0f, 1.0f});
+  const MotionClip a = lifted("A", {0, 0.2f, 0.6f}, {0, 0.2f, 0.6f});
+  const MotionClip b = lifted("B", {0.6f, 1.0f, 1.0f}, {0.6f, 1.0f, 1.0f});
   const TransitionCuts cuts = join({a, b}, *find_gap_method("gap")).junctions[0].cuts;
   for (const TransitionCut& cut : cuts) {
     EXPECT_GT(cut.retraction_frames + cut.preparation_frames, 20);
@@ -135,8 +135,8 @@ TEST(CutPoints, ARetractionThatLeadsOnIsKept) {
 }
 
 TEST(CutPoints, ARetractionThatLeadsElsewhereIsNot) {
-  const Stretch a = lifted("A", {0, 0.6f, -0.4f}, {0, 0.6f, -0.4f});
-  const Stretch b = lifted("B", {-0.4f, 1.2f, 0}, {-0.4f, 1.2f, 0});
+  const MotionClip a = lifted("A", {0, 0.6f, -0.4f}, {0, 0.6f, -0.4f});
+  const MotionClip b = lifted("B", {-0.4f, 1.2f, 0}, {-0.4f, 1.2f, 0});
   const TransitionCuts cuts = join({a, b}, *find_gap_method("gap")).junctions[0].cuts;
   for (const Timed part : {Timed::left, Timed::right}) {
     const TransitionCut& cut = cuts[static_cast<std::size_t>(part)];
@@ -147,8 +147,8 @@ TEST(CutPoints, ARetractionThatLeadsElsewhereIsNot) {
 
 TEST(CutPoints, EachHandHasItsOwn) {
   // The left hand's retraction leads on, the right hand's leads down.
-  const Stretch a = lifted("A", {0, 0.2f, 0.7f}, {0, 0.6f, -0.4f});
-  const Stretch b = lifted("B", {-0.6f, 1.0f, 0}, {-0.4f, 1.2f, 0});
+  const MotionClip a = lifted("A", {0, 0.2f, 0.7f}, {0, 0.6f, -0.4f});
+  const MotionClip b = lifted("B", {-0.6f, 1.0f, 0}, {-0.4f, 1.2f, 0});
   const Synthesis made = join({a, b}, *find_gap_method("gap"));
   const Junction& junction = made.junctions[0];
   const TransitionCut& left = junction.cuts[static_cast<std::size_t>(Timed::left)];
@@ -159,14 +159,14 @@ TEST(CutPoints, EachHandHasItsOwn) {
     const std::int64_t frame = junction.frames.begin + k;
     const Eigen::Quaternionf& captured = motion_of(a).pose(a.core.end + k).rotations[joint("LeftArm")];
     EXPECT_LT(angle(made.motion.pose(frame).rotations[joint("LeftArm")], captured), 1e-6) << k;
-    EXPECT_EQ(made.sources[static_cast<std::size_t>(frame)].stretch, FrameSource::kNone) << k;
+    EXPECT_EQ(made.sources[static_cast<std::size_t>(frame)].clip, FrameSource::kNone) << k;
   }
 }
 
 TEST(CutPoints, BothSidesMayBeKeptAtOneMomentByDifferentParts) {
   // The left hand goes on as after A for long, the right hand comes as before B for long.
-  const Stretch a = lifted("A", {0, 0.0f, 0.9f}, {0, 0.6f, -0.6f}, 40, 30, 45);
-  const Stretch b = lifted("B", {-1.0f, 1.0f, 1.0f}, {0.6f, 1.6f, 0}, 45, 30, 40);
+  const MotionClip a = lifted("A", {0, 0.0f, 0.9f}, {0, 0.6f, -0.6f}, 40, 30, 45);
+  const MotionClip b = lifted("B", {-1.0f, 1.0f, 1.0f}, {0.6f, 1.6f, 0}, 45, 30, 40);
   const Synthesis made = join({a, b}, *find_gap_method("gap"));
   const Junction& junction = made.junctions[0];
   const TransitionCut& left = junction.cuts[static_cast<std::size_t>(Timed::left)];
@@ -191,8 +191,8 @@ TEST(CutPoints, BothSidesMayBeKeptAtOneMomentByDifferentParts) {
 
 TEST(CutPoints, InAPauseTheHandsGoTowardsRestAsCaptured) {
   // The left hand rests in A; where B is from, it came down from another sign.
-  Stretch a = lifted("A", {0, 0, 0}, {0, 0.6f, 0});
-  Stretch b = lifted("B", {1.0f, 0.1f, 0}, {0, 1.4f, 0});
+  MotionClip a = lifted("A", {0, 0, 0}, {0, 0.6f, 0});
+  MotionClip b = lifted("B", {1.0f, 0.1f, 0}, {0, 1.4f, 0});
   b.pause_before = 800ms;
   const TransitionCuts cuts = join({a, b}, *find_gap_method("gap")).junctions[0].cuts;
   const TransitionCut& right = cuts[static_cast<std::size_t>(Timed::right)];

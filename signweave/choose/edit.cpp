@@ -136,7 +136,7 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
       const bool closes = i + 1 == items.size() && item.last + 1 == signs.size();
       std::optional<Candidate> candidate = candidate_of_run(contents, index, run);
       if (!candidate && (opens || closes)) {
-        // Nothing but signs without stroke at an end of the recording: their frames stay, as a stretch of their own.
+        // Nothing but signs without stroke at an end of the recording: their frames stay, as a clip of their own.
         const FrameRange frames = frames_of({run.front().span.begin, run.back().span.end}, info.clock);
         const FrameRange inside =
             clamp({opens ? 0 : frames.begin, closes ? info.motion->frames : frames.end}, info.motion->frames);
@@ -167,7 +167,7 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
     choices.push_back(std::move(choice));
   }
   if (edit.swap) return choices;
-  // Where the first or the last sign is replaced, what lies before or after it stays, as a stretch without signs.
+  // Where the first or the last sign is replaced, what lies before or after it stays, as a clip without signs.
   const auto bare = [&](FrameRange frames) {
     const FrameRange inside = clamp(frames, info.motion->frames);
     Choice choice;

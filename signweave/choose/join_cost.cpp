@@ -118,7 +118,7 @@ JoinEnds::JoinEnds(std::span<const JoinPoint> begins, std::span<const JoinPoint>
   }
 }
 
-void JoinLanes::lay(const JoinEnds& ends, std::span<const std::uint32_t> order, const JoinScale& scale) {
+void JoinLanes::place(const JoinEnds& ends, std::span<const std::uint32_t> order, const JoinScale& scale) {
   const JoinTerms& terms = scale.weights.weights;
   const auto fill = [&](std::size_t from, std::size_t to, JoinTerm term, float parts) {
     const float root = std::sqrt(terms[static_cast<std::size_t>(term)] / parts);

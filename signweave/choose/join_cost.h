@@ -18,7 +18,7 @@ struct JoinScale {
   Seconds transition{0.5};
 };
 
-/// Both ends of each candidate of one gloss, laid out so that one candidate is compared with many at once. Immutable
+/// Both ends of each candidate of one gloss, placed out so that one candidate is compared with many at once. Immutable
 /// once made; places of one gloss share it.
 class JoinEnds {
  public:
@@ -46,7 +46,7 @@ class JoinEnds {
 class JoinLanes {
  public:
   /// `order` names candidates of `ends`; lanes beyond them hold the last one again.
-  void lay(const JoinEnds& ends, std::span<const std::uint32_t> order, const JoinScale& scale);
+  void place(const JoinEnds& ends, std::span<const std::uint32_t> order, const JoinScale& scale);
   std::size_t blocks() const noexcept { return values_.size(); }
   /// The begin that `costs` is about from now on.
   void compare_with(const JoinPoint& begin) noexcept;

@@ -16,8 +16,8 @@ std::int64_t frames_in(Seconds time, FrameRate rate) {
 }
 
 /// Frames counted from the core's first.
-void read(const JunctionSettings& settings, const Laid& laid, FrameRange frames, Motion& out) {
-  Laid alone = laid;
+void read(const JunctionSettings& settings, const PlacedClip& placed, FrameRange frames, Motion& out) {
+  PlacedClip alone = placed;
   alone.core = 0;
   out.reset(settings.skeleton, settings.rate, frames.size());
   read_frames(alone, frames, out.poses({0, frames.size()}));
@@ -30,7 +30,7 @@ struct Sides {
 
 /// The same, before it is known where the cuts come to lie: at most `most` frames beside each stroke, and kContext of
 /// the strokes themselves.
-Sides read(const JunctionSettings& settings, const Laid& a, const Laid& b, std::int64_t most,
+Sides read(const JunctionSettings& settings, const PlacedClip& a, const PlacedClip& b, std::int64_t most,
            JunctionScratch& scratch) {
   const std::int64_t context = std::max<std::int64_t>(1, frames_in(kContext, settings.rate));
   const std::int64_t within_a = std::min(context, a.core_frames);
@@ -49,8 +49,9 @@ JunctionTimer::JunctionTimer(const JunctionSettings& settings, const TransitionT
   if (settings.method->cut == nullptr) chooser_.emplace(*settings.skeleton, settings.rig->groups);
 }
 
-JunctionCuts JunctionTimer::cuts_between(const Laid& a, const Laid& b, Milliseconds pause, JunctionScratch& scratch) {
-  const JunctionChoice& own = b.stretch->junction;
+JunctionCuts JunctionTimer::cuts_between(const PlacedClip& a, const PlacedClip& b, Milliseconds pause,
+                                         JunctionScratch& scratch) {
+  const JunctionChoice& own = b.captured->junction;
   const auto cut = method_of(settings_, b).cut;
   const bool choose = cut == nullptr;
   if (choose && !chooser_) chooser_.emplace(*settings_.skeleton, settings_.rig->groups);
@@ -99,7 +100,7 @@ JunctionCuts JunctionTimer::cuts_between(const Laid& a, const Laid& b, Milliseco
   return cuts;
 }
 
-void lay_after(Laid& a, Laid& b, const JunctionCuts& cuts) {
+void place_after(PlacedClip& a, PlacedClip& b, const JunctionCuts& cuts) {
   for (const TransitionCut& cut : cuts.parts) {
     a.after = std::max(a.after, cut.retraction_frames);
     b.before = std::max(b.before, cut.preparation_frames);

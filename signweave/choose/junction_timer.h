@@ -20,8 +20,8 @@ class JunctionTimer {
  public:
   JunctionTimer(const JunctionSettings& settings, const TransitionTiming& timing);
 
-  /// Of two stretches that are laid, wherever they lie. Throws Error{corrupt}.
-  JunctionCuts cuts_between(const Laid& a, const Laid& b, Milliseconds pause, JunctionScratch& scratch);
+  /// Of two clips that are placed, wherever they lie. Throws Error{corrupt}.
+  JunctionCuts cuts_between(const PlacedClip& a, const PlacedClip& b, Milliseconds pause, JunctionScratch& scratch);
 
  private:
   JunctionSettings settings_;
@@ -30,6 +30,6 @@ class JunctionTimer {
 };
 
 /// Lays b where the cuts leave it behind a, and notes what both keep of the transition.
-void lay_after(Laid& a, Laid& b, const JunctionCuts& cuts);
+void place_after(PlacedClip& a, PlacedClip& b, const JunctionCuts& cuts);
 
 }  // namespace signweave

@@ -9,8 +9,8 @@ namespace signweave {
 namespace {
 
 using testing_motion::angle;
+using testing_motion::clip;
 using testing_motion::motion_of;
-using testing_motion::stretch;
 
 /// Every rule below holds for each method.
 class JunctionsOf : public testing::TestWithParam<std::string> {
@@ -18,35 +18,35 @@ class JunctionsOf : public testing::TestWithParam<std::string> {
   const TransitionMethod* method() const { return find_transition_method(GetParam()); }
 };
 
-std::vector<Stretch> some_stretches() {
-  std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 40),
-                                    stretch("C", 1.7f, 60, 50, 0), stretch("D", 2.9f, 0, 20, 30, {50, 1})};
-  stretches[2].pause_before = 350ms;
-  return stretches;
+std::vector<MotionClip> some_clips() {
+  std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 40), clip("C", 1.7f, 60, 50, 0),
+                                   clip("D", 2.9f, 0, 20, 30, {50, 1})};
+  clips[2].pause_before = 350ms;
+  return clips;
 }
 
 TEST_P(JunctionsOf, NamingAllWithWhatIsChosenForAllIsTheSame) {
   for (const double tempo : {1.0, 1.3}) {
     const ConcatenateOptions of_all{.method = method(), .duration = 480ms, .tempo = tempo};
-    const Synthesis expected = concatenate(some_stretches(), of_all);
+    const Synthesis expected = concatenate(some_clips(), of_all);
     // What is named wins over what is chosen for all.
     const ConcatenateOptions otherwise{
         .method = find_transition_method(GetParam() == "sine" ? "overlap" : "sine"), .duration = 900ms, .tempo = tempo};
-    std::vector<Stretch> named = some_stretches();
-    for (Stretch& one : named) one.junction = {method(), 480ms, 1.0};
+    std::vector<MotionClip> named = some_clips();
+    for (MotionClip& one : named) one.junction = {method(), 480ms, 1.0};
     const Synthesis made = concatenate(named, otherwise);
     EXPECT_TRUE(same_bits(made.motion, expected.motion));
-    EXPECT_FALSE(same_bits(concatenate(some_stretches(), otherwise).motion, expected.motion));
+    EXPECT_FALSE(same_bits(concatenate(some_clips(), otherwise).motion, expected.motion));
     for (const Junction& junction : made.junctions) EXPECT_EQ(junction.method, GetParam());
   }
 }
 
 TEST_P(JunctionsOf, OneThatIsNamedChangesNothingElse) {
   const ConcatenateOptions options{.duration = 480ms};
-  const std::vector<Stretch> plain = some_stretches();
+  const std::vector<MotionClip> plain = some_clips();
   const Synthesis before = concatenate(plain, options);
   for (std::size_t at = 1; at < plain.size(); ++at) {
-    std::vector<Stretch> named = plain;
+    std::vector<MotionClip> named = plain;
     named[at].junction = {method(), 700ms, 2.0};
     const Synthesis after = concatenate(named, options);
     const std::int64_t shift = after.motion.frame_count() - before.motion.frame_count();
@@ -73,11 +73,11 @@ TEST_P(JunctionsOf, OneThatIsNamedChangesNothingElse) {
 
 TEST_P(JunctionsOf, NothingJumpsBesideJunctionsOfOtherMethods) {
   for (const TransitionMethod& other : transition_methods()) {
-    std::vector<Stretch> stretches = some_stretches();
-    stretches[1].junction = {method(), 600ms, {}};
-    stretches[2].junction = {&other, 735ms, {}};
-    stretches[3].junction = {method(), {}, 0.5};
-    const Synthesis made = concatenate(stretches, {.method = &other, .duration = 500ms});
+    std::vector<MotionClip> clips = some_clips();
+    clips[1].junction = {method(), 600ms, {}};
+    clips[2].junction = {&other, 735ms, {}};
+    clips[3].junction = {method(), {}, 0.5};
+    const Synthesis made = concatenate(clips, {.method = &other, .duration = 500ms});
     for (std::int64_t frame = 1; frame < made.motion.frame_count(); ++frame) {
       const PoseView before = made.motion.pose(frame - 1);
       const PoseView now = made.motion.pose(frame);
@@ -97,19 +97,19 @@ INSTANTIATE_TEST_SUITE_P(EveryMethod, JunctionsOf, testing::ValuesIn([] {
                          [](const auto& test) { return test.param; });
 
 TEST(JunctionTempo, IsThatOfTheTransitionAloneBesideTheOneOfAll) {
-  std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 34, 20)};
-  stretches[1].junction.tempo = 1.5;
+  std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 34, 20)};
+  clips[1].junction.tempo = 1.5;
   ConcatenateOptions options{.duration = 600ms};
-  EXPECT_EQ(concatenate(stretches, options).junctions[0].frames.size(), 40);
-  stretches[1].pause_before = 350ms;  // as long as ever
-  EXPECT_EQ(concatenate(stretches, options).junctions[0].frames.size(), 40 + 35);
-  stretches[1].junction.duration = 300ms;
-  EXPECT_EQ(concatenate(stretches, options).junctions[0].frames.size(), 20 + 35);
+  EXPECT_EQ(concatenate(clips, options).junctions[0].frames.size(), 40);
+  clips[1].pause_before = 350ms;  // as long as ever
+  EXPECT_EQ(concatenate(clips, options).junctions[0].frames.size(), 40 + 35);
+  clips[1].junction.duration = 300ms;
+  EXPECT_EQ(concatenate(clips, options).junctions[0].frames.size(), 20 + 35);
   options.tempo = 0.5;
-  const Synthesis slow = concatenate(stretches, options);
+  const Synthesis slow = concatenate(clips, options);
   EXPECT_EQ(slow.junctions[0].frames.size(), 40 + 70);
-  EXPECT_EQ(slow.stretches[0].core.size(), 80);  // strokes know the tempo of all alone
-  EXPECT_EQ(slow.stretches[1].core.size(), 68);
+  EXPECT_EQ(slow.clips[0].core.size(), 80);  // strokes know the tempo of all alone
+  EXPECT_EQ(slow.clips[1].core.size(), 68);
 }
 
 }  // namespace

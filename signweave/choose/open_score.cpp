@@ -22,10 +22,10 @@ void require_unchanged(const RecordingInfo& info, const SourceRef& source) {
 
 }  // namespace
 
-const TransitionMethod* method_with_needs(const std::vector<Stretch>& stretches, const TransitionMethod& of_all) {
+const TransitionMethod* method_with_needs(const std::vector<MotionClip>& clips, const TransitionMethod& of_all) {
   const TransitionMethod* found = nullptr;
-  for (std::size_t i = 1; i < stretches.size(); ++i) {
-    const TransitionMethod* const own = stretches[i].junction.method;
+  for (std::size_t i = 1; i < clips.size(); ++i) {
+    const TransitionMethod* const own = clips[i].junction.method;
     const TransitionMethod& method = own != nullptr ? *own : of_all;
     if (method.fill->needs == Needs::spans) return &method;
     if (method.fill->needs == Needs::teaching) found = &method;
@@ -34,10 +34,10 @@ const TransitionMethod* method_with_needs(const std::vector<Stretch>& stretches,
 }
 
 std::vector<std::pair<std::string, std::string>> declarations_of(const Contents& contents,
-                                                                 const std::vector<Stretch>& stretches) {
+                                                                 const std::vector<MotionClip>& clips) {
   DeclarationSet declarations;
-  for (const Stretch& stretch : stretches) {
-    if (!stretch.recording.empty()) add_declarations(contents.at(stretch.recording), declarations);
+  for (const MotionClip& clip : clips) {
+    if (!clip.recording.empty()) add_declarations(contents.at(clip.recording), declarations);
   }
   return {declarations.begin(), declarations.end()};
 }
@@ -82,31 +82,31 @@ OpenScore::OpenScore(const Database& database, Score score, const FindSource& ot
     return at->second;
   };
   const std::shared_ptr<const MotionSource> home = find(score_.skeleton).motion;
-  stretches_ = stretches_of(score_, find);
-  put_on_skeleton(stretches_, score_.skeleton.recording, *home, contents, notices_);
+  clips_ = clips_of(score_, find);
+  put_on_skeleton(clips_, score_.skeleton.recording, *home, contents, notices_);
   rig_ = signer_rig_of(snapshot_, contents.at(score_.skeleton.recording));
-  if (const TransitionMethod* const asking = method_with_needs(stretches_, transition_methods().front())) {
+  if (const TransitionMethod* const asking = method_with_needs(clips_, transition_methods().front())) {
     captured_ = captured_spans(snapshot_, *home->skeleton(), rig_.groups, asking->fill->needs);
   }
-  renderer_.emplace(plan_of(score_, stretches_), JunctionSettings{.skeleton = home->skeleton(),
-                                                                  .rate = score_.rate,
-                                                                  .method = &transition_methods().front(),
-                                                                  .rig = &rig_,
-                                                                  .model = captured_.model.get()});
+  renderer_.emplace(plan_of(score_, clips_), JunctionSettings{.skeleton = home->skeleton(),
+                                                              .rate = score_.rate,
+                                                              .method = &transition_methods().front(),
+                                                              .rig = &rig_,
+                                                              .model = captured_.model.get()});
 }
 
 Synthesis OpenScore::synthesize(Synthesis used) {
   Synthesis out;
   out.motion = std::move(used.motion);
   out.sources = std::move(used.sources);
-  signweave::render(score_, *renderer_, stretches_, std::nullopt, out);
+  signweave::render(score_, *renderer_, clips_, std::nullopt, out);
   out.notices = notices_;
   out.declarations = declarations();
   return out;
 }
 
 std::vector<std::pair<std::string, std::string>> OpenScore::declarations() const {
-  return declarations_of(snapshot_.contents(), stretches_);
+  return declarations_of(snapshot_.contents(), clips_);
 }
 
 }  // namespace signweave

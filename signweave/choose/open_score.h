@@ -14,11 +14,11 @@
 namespace signweave {
 
 /// The first method of a junction that needs something of the corpus, captured spans before all; or null.
-const TransitionMethod* method_with_needs(const std::vector<Stretch>& stretches, const TransitionMethod& of_all);
+const TransitionMethod* method_with_needs(const std::vector<MotionClip>& clips, const TransitionMethod& of_all);
 
-/// What the documents of the stretches' recordings declare of themselves.
+/// What the documents of the clips' recordings declare of themselves.
 std::vector<std::pair<std::string, std::string>> declarations_of(const Contents& contents,
-                                                                 const std::vector<Stretch>& stretches);
+                                                                 const std::vector<MotionClip>& clips);
 
 /// Of the signer of a recording, whose motion is measured once as long as nothing in the database changes.
 SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording);
@@ -70,7 +70,7 @@ class OpenScore {
   Snapshot snapshot_;
   Score score_;
   Seconds reading_{0};
-  std::vector<Stretch> stretches_;
+  std::vector<MotionClip> clips_;
   std::vector<Notice> notices_;
   SignerRig rig_;
   CapturedSpans captured_;

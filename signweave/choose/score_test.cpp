@@ -19,33 +19,33 @@ namespace signweave {
 namespace {
 
 using testing::HasSubstr;
-using testing_motion::stretch;
+using testing_motion::clip;
 
-std::vector<Stretch> stretches_to_join() {
-  std::vector<Stretch> stretches = {stretch("A", 0.1f, 20, 40, 25), stretch("B", 0.8f, 30, 33, 40),
-                                    stretch("C", 1.7f, 60, 50, 0), stretch("D", 2.9f, 0, 20, 30, {50, 1})};
-  stretches[1].fingerprint = 0xFEDCBA9876543210;
-  stretches[2].pause_before = 350ms;
-  stretches[3].junction = {find_transition_method("overlap"), 300ms, 1.25};
-  return stretches;
+std::vector<MotionClip> clips_to_join() {
+  std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 40), clip("C", 1.7f, 60, 50, 0),
+                                   clip("D", 2.9f, 0, 20, 30, {50, 1})};
+  clips[1].fingerprint = 0xFEDCBA9876543210;
+  clips[2].pause_before = 350ms;
+  clips[3].junction = {find_transition_method("overlap"), 300ms, 1.25};
+  return clips;
 }
 
-/// The stretches of a score, with the motions of some others.
-std::vector<Stretch> stretches_from(const Score& score, const std::vector<Stretch>& from) {
-  return stretches_of(score, [&](const SourceRef& source) {
-    for (const Stretch& one : from) {
+/// The clips of a score, with the motions of some others.
+std::vector<MotionClip> clips_from(const Score& score, const std::vector<MotionClip>& from) {
+  return clips_of(score, [&](const SourceRef& source) {
+    for (const MotionClip& one : from) {
       if (one.recording == source.recording) return ScoreSource{one.source, one.noise};
     }
     throw Error(ErrorCode::not_found, source.recording);
   });
 }
 
-/// What is rendered from a score alone, of the motions of some stretches.
-Synthesis rendered(const Score& score, const std::vector<Stretch>& from) {
-  const std::vector<Stretch> stretches = stretches_from(score, from);
+/// What is rendered from a score alone, of the motions of some clips.
+Synthesis rendered(const Score& score, const std::vector<MotionClip>& from) {
+  const std::vector<MotionClip> clips = clips_from(score, from);
   const SignerRig rig = signer_rig_of(from.front());
   Synthesis out;
-  render(score, stretches,
+  render(score, clips,
          {.skeleton = from.front().source->skeleton(),
           .rate = score.rate,
           .method = &transition_methods().front(),
@@ -54,42 +54,41 @@ Synthesis rendered(const Score& score, const std::vector<Stretch>& from) {
   return out;
 }
 
-std::vector<Stretch> drawn_stretches() {
-  std::vector<Stretch> stretches;
+std::vector<MotionClip> drawn_clips() {
+  std::vector<MotionClip> clips;
   const int count = *rc::gen::inRange(1, 6);
   for (int i = 0; i < count; ++i) {
     const auto frames = [](int least, int most) { return std::int64_t{*rc::gen::inRange(least, most)}; };
     const FrameRate rate = *rc::gen::element(FrameRate{100, 1}, FrameRate{50, 1}, FrameRate{30'000, 1001});
-    stretches.push_back(stretch(std::string(1, static_cast<char>('A' + i)), 0.37f * static_cast<float>(i),
-                                frames(0, 50), frames(1, 60), frames(0, 50), rate));
-    stretches.back().fingerprint = *rc::gen::arbitrary<std::uint64_t>();
-    stretches.back().signs.front().gloss = *rc::gen::element<std::string>("A", "\"[1,\n 2]\\", "\\\"[ 3 ]", "手話 [4]");
-    stretches.back().pause_before = Milliseconds(*rc::gen::element(0, 0, 350));
+    clips.push_back(clip(std::string(1, static_cast<char>('A' + i)), 0.37f * static_cast<float>(i), frames(0, 50),
+                         frames(1, 60), frames(0, 50), rate));
+    clips.back().fingerprint = *rc::gen::arbitrary<std::uint64_t>();
+    clips.back().signs.front().gloss = *rc::gen::element<std::string>("A", "\"[1,\n 2]\\", "\\\"[ 3 ]", "手話 [4]");
+    clips.back().pause_before = Milliseconds(*rc::gen::element(0, 0, 350));
     if (*rc::gen::inRange(0, 3) == 0) {
       const auto methods = transition_methods();
-      stretches.back().junction = {&methods[*rc::gen::inRange<std::size_t>(0, methods.size())], 250ms, 1.5};
+      clips.back().junction = {&methods[*rc::gen::inRange<std::size_t>(0, methods.size())], 250ms, 1.5};
     }
   }
-  return stretches;
+  return clips;
 }
 
-Synthesis joined(const std::vector<Stretch>& stretches) {
+Synthesis joined(const std::vector<MotionClip>& clips) {
   const auto methods = transition_methods();
-  return concatenate(stretches,
-                     {.method = &methods[*rc::gen::inRange<std::size_t>(0, methods.size())],
-                      .duration = Milliseconds(*rc::gen::inRange(0, 900)),
-                      .tempo = *rc::gen::element(1.0, 1.0, 0.8, 1.7),
-                      .alignment = *rc::gen::element(Alignment::automatic, Alignment::ground, Alignment::none)});
+  return concatenate(clips, {.method = &methods[*rc::gen::inRange<std::size_t>(0, methods.size())],
+                             .duration = Milliseconds(*rc::gen::inRange(0, 900)),
+                             .tempo = *rc::gen::element(1.0, 1.0, 0.8, 1.7),
+                             .alignment = *rc::gen::element(Alignment::automatic, Alignment::ground, Alignment::none)});
 }
 
-RC_GTEST_PROP(ScoreOfStretches, ReadsBackEqualAndGivesTheSameFrames, ()) {
-  const std::vector<Stretch> stretches = drawn_stretches();
-  const Synthesis made = joined(stretches);
+RC_GTEST_PROP(ScoreOfClips, ReadsBackEqualAndGivesTheSameFrames, ()) {
+  const std::vector<MotionClip> clips = drawn_clips();
+  const Synthesis made = joined(clips);
   const std::string json = json_of(made.score);
   const Score read = score_from_json(json, "score.json");
   RC_ASSERT(read == made.score);
   RC_ASSERT(json_of(read) == json);
-  const Synthesis again = rendered(read, stretches);
+  const Synthesis again = rendered(read, clips);
   RC_ASSERT(same_bits(again.motion, made.motion));
   RC_ASSERT(again.junctions.size() == made.junctions.size());
   for (std::size_t i = 0; i < made.junctions.size(); ++i) {
@@ -112,10 +111,10 @@ Motion part_of(const Motion& motion, FrameRange frames) {
   return part;
 }
 
-RC_GTEST_PROP(ScoreOfStretches, AnyFramesInAnyOrderHaveTheBitsOfTheWhole, ()) {
-  std::vector<Stretch> stretches = drawn_stretches();
-  for (std::size_t i = 0; i < stretches.size(); i += 2) {  // some with a track that others lack, some turned
-    Motion motion = testing_motion::motion_of(stretches[i]);
+RC_GTEST_PROP(ScoreOfClips, AnyFramesInAnyOrderHaveTheBitsOfTheWhole, ()) {
+  std::vector<MotionClip> clips = drawn_clips();
+  for (std::size_t i = 0; i < clips.size(); i += 2) {  // some with a track that others lack, some turned
+    Motion motion = testing_motion::motion_of(clips[i]);
     std::vector<float> values;
     for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
       values.push_back(std::sin(0.1f * static_cast<float>(frame)));
@@ -125,12 +124,12 @@ RC_GTEST_PROP(ScoreOfStretches, AnyFramesInAnyOrderHaveTheBitsOfTheWhole, ()) {
     for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
       motion.pose(frame).rotations[joint].coeffs() *= -1.0f;
     }
-    stretches[i].source = std::make_shared<MemorySource>(std::move(motion));
+    clips[i].source = std::make_shared<MemorySource>(std::move(motion));
   }
-  const Synthesis whole = joined(stretches);
-  const std::vector<Stretch> of_score = stretches_from(whole.score, stretches);
-  const SignerRig rig = signer_rig_of(stretches.front());
-  Renderer renderer(plan_of(whole.score, of_score), {.skeleton = stretches.front().source->skeleton(),
+  const Synthesis whole = joined(clips);
+  const std::vector<MotionClip> of_score = clips_from(whole.score, clips);
+  const SignerRig rig = signer_rig_of(clips.front());
+  Renderer renderer(plan_of(whole.score, of_score), {.skeleton = clips.front().source->skeleton(),
                                                      .rate = whole.score.rate,
                                                      .method = &transition_methods().front(),
                                                      .rig = &rig});
@@ -145,8 +144,8 @@ RC_GTEST_PROP(ScoreOfStretches, AnyFramesInAnyOrderHaveTheBitsOfTheWhole, ()) {
   RC_ASSERT_THROWS_AS(renderer.render({0, whole.motion.frame_count() + 1}, made), Error);
 }
 
-TEST(ScoreOfStretches, IsReadByPeople) {
-  const Synthesis made = concatenate(stretches_to_join(), {.duration = 480ms});
+TEST(ScoreOfClips, IsReadByPeople) {
+  const Synthesis made = concatenate(clips_to_join(), {.duration = 480ms});
   const std::string text = to_string(made.score);
   EXPECT_THAT(text, HasSubstr("frames at 100 frames a second, with the joints of 'A'\n"));
   EXPECT_THAT(text, HasSubstr("clip 1, place 1: B from 'B' "));
@@ -156,7 +155,7 @@ TEST(ScoreOfStretches, IsReadByPeople) {
 
 /// What is said of a score's JSON in which one text stands for another.
 std::string fault_of(const std::string& text, const std::string& instead, bool all = false) {
-  std::string json = json_of(concatenate(stretches_to_join(), {.duration = 480ms}).score);
+  std::string json = json_of(concatenate(clips_to_join(), {.duration = 480ms}).score);
   std::size_t at = json.find(text);
   EXPECT_NE(at, std::string::npos) << text;
   for (; at != std::string::npos; at = all ? json.find(text, at + instead.size()) : std::string::npos) {
@@ -170,7 +169,7 @@ std::string fault_of(const std::string& text, const std::string& instead, bool a
   return "no fault";
 }
 
-TEST(ScoreOfStretches, FaultsSayWhereAndWhat) {
+TEST(ScoreOfClips, FaultsSayWhereAndWhat) {
   EXPECT_EQ(fault_of("\"id\": 1", "\"id\": 1"), "no fault");
   EXPECT_THAT(fault_of("{", "["), HasSubstr("my.json:"));
   EXPECT_THAT(fault_of("\"signweave_score\": 1", "\"signweave_score\": 2"), HasSubstr("a score of version 2"));
@@ -202,15 +201,14 @@ TEST(ScoreOfStretches, FaultsSayWhereAndWhat) {
               HasSubstr("one of recording, rest, shown"));
 }
 
-TEST(ScoreOfStretches, TheFuzzTargetBeginsWithScoresThatAreRead) {
+TEST(ScoreOfClips, TheFuzzTargetBeginsWithScoresThatAreRead) {
   const std::filesystem::path file = std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "testdata/score/three_signs.json";
   EXPECT_EQ(score_from_json(read_file(file), "three_signs.json").clips.size(), 3u);
 }
 
-TEST(ScoreOfStretches, ACrossFadeOfOneLaneAloneIsRefused) {
+TEST(ScoreOfClips, ACrossFadeOfOneLaneAloneIsRefused) {
   // What is compared between the two sides is then told by the body's cut: it would lie outside of the other lanes.
-  Score score =
-      concatenate(stretches_to_join(), {.method = find_transition_method("overlap"), .duration = 200ms}).score;
+  Score score = concatenate(clips_to_join(), {.method = find_transition_method("overlap"), .duration = 200ms}).score;
   ASSERT_GT(std::get<Transition>(score.lanes[0].items[1].what).cut.overlap(), 0);
   EXPECT_NO_THROW(check(score, "score"));
   for (std::size_t lane = 1; lane < score.lanes.size(); ++lane) {
@@ -228,22 +226,22 @@ TEST(ScoreOfStretches, ACrossFadeOfOneLaneAloneIsRefused) {
   }
 }
 
-TEST(ScoreOfStretches, ClipsThatTheirMotionDoesNotHaveAreRefused) {
-  const std::vector<Stretch> stretches = stretches_to_join();
-  Score score = concatenate(stretches, {.duration = 480ms}).score;
+TEST(ScoreOfClips, ClipsThatTheirMotionDoesNotHaveAreRefused) {
+  const std::vector<MotionClip> clips = clips_to_join();
+  Score score = concatenate(clips, {.duration = 480ms}).score;
   score.clips[1].whole.end = 10'000;
-  EXPECT_THROW(rendered(score, stretches), Error);
-  score = concatenate(stretches, {.duration = 480ms}).score;
+  EXPECT_THROW(rendered(score, clips), Error);
+  score = concatenate(clips, {.duration = 480ms}).score;
   score.clips[0].whole.begin = score.clips[0].core.begin;  // its preparation is shown, and not there
-  EXPECT_THROW(rendered(score, stretches), Error);
-  score = concatenate(stretches, {.duration = 480ms}).score;
+  EXPECT_THROW(rendered(score, clips), Error);
+  score = concatenate(clips, {.duration = 480ms}).score;
   score.clips[1].step = 2;  // its core is not there where it ends
-  EXPECT_THROW(rendered(score, stretches), Error);
-  score = concatenate(stretches, {.duration = 480ms}).score;
+  EXPECT_THROW(rendered(score, clips), Error);
+  score = concatenate(clips, {.duration = 480ms}).score;
   for (Item& item : score.lanes.back().items) {  // tracks go on longer than they were captured
     if (Transition* const made = std::get_if<Transition>(&item.what)) made->cut.retraction_frames = 41;
   }
-  EXPECT_THROW(rendered(score, stretches), Error);
+  EXPECT_THROW(rendered(score, clips), Error);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ std::vector<Part> merge_neighbours(const Contents& contents, const std::vector<C
     const bool goes_on = !merged.empty() && choices[place].pause_before == Milliseconds(0) &&
                          are_neighbours(contents, merged.back().candidate, next);
     if (goes_on && !named.contains(place)) {
-      go_on_with(merged.back().candidate, next);
+      extend_with(merged.back().candidate, next);
       merged.back().sign_places.insert(merged.back().sign_places.end(), next.signs.size(), place);
       continue;
     }
@@ -77,7 +77,7 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
 
   Seconds reading{0};
   std::map<std::size_t, std::shared_ptr<const MotionSource>> sources;
-  std::vector<Stretch> stretches;
+  std::vector<MotionClip> clips;
   for (Part& part : parts) {
     Candidate& candidate = part.candidate;
     const auto named = options.junctions.find(part.place);
@@ -87,32 +87,32 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
     }
     std::shared_ptr<const MotionSource>& source = sources[candidate.recording];
     if (!source) source = std::make_shared<TimedSource>(snapshot.motion(info), reading);
-    stretches.push_back({.recording = info.name,
-                         .source = source,
-                         .whole = candidate.whole,
-                         .core = candidate.core,
-                         .clock = info.clock,
-                         .signs = std::move(candidate.signs),
-                         .pause_before = made.choices[part.place].pause_before,
-                         .junction = named == options.junctions.end() ? JunctionChoice{} : named->second,
-                         .fingerprint = info.motion_fingerprint,
-                         .place = part.place,
-                         .sign_places = std::move(part.sign_places),
-                         .noise = snapshot.joins(candidate.recording)->noise});
+    clips.push_back({.recording = info.name,
+                     .source = source,
+                     .whole = candidate.whole,
+                     .core = candidate.core,
+                     .clock = info.clock,
+                     .signs = std::move(candidate.signs),
+                     .pause_before = made.choices[part.place].pause_before,
+                     .junction = named == options.junctions.end() ? JunctionChoice{} : named->second,
+                     .fingerprint = info.motion_fingerprint,
+                     .place = part.place,
+                     .sign_places = std::move(part.sign_places),
+                     .noise = snapshot.joins(candidate.recording)->noise});
   }
 
   std::size_t reference = 0;
-  for (std::size_t i = stretches.size(); i-- > 0;) {
-    if (stretches[i].recording == edited) reference = i;
+  for (std::size_t i = clips.size(); i-- > 0;) {
+    if (clips[i].recording == edited) reference = i;
   }
-  const std::shared_ptr<const MotionSource> home = stretches[reference].source;
-  put_on_skeleton(stretches, stretches[reference].recording, *home, contents, notices);
-  const RecordingInfo& layout = contents.at(stretches[reference].recording);
+  const std::shared_ptr<const MotionSource> home = clips[reference].source;
+  put_on_skeleton(clips, clips[reference].recording, *home, contents, notices);
+  const RecordingInfo& layout = contents.at(clips[reference].recording);
   const SignerRig rig = signer_rig_of(snapshot, layout);
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
   CapturedSpans captured;
-  if (const TransitionMethod* const asking = method_with_needs(stretches, method)) {
-    captured = captured_spans(snapshot, *stretches[reference].source->skeleton(), rig.groups, asking->fill->needs);
+  if (const TransitionMethod* const asking = method_with_needs(clips, method)) {
+    captured = captured_spans(snapshot, *clips[reference].source->skeleton(), rig.groups, asking->fill->needs);
     if (asking->fill->needs == Needs::spans) {
       made.captured_transitions = captured.transitions;
       if (auto notice = notice_without_captured(asking->name, captured.transitions)) {
@@ -120,7 +120,7 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
       }
     }
   }
-  made.result = concatenate(stretches,
+  made.result = concatenate(clips,
                             {.method = &method,
                              .fit = &made.durations,
                              .model = captured.model.get(),
@@ -132,13 +132,13 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
                              .reference = reference},
                             std::move(used));
   made.result.notices = std::move(notices);
-  made.layout_from = stretches[reference].recording;
+  made.layout_from = clips[reference].recording;
   const bool timed =
       std::ranges::any_of(made.result.junctions, [](const Junction& one) { return !one.chosen.duration; });
   if (!options.duration.fixed && timed) {
     if (auto notice = notice_without_durations(made.durations)) made.result.notices.push_back(std::move(*notice));
   }
-  made.result.declarations = declarations_of(contents, stretches);
+  made.result.declarations = declarations_of(contents, clips);
   const auto done = Clock::now();
   made.timings = {.semantic_query = queried - start,
                   .selection = selected - queried,

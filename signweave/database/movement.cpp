@@ -10,7 +10,7 @@
 #include "signweave/database/database.h"
 #include "signweave/database/measure.h"
 #include "signweave/formats/face/face_csv.h"
-#include "signweave/query/watch.h"
+#include "signweave/query/stop_check.h"
 #include "signweave/semantic_db/semantic_db.h"
 #include "signweave/semantic_db/trace_store.h"
 
@@ -333,7 +333,7 @@ class StoredMovement : public Movement {
   mutable std::optional<std::uint32_t> at_;
   mutable std::shared_ptr<MovementCache::Recording> entry_;
   mutable std::map<std::string, TrackPlace, std::less<>> track_places_;  ///< of the recording `at_`
-  Watch watch_;
+  StopCheck watch_;
   mutable std::optional<std::uint32_t> source_of_;  ///< the recording whose motion is at hand
   mutable std::unique_ptr<motion_db::StoredSource> source_;
   mutable std::optional<SignerModel> model_;  ///< of the same, once it was asked for

@@ -11,11 +11,11 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-enum class Part { brow, eye, mouth };
+enum class FacePart { brow, eye, mouth };
 
 /// A vertex before it is laid onto the head. Coordinates are in half heights of the head: x to the person's left, y up.
 struct Point {
-  Part part;
+  FacePart part;
   float side = 0;  ///< 1 the person's left, −1 right, 0 the mouth
   Vector2f place;
   float along = 0;  ///< brow: 0 inner end … 1 outer; mouth: −1 right corner … 1 left
@@ -36,10 +36,10 @@ struct Effect {
 
 template <int kSide>
 bool on_side(const Point& point) {
-  return kSide == 0 || point.side * kSide > 0 || (point.part == Part::mouth && point.along * kSide > 0);
+  return kSide == 0 || point.side * kSide > 0 || (point.part == FacePart::mouth && point.along * kSide > 0);
 }
 
-template <int kSide, Part kPart>
+template <int kSide, FacePart kPart>
 bool concerns(const Point& point) {
   return point.part == kPart && on_side<kSide>(point);
 }
@@ -47,19 +47,19 @@ bool concerns(const Point& point) {
 /// Eye: its height times kHeight percent.
 template <int kSide, int kHeight>
 void open_eye(Point& point) {
-  if (!concerns<kSide, Part::eye>(point)) return;
+  if (!concerns<kSide, FacePart::eye>(point)) return;
   point.place.y() = kEyeY + (point.place.y() - kEyeY) * static_cast<float>(kHeight) / 100;
 }
 /// Brow: its inner and outer end up by so many hundredths.
 template <int kSide, int kInner, int kOuter>
 void lift_brow(Point& point) {
-  if (!concerns<kSide, Part::brow>(point)) return;
+  if (!concerns<kSide, FacePart::brow>(point)) return;
   point.place.y() += (kInner * (1 - point.along) + kOuter * point.along) / 100;
 }
 /// A corner of the mouth out and up by so many hundredths; what is nearer the middle follows less.
 template <int kSide, int kOut, int kUp>
 void pull_corner(Point& point) {
-  if (!concerns<kSide, Part::mouth>(point)) return;
+  if (!concerns<kSide, FacePart::mouth>(point)) return;
   const float share = std::abs(point.along);
   point.place.x() += (point.along > 0 ? 1.0f : -1.0f) * share * kOut / 100;
   point.place.y() += share * share * kUp / 100;
@@ -67,21 +67,21 @@ void pull_corner(Point& point) {
 /// The mouth as wide as kWidth percent, its lips kApart hundredths further apart and kForward further out.
 template <int kWidth, int kApart, int kForward>
 void round_mouth(Point& point) {
-  if (point.part != Part::mouth) return;
+  if (point.part != FacePart::mouth) return;
   const float middle = std::sqrt(std::max(0.0f, 1 - point.along * point.along));
   point.place.x() *= static_cast<float>(kWidth) / 100;
   point.place.y() += middle * (0.5f - point.lower) * 2 * kApart / 100;
   point.out += static_cast<float>(kForward) / 100;
 }
 void open_jaw(Point& point) {
-  if (point.part != Part::mouth) return;
+  if (point.part != FacePart::mouth) return;
   const float middle = std::sqrt(std::max(0.0f, 1 - point.along * point.along));
   point.place.y() -= point.lower * middle * 0.30f + 0.04f;
   point.place.x() *= 0.9f;
 }
 template <int kX>
 void shift_mouth(Point& point) {
-  if (point.part == Part::mouth) point.place.x() += kX / 100.0f;
+  if (point.part == FacePart::mouth) point.place.x() += kX / 100.0f;
 }
 
 constexpr Effect kEffects[] = {
@@ -123,7 +123,7 @@ Vector3f laid_on(const HeadShape& head, const Point& point) {
   return head.centre + x * head.left + y * head.up + (depth + before) * head.forward;
 }
 
-struct Drawing {
+struct FaceDrawing {
   std::vector<Point> points;
   std::vector<std::uint32_t> indices;
 
@@ -138,8 +138,8 @@ struct Drawing {
   std::uint32_t count() const { return static_cast<std::uint32_t>(points.size()); }
 };
 
-Drawing draw() {
-  Drawing face;
+FaceDrawing draw() {
+  FaceDrawing face;
   for (const float side : {1.0f, -1.0f}) {
     const std::uint32_t brow = face.count();
     constexpr int kSteps = 6;
@@ -148,7 +148,7 @@ Drawing draw() {
         const float along = static_cast<float>(i) / kSteps;
         const float arch = 0.06f * std::sin(along * std::numbers::pi_v<float>);
         const float thick = 1 - 0.5f * along;
-        face.points.push_back({.part = Part::brow,
+        face.points.push_back({.part = FacePart::brow,
                                .side = side,
                                .place = {side * (0.13f + 0.36f * along), kBrowY + arch + row * thick},
                                .along = along});
@@ -157,10 +157,10 @@ Drawing draw() {
     face.strip(brow, kSteps + 1, false);
     const std::uint32_t eye = face.count();
     constexpr std::uint32_t kCorners = 16;
-    face.points.push_back({.part = Part::eye, .side = side, .place = {side * kEyeX, kEyeY}});
+    face.points.push_back({.part = FacePart::eye, .side = side, .place = {side * kEyeX, kEyeY}});
     for (std::uint32_t i = 0; i < kCorners; ++i) {
       const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / kCorners;
-      face.points.push_back({.part = Part::eye,
+      face.points.push_back({.part = FacePart::eye,
                              .side = side,
                              .place = {side * kEyeX + 0.115f * std::cos(angle), kEyeY + 0.085f * std::sin(angle)}});
       face.indices.insert(face.indices.end(), {eye, eye + 1 + i, eye + 1 + (i + 1) % kCorners});
@@ -173,7 +173,7 @@ Drawing draw() {
       const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / kCorners;
       const float high = size == 1.0f ? 0.055f : 0.004f;
       face.points.push_back(
-          {.part = Part::mouth,
+          {.part = FacePart::mouth,
            .place = {(0.2f + 0.8f * size) * 0.27f * std::cos(angle), kMouthY + high * std::sin(angle)},
            .along = std::cos(angle),
            .lower = 0.5f - 0.5f * std::sin(angle)});
@@ -202,7 +202,7 @@ std::span<const char* const> face_target_names() {
 }
 
 FaceMesh face_mesh(const HeadShape& head, const std::vector<std::string>& targets) {
-  const Drawing face = draw();
+  const FaceDrawing face = draw();
   FaceMesh mesh;
   mesh.indices = face.indices;
   for (const Point& point : face.points) mesh.positions.push_back(laid_on(head, point));

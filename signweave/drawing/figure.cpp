@@ -78,9 +78,9 @@ std::vector<Bone> bones_of(const Skeleton& skeleton, const FigurePlan& plan, con
 }
 
 /// Writes one figure's elements.
-class Drawing {
+class FigureDrawing {
  public:
-  Drawing(const FigureView& view, std::string& out) : view_(view), out_(out) {}
+  FigureDrawing(const FigureView& view, std::string& out) : view_(view), out_(out) {}
 
   double near(double z) const { return (z - view_.far) / std::max(view_.near - view_.far, 1e-6); }
   double pixels(double metres, double least) const { return std::max(least, metres * view_.scale); }
@@ -143,7 +143,8 @@ Eyes eyes_of(const std::vector<FigurePart>& parts) {
 }
 
 /// Brows, eyes, nose and mouth, as far as they face the viewer.
-void draw_face(const FaceSpace& head, const std::array<Vector3f, 2>& gaze, const FigureFace& face, Drawing& drawing) {
+void draw_face(const FaceSpace& head, const std::array<Vector3f, 2>& gaze, const FigureFace& face,
+               FigureDrawing& drawing) {
   if (head.forward.z() < 0.05f) return;  // seen from behind
   const auto shows = [&](float x) { return (head.forward + 0.9f * (x / 0.05f) * head.left).z() > 0.12f; };
   constexpr float kSides[] = {1, -1};
@@ -206,7 +207,7 @@ void draw_face(const FaceSpace& head, const std::array<Vector3f, 2>& gaze, const
 }
 
 /// From the shoulders to the hips.
-void draw_trunk(const Vector3f& left, const Vector3f& right, const Vector3f& root, Drawing& drawing) {
+void draw_trunk(const Vector3f& left, const Vector3f& right, const Vector3f& root, FigureDrawing& drawing) {
   const Vector3f across = 0.5f * (left - right);
   const Vector3f middle = 0.5f * (left + right);
   const auto at = [&](float x, float y) { return drawing.at(Vector3f(root + y * (middle - root) + x * across)); };
@@ -226,7 +227,7 @@ void draw_trunk(const Vector3f& left, const Vector3f& right, const Vector3f& roo
 /// Skull, hair, face.
 void draw_head(const Bone& skull, const ModelPose& pose, const Eyes& eyes, const std::optional<FigureHead>& shape,
                const std::array<Vector3f, 2>& gaze, const FigureFace& face, double near, double scale,
-               Drawing& drawing) {
+               FigureDrawing& drawing) {
   const Vector3f up = skull.to - skull.from;
   const float height = up.norm();
   const Vector3f middle = skull.from + 0.42f * up;
@@ -289,7 +290,7 @@ std::vector<Vector3f> figure_points(const Skeleton& skeleton, const FigurePlan& 
 
 void draw_figure(const Skeleton& skeleton, const FigurePlan& plan, const ModelPose& pose, const FigureFace& face,
                  const FigureView& view, std::string& out) {
-  Drawing drawing(view, out);
+  FigureDrawing drawing(view, out);
   const std::vector<FigurePart>& parts = plan.parts;
   const std::vector<Bone> bones = bones_of(skeleton, plan, pose);
 

@@ -12,17 +12,17 @@ using Path = std::span<const Vector3f>;
 constexpr double kNoError = std::numeric_limits<double>::infinity();
 constexpr float kVelocityReach = 0.1f;  // seconds: how far a velocity at a border counts as a place. (ours)
 
-/// How far a stretch is from the wanted one once its ends are shifted to meet: the mean over the frames between. Stops
+/// How far a clip is from the wanted one once its ends are shifted to meet: the mean over the frames between. Stops
 /// where it comes to more than `most`.
-double error_of(Path stretch, Path wanted, double most) {
+double error_of(Path clip, Path wanted, double most) {
   const std::size_t last = wanted.size() - 1;
-  const Vector3f begin = wanted[0] - stretch[0];
-  const Vector3f turn = (wanted[last] - stretch[last]) - begin;
+  const Vector3f begin = wanted[0] - clip[0];
+  const Vector3f turn = (wanted[last] - clip[last]) - begin;
   const double enough = most * static_cast<double>(last - 1);
   double sum = 0;
   for (std::size_t i = 1; i < last && sum < enough; ++i) {
     const float share = static_cast<float>(i) / static_cast<float>(last);
-    sum += static_cast<double>((stretch[i] + begin + share * turn - wanted[i]).norm());
+    sum += static_cast<double>((clip[i] + begin + share * turn - wanted[i]).norm());
   }
   return sum / static_cast<double>(last - 1);
 }

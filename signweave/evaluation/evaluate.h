@@ -60,12 +60,12 @@ std::vector<MethodScores> evaluate_replaced(std::span<const EvaluatedMotion> rec
                                             std::span<const GapMethod* const> methods,
                                             const EvaluationProgress& progress = {});
 
-/// How near the captures themselves come to the spans: another captured stretch of as many frames, of a like body (the
+/// How near the captures themselves come to the spans: another captured clip of as many frames, of a like body (the
 /// same joints, shoulders as wide within kLikeBody, the same rate), its moving wrist seen from the signer and shifted
 /// so that both ends meet. Two rows: "nearest", chosen by place and velocity at the borders, out of other recordings;
 /// and "ceiling", chosen knowing what was captured, out of all recordings, of the span's own only what is at least
 /// kApart away from it. Only Measure::wrist and wrist_widths are known, of the moving hand alone; not those where no
-/// such stretch is.
+/// such clip is.
 std::vector<MethodScores> evaluate_ceiling(std::span<const EvaluatedMotion> recordings,
                                            std::span<const EvaluatedSpan> spans);
 inline constexpr float kLikeBody = 0.05f;  ///< share of the width

@@ -42,16 +42,16 @@ Gap gap_at(const Motion& motion, const JointGroups& groups, FrameRange frames, s
 
 Regenerator::Made Regenerator::make(const GapMethod& method, const CutOut& cut) {
   const TransitionMethod by{.name = method.name, .description = {}, .cut = nullptr, .fill = &method};
-  const Stretch whole{.recording = {},
-                      .source = std::make_shared<BorrowedSource>(cut.motion),
-                      .whole = {0, cut.motion.frame_count()},
-                      .core = {0, cut.motion.frame_count()},
-                      .clock = {cut.motion.rate().frame_time(), Seconds(0)},
-                      .signs = {},
-                      .junction = {.method = &by},
-                      .noise = {std::shared_ptr<void>(), cut.noise}};
-  const std::vector<Stretch> stretches = stretches_beside({&cut.frames, 1}, whole);
-  const Plan plan = plan_with_gaps(stretches, {&cut.count, 1});
+  const MotionClip whole{.recording = {},
+                         .source = std::make_shared<BorrowedSource>(cut.motion),
+                         .whole = {0, cut.motion.frame_count()},
+                         .core = {0, cut.motion.frame_count()},
+                         .clock = {cut.motion.rate().frame_time(), Seconds(0)},
+                         .signs = {},
+                         .junction = {.method = &by},
+                         .noise = {std::shared_ptr<void>(), cut.noise}};
+  const std::vector<MotionClip> clips = clips_around({&cut.frames, 1}, whole);
+  const Plan plan = plan_with_gaps(clips, {&cut.count, 1});
   const FrameRange gap{cut.frames.begin, cut.frames.begin + cut.count};
   const std::int64_t beside = std::max(filler_.context(), kGuard);
   const FrameRange all{std::max<std::int64_t>(0, gap.begin - beside), std::min(plan.frames, gap.end + beside)};
@@ -61,9 +61,9 @@ Regenerator::Made Regenerator::make(const GapMethod& method, const CutOut& cut) 
   const MutablePoses out = window.poses(gap);
   std::ranges::fill(out.rotations, Eigen::Quaternionf::Identity());
   std::ranges::fill(out.translations, Eigen::Vector3f::Zero());
-  fetch(plan.laid, window);
+  fetch(plan.placed, window);
   const double begin = microseconds_of_thread();
-  join({.clips = plan.laid, .cuts = plan.cuts}, filler_, window, scratch_);
+  join({.clips = plan.placed, .cuts = plan.cuts}, filler_, window, scratch_);
 
   Made made{.poses = window.view(gap), .microseconds = microseconds_of_thread() - begin};
   for (std::int64_t i = 1; i <= kGuard; ++i) {

@@ -11,7 +11,7 @@
 
 namespace signweave {
 
-/// A captured stretch that is cut out and made again.
+/// A captured clip that is cut out and made again.
 struct EvaluatedSpan {
   std::size_t recording = 0;
   FrameRange frames;          ///< that are made; at least one frame lies on either side

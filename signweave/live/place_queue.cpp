@@ -9,7 +9,7 @@
 
 namespace signweave {
 
-PlaceQueue::PlaceQueue(SigningBase& base, OpenRecordings& open, const PlayerOptions& options)
+PlaceQueue::PlaceQueue(SharedSigningCache& base, OpenRecordings& open, const PlayerOptions& options)
     : base_(base), open_(open), options_(options), loop_(options.loop) {}
 
 void PlaceQueue::check(const Utterance& utterance, bool after_those_waiting) const {

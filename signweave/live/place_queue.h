@@ -7,7 +7,7 @@
 #include "signweave/choose/candidate.h"
 #include "signweave/live/open_recordings.h"
 #include "signweave/live/player.h"
-#include "signweave/live/signing_base.h"
+#include "signweave/live/shared_signing_cache.h"
 
 /// Inside this module only.
 namespace signweave {
@@ -17,7 +17,7 @@ namespace signweave {
 class PlaceQueue {
  public:
   /// All of them must outlive it.
-  PlaceQueue(SigningBase& base, OpenRecordings& open, const PlayerOptions& options);
+  PlaceQueue(SharedSigningCache& base, OpenRecordings& open, const PlayerOptions& options);
 
   /// What fills a place once it is decided.
   struct Decision {
@@ -66,7 +66,7 @@ class PlaceQueue {
  private:
   bool decided_well(std::size_t place) const noexcept;
 
-  SigningBase& base_;
+  SharedSigningCache& base_;
   OpenRecordings& open_;
   const PlayerOptions& options_;
   bool loop_;

@@ -9,7 +9,7 @@
 #include "signweave/core/error.h"
 #include "signweave/core/prefetch.h"
 #include "signweave/live/frame_ring.h"
-#include "signweave/live/growing_utterance.h"
+#include "signweave/live/live_score.h"
 #include "signweave/motion/blend.h"
 
 namespace signweave {
@@ -29,7 +29,7 @@ PlayerOptions checked(PlayerOptions options) {
 }  // namespace
 
 struct Player::State {
-  State(SigningBase& base, const PlayerOptions& options) : growing(base, options) {}
+  State(SharedSigningCache& base, const PlayerOptions& options) : growing(base, options) {}
 
   // What each frame needs comes first, and lies together.
   FrameRing ring;
@@ -38,7 +38,7 @@ struct Player::State {
   double tempo = 1;         ///< frames of the timeline for one that is taken
   std::uint64_t taken = 0;  ///< frames of the stream
   bool paused = false;
-  GrowingUtterance growing;
+  LiveScore growing;
 
   /// The ring, once it is known what a frame is.
   void open_ring() {
@@ -70,7 +70,7 @@ struct Player::LetGo {
   ~LetGo() { state.growing.let_go(state.next); }
 };
 
-Player::Player(SigningBase& base, PlayerOptions options) {
+Player::Player(SharedSigningCache& base, PlayerOptions options) {
   const PlayerOptions sound = checked(std::move(options));
   state_ = std::make_unique<State>(base, sound);
   if (!sound.recording.empty()) state_->growing.rest_in(sound.recording);
@@ -206,7 +206,7 @@ std::optional<PlayerEvent> Player::take_event() noexcept {
   return event;
 }
 
-std::optional<LiveScore> Player::score(std::size_t most_clips) const {
+std::optional<ShownScore> Player::score(std::size_t most_clips) const {
   return state_->growing.score(state_->position(), most_clips);
 }
 

@@ -11,7 +11,7 @@
 #include "signweave/choose/synthesizer.h"
 #include "signweave/core/time.h"
 #include "signweave/live/frame_codec.h"
-#include "signweave/live/signing_base.h"
+#include "signweave/live/shared_signing_cache.h"
 #include "signweave/score/score.h"
 
 namespace signweave {
@@ -58,14 +58,14 @@ struct PlayerEvent {
   std::string gloss;
   std::size_t token = 0;  ///< as in `MATIN#3`; 0 for a piece
   std::string recording;
-  std::size_t clip = 0;  ///< of a place: the clip that shows it, counted from 0 since the stream began; see LiveScore
+  std::size_t clip = 0;  ///< of a place: the clip that shows it, counted from 0 since the stream began; see ShownScore
   Milliseconds at{0};    ///< of the utterance: what `seek` takes
   std::string text;
 };
 
 /// What a stream shows, as a score: since its last jump, or since it went over from the middle of a sign to another
 /// utterance. It grows at its end; of more than 64 clips it has the last.
-struct LiveScore {
+struct ShownScore {
   Score score;
   std::int64_t next = 0;       ///< its frame that is shown next
   std::size_t first_clip = 0;  ///< which clip of the stream its first one is, see PlayerEvent::clip
@@ -79,7 +79,7 @@ struct LiveScore {
 ///     for (;;) { player.prepare(32); while (player.next(frame)) send(frame); }
 class Player {
  public:
-  Player(SigningBase& base, PlayerOptions options);
+  Player(SharedSigningCache& base, PlayerOptions options);
   ~Player();
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
@@ -128,7 +128,7 @@ class Player {
   /// What is shown and, as far as that is known, will be: rendered, frame `next` of it and those after it are what the
   /// stream shows from here on at tempo 1, with the same bits up to the signs of quaternions. None before anything is
   /// known.
-  std::optional<LiveScore> score(std::size_t most_clips = kMostScoreClips) const;
+  std::optional<ShownScore> score(std::size_t most_clips = kMostScoreClips) const;
   /// The frames of its clips of SourceRef::Kind::rest; null where the stream never rests.
   std::shared_ptr<const MotionSource> rest() const noexcept;
 

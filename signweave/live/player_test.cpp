@@ -42,7 +42,7 @@ struct Taker {
 
 TEST(PlayerFramePath, TakingFramesAllocatesNothing) {
   const Corpus corpus;
-  SigningBase base(*corpus.database);
+  SharedSigningCache base(*corpus.database);
   Player player(base, {});
   player.sign(parse_utterance("UN QUATRE CINQ"));
   player.prepare(1);
@@ -65,7 +65,7 @@ TEST(PlayerFramePath, TakingFramesAllocatesNothing) {
 TEST(PlayerFramePath, AWaitingPlayerHoldsNothingOfTheDatabase) {
   // As many as the default engine has places for readers, and twice as many.
   const Corpus corpus;
-  SigningBase base(*corpus.database);
+  SharedSigningCache base(*corpus.database);
   std::vector<std::unique_ptr<Player>> players;
   for (int i = 0; i < 300; ++i) {
     players.push_back(std::make_unique<Player>(base, PlayerOptions{}));
@@ -78,7 +78,7 @@ class PlayerBeside : public testing::TestWithParam<std::string> {};
 
 TEST_P(PlayerBeside, ConcurrentPlayersGoOnWhileTheDatabaseIsChanged) {
   const Corpus corpus(GetParam());
-  SigningBase base(*corpus.database);
+  SharedSigningCache base(*corpus.database);
   std::atomic<bool> stop = false;
   std::atomic<int> signed_places = 0;
   std::vector<std::thread> threads;
@@ -118,9 +118,9 @@ TEST_P(PlayerBeside, ConcurrentPlayersGoOnWhileTheDatabaseIsChanged) {
 INSTANTIATE_TEST_SUITE_P(Engines, PlayerBeside, testing::ValuesIn(kv::engines()),
                          [](const auto& tested) { return tested.param; });
 
-TEST(PlayerBesideChanges, AStretchThatIsGoneIsLeftOutAndTheRestIsSigned) {
+TEST(PlayerBesideChanges, AClipThatIsGoneIsLeftOutAndTheRestIsSigned) {
   const Corpus corpus;
-  SigningBase base(*corpus.database);
+  SharedSigningCache base(*corpus.database);
   Player player(base, {.idle = Idle::end});
   player.sign(parse_utterance("UN CINQ QUATRE"));
   player.prepare(1);
@@ -148,7 +148,7 @@ TEST(PlayerBesideChanges, AStretchThatIsGoneIsLeftOutAndTheRestIsSigned) {
 TEST(PlayerBesideChanges, GoesOnFromWhatWasShownWhereTheRestOfASignIsGone) {
   for (const std::size_t shown : {5u, 40u, 120u}) {
     const Corpus corpus;
-    SigningBase base(*corpus.database);
+    SharedSigningCache base(*corpus.database);
     Player player(base, {});
     player.sign(parse_utterance("\"c\"@0..2500 UN"));
     player.prepare(1);

@@ -8,27 +8,27 @@
 
 namespace signweave {
 
-std::string key_of(const Stretch& stretch) {
-  return fmt::format("{}:{}-{}-{}-{}", stretch.recording, stretch.whole.begin, stretch.core.begin, stretch.core.end,
-                     stretch.whole.end);
+std::string key_of(const MotionClip& clip) {
+  return fmt::format("{}:{}-{}-{}-{}", clip.recording, clip.whole.begin, clip.core.begin, clip.core.end,
+                     clip.whole.end);
 }
 
-std::shared_ptr<Woven> lay_rest(const StreamSetup& setup) {
-  auto rest = std::make_shared<Woven>();
-  rest->stretch = {.recording = setup.header.layout_from,
-                   .source = setup.living,
-                   .whole = {0, LivingRest::kFrames},
-                   .core = {0, LivingRest::kFrames},
-                   .clock = {setup.header.rate.frame_time(), Seconds(0)},
-                   .signs = {},
-                   .fingerprint = setup.skeleton.fingerprint,
-                   .kind = SourceRef::Kind::rest};
-  setup.weaver->lay_frames(*rest);
+std::shared_ptr<LiveClip> place_rest(const StreamSetup& setup) {
+  auto rest = std::make_shared<LiveClip>();
+  rest->captured = {.recording = setup.header.layout_from,
+                    .source = setup.living,
+                    .whole = {0, LivingRest::kFrames},
+                    .core = {0, LivingRest::kFrames},
+                    .clock = {setup.header.rate.frame_time(), Seconds(0)},
+                    .signs = {},
+                    .fingerprint = setup.skeleton.fingerprint,
+                    .kind = SourceRef::Kind::rest};
+  setup.builder->place_frames(*rest);
   return rest;
 }
 
-std::unique_ptr<StreamSetup> set_up(SigningBase& base, const Snapshot& snapshot,
-                                    const std::shared_ptr<const Contents>& contents, const Stretch& first,
+std::unique_ptr<StreamSetup> set_up(SharedSigningCache& base, const Snapshot& snapshot,
+                                    const std::shared_ptr<const Contents>& contents, const MotionClip& first,
                                     const PlayerOptions& options) {
   auto setup = std::make_unique<StreamSetup>();
   const auto say = [&](std::optional<Notice> notice) {
@@ -47,24 +47,24 @@ std::unique_ptr<StreamSetup> set_up(SigningBase& base, const Snapshot& snapshot,
                                   .method = method,
                                   .rig = setup->rig.get(),
                                   .model = setup->spans != nullptr ? setup->spans->model.get() : nullptr};
-  setup->weaver.emplace(settings, TransitionTiming{.fit = setup->fit.get(), .tempo = synthesis.tempo},
-                        base.tracks(*contents, first.recording), synthesis.alignment, first);
+  setup->builder.emplace(settings, TransitionTiming{.fit = setup->fit.get(), .tempo = synthesis.tempo},
+                         base.tracks(*contents, first.recording), synthesis.alignment, first);
   if (!synthesis.duration.fixed) say(notice_without_durations(*setup->fit));
   if (options.idle == Idle::living_rest) {
     const std::shared_ptr<const KnownRest> known = base.rest(snapshot, first, *setup->rig);
     RestPose rest = known->rest;
     Motion alone(settings.skeleton, settings.rate);
     alone.append(rest.pose.view());
-    apply(align(standing_over(alone, {0, 1}), setup->weaver->home()), *settings.skeleton, rest.pose.view());
-    rest.tracks.assign(setup->weaver->tracks().size(), 0.0f);
+    apply(align(standing_over(alone, {0, 1}), setup->builder->home()), *settings.skeleton, rest.pose.view());
+    rest.tracks.assign(setup->builder->tracks().size(), 0.0f);
     for (std::size_t i = 0; i < known->tracks.size(); ++i) {
-      const auto at = std::ranges::find(setup->weaver->tracks(), known->tracks[i]);
-      if (at == setup->weaver->tracks().end()) continue;
-      rest.tracks[static_cast<std::size_t>(at - setup->weaver->tracks().begin())] = known->rest.tracks[i];
+      const auto at = std::ranges::find(setup->builder->tracks(), known->tracks[i]);
+      if (at == setup->builder->tracks().end()) continue;
+      rest.tracks[static_cast<std::size_t>(at - setup->builder->tracks().begin())] = known->rest.tracks[i];
     }
     setup->living =
         std::make_shared<const LivingRest>(settings.skeleton, settings.rate, setup->rig->signer.rig, std::move(rest),
-                                           setup->weaver->tracks(), LivingRestOptions{.seed = base.new_seed()});
+                                           setup->builder->tracks(), LivingRestOptions{.seed = base.new_seed()});
   }
   const Milliseconds fixed = synthesis.duration.fixed.value_or(Milliseconds(-1));
   setup->key = fmt::format("{} {} {}/{} {} {} {} {} {}", base.state_number(contents), method->name,
@@ -73,7 +73,7 @@ std::unique_ptr<StreamSetup> set_up(SigningBase& base, const Snapshot& snapshot,
   setup->skeleton = source_of(first);
   setup->header = {.skeleton = settings.skeleton,
                    .rate = settings.rate,
-                   .tracks = setup->weaver->tracks(),
+                   .tracks = setup->builder->tracks(),
                    .layout_from = first.recording,
                    .declarations = *base.declarations(contents)};
   return setup;

@@ -7,8 +7,8 @@
 
 #include "signweave/live/living_rest.h"
 #include "signweave/live/player.h"
-#include "signweave/live/signing_base.h"
-#include "signweave/live/weaver.h"
+#include "signweave/live/shared_signing_cache.h"
+#include "signweave/live/transition_builder.h"
 
 /// Inside this module only.
 namespace signweave {
@@ -20,21 +20,21 @@ struct StreamSetup {
   std::shared_ptr<const DurationFit> fit;
   std::shared_ptr<const SignerRig> rig;
   std::shared_ptr<const CapturedSpans> spans;  ///< null: the method asks for none
-  std::optional<Weaver> weaver;                ///< never empty
+  std::optional<TransitionBuilder> builder;    ///< never empty
   std::shared_ptr<const LivingRest> living;    ///< null with Idle::end
   std::string key;                             ///< what all its transitions depend on
   std::vector<Notice> notices;                 ///< of how it will be signed
 };
 
 /// Throws what `map_body`, `captured_spans` and reading throw.
-std::unique_ptr<StreamSetup> set_up(SigningBase& base, const Snapshot& snapshot,
-                                    const std::shared_ptr<const Contents>& contents, const Stretch& first,
+std::unique_ptr<StreamSetup> set_up(SharedSigningCache& base, const Snapshot& snapshot,
+                                    const std::shared_ptr<const Contents>& contents, const MotionClip& first,
                                     const PlayerOptions& options);
 
-/// What a stretch's frames are of.
-std::string key_of(const Stretch& stretch);
+/// What a clip's frames are of.
+std::string key_of(const MotionClip& clip);
 
-/// The signer at rest, laid by itself from output frame 0 on.
-std::shared_ptr<Woven> lay_rest(const StreamSetup& setup);
+/// The signer at rest, placed by itself from output frame 0 on.
+std::shared_ptr<LiveClip> place_rest(const StreamSetup& setup);
 
 }  // namespace signweave

@@ -4,7 +4,7 @@
 
 namespace signweave {
 
-void Timeline::append(FrameRange frames, const std::shared_ptr<Woven>& clip) {
+void Timeline::append(FrameRange frames, const std::shared_ptr<LiveClip>& clip) {
   if (frames.empty()) return;
   if (!segments_.empty() && segments_.back().clip == clip && segments_.back().frames.end == frames.begin) {
     segments_.back().frames.end = frames.end;
@@ -36,7 +36,7 @@ void Timeline::forget(std::int64_t taken) noexcept {
   while (!segments_.empty() && segments_.front().frames.end <= taken) segments_.pop_front();
 }
 
-void Timeline::replace(const std::shared_ptr<Woven>& clip, const std::shared_ptr<Woven>& by) noexcept {
+void Timeline::replace(const std::shared_ptr<LiveClip>& clip, const std::shared_ptr<LiveClip>& by) noexcept {
   for (Segment& segment : segments_) {
     if (segment.clip == clip) segment.clip = by;
   }
@@ -48,7 +48,7 @@ const Timeline::Segment* Timeline::segment_at(std::int64_t frame) const noexcept
   return at == segments_.end() ? nullptr : &*at;
 }
 
-std::shared_ptr<Woven> Timeline::clip_at(std::int64_t frame) const noexcept {
+std::shared_ptr<LiveClip> Timeline::clip_at(std::int64_t frame) const noexcept {
   const Segment* const segment = segment_at(frame);
   return segment == nullptr ? nullptr : segment->clip;
 }
@@ -58,11 +58,11 @@ std::int64_t Timeline::end_of_same(std::int64_t frame) const noexcept {
   return segment == nullptr ? frame : segment->frames.end;
 }
 
-void Timeline::read(FrameRange frames, const Weaver& weaver, FrameRing& ring) {
+void Timeline::read(FrameRange frames, const TransitionBuilder& builder, FrameRing& ring) {
   const Segment& segment = *segment_at(frames.begin);
   const auto count = static_cast<std::size_t>(frames.size());
   const MutablePoses out = ring.poses(frames.size());
-  const std::size_t tracks = weaver.tracks().size();
+  const std::size_t tracks = builder.tracks().size();
   if (segment.made != nullptr) {
     const Motion& made = *segment.made;
     const auto first = static_cast<std::size_t>(frames.begin - segment.made_begin);
@@ -79,7 +79,7 @@ void Timeline::read(FrameRange frames, const Weaver& weaver, FrameRing& ring) {
   track_values_.resize(tracks * count);
   track_spans_.clear();
   for (std::size_t i = 0; i < tracks; ++i) track_spans_.push_back(std::span(track_values_).subspan(i * count, count));
-  weaver.read(*segment.clip, frames, out, track_spans_);
+  builder.read(*segment.clip, frames, out, track_spans_);
   for (std::size_t k = 0; k < count; ++k) {
     const std::span<float> values = ring.tracks(static_cast<std::int64_t>(k));
     for (std::size_t i = 0; i < tracks; ++i) values[i] = track_spans_[i][k];

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "signweave/live/frame_ring.h"
-#include "signweave/live/weaver.h"
+#include "signweave/live/transition_builder.h"
 
 /// Inside this module only.
 namespace signweave {
@@ -19,7 +19,7 @@ class Timeline {
   /// It is known up to this frame.
   std::int64_t end() const noexcept { return end_; }
   /// Its next frames: those of a clip, or the last ones of a transition.
-  void append(FrameRange frames, const std::shared_ptr<Woven>& clip);
+  void append(FrameRange frames, const std::shared_ptr<LiveClip>& clip);
   void append(FrameRange frames, std::shared_ptr<const Motion> made);
   /// What begins at `end` or later is not shown after all.
   void cut(std::int64_t end) noexcept;
@@ -29,20 +29,20 @@ class Timeline {
   void forget(std::int64_t taken) noexcept;
 
   /// What is shown of a clip is from now on of another one, which lies as it does.
-  void replace(const std::shared_ptr<Woven>& clip, const std::shared_ptr<Woven>& by) noexcept;
+  void replace(const std::shared_ptr<LiveClip>& clip, const std::shared_ptr<LiveClip>& by) noexcept;
 
   /// The clip of which a frame is shown, or null.
-  std::shared_ptr<Woven> clip_at(std::int64_t frame) const noexcept;
+  std::shared_ptr<LiveClip> clip_at(std::int64_t frame) const noexcept;
   /// The frame after those that are shown from the same thing as `frame`; `frame` where that is not known.
   std::int64_t end_of_same(std::int64_t frame) const noexcept;
   /// Puts frames, all from one thing, behind the ring's last one. Throws Error{corrupt}.
-  void read(FrameRange frames, const Weaver& weaver, FrameRing& ring);
+  void read(FrameRange frames, const TransitionBuilder& builder, FrameRing& ring);
 
  private:
   /// Frames that are all from one thing.
   struct Segment {
     FrameRange frames;
-    std::shared_ptr<Woven> clip;         ///< captured frames of it, or
+    std::shared_ptr<LiveClip> clip;      ///< captured frames of it, or
     std::shared_ptr<const Motion> made;  ///< a transition that begins at `made_begin`
     std::int64_t made_begin = 0;
   };

@@ -19,7 +19,7 @@ namespace signweave {
 /// A transition between two tokens, as it was made.
 struct MadeTransition {
   JunctionCuts cuts;
-  std::optional<GroundTransform> standing;  ///< of the stretch after it
+  std::optional<GroundTransform> standing;  ///< of the clip after it
   std::shared_ptr<const Motion> frames;
 };
 

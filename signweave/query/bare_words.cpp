@@ -101,7 +101,7 @@ class Finder {
 
   const Segments& segments_;
   const FindLimits& limits_;
-  Watch watch_;
+  StopCheck watch_;
   std::unordered_set<RowId> seen_;
   std::vector<WordAnswer> answers_;
 };

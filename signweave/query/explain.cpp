@@ -69,7 +69,7 @@ class Explainer {
   std::vector<std::string> take() { return std::move(steps_); }
 
   void look_at(const PhaseQuery& query) {
-    Watch watch;
+    StopCheck watch;
     BoundQuery bound = bind(query, member_, nullptr, watch, false);
     const Plan chosen = plan(bound);
     for (const Access& access : chosen.accesses) {

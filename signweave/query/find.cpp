@@ -69,7 +69,7 @@ std::vector<Segment> PreparedQuery::State::segments_found(const FindLimits& limi
 }
 
 std::vector<Segment> PreparedQuery::State::nearest(const FindLimits& limits) {
-  Watch watch;
+  StopCheck watch;
   watch.begin(limits);
   RankedExample example(example_at(query, *ranked), *segments, movement);
   FindLimits unlimited = limits;

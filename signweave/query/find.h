@@ -9,7 +9,7 @@
 #include "signweave/core/error.h"
 #include "signweave/core/time.h"
 #include "signweave/query/phase_query.h"
-#include "signweave/query/watch.h"
+#include "signweave/query/stop_check.h"
 #include "signweave/semantic_db/segments.h"
 
 namespace signweave {

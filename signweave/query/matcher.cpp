@@ -109,8 +109,8 @@ bool reads_motion(const BoundExpression& expression) noexcept {
   return std::ranges::any_of(expression.operands, reads_motion);
 }
 
-Matcher::Matcher(const Expression& expression, const Segments::Member& member, const Movement* movement, Watch& watch,
-                 Plain plain)
+Matcher::Matcher(const Expression& expression, const Segments::Member& member, const Movement* movement,
+                 StopCheck& watch, Plain plain)
     : member_(&member),
       table_(&member.table),
       movement_(movement),

@@ -11,7 +11,7 @@
 #include "signweave/query/movement_check.h"
 #include "signweave/query/phase_query.h"
 #include "signweave/query/scopes.h"
-#include "signweave/query/watch.h"
+#include "signweave/query/stop_check.h"
 #include "signweave/semantic_db/segments.h"
 
 namespace signweave {
@@ -61,7 +61,7 @@ class Matcher {
   /// What a row must be where the expression speaks of times and recordings only.
   enum class Plain { sign, any };
 
-  Matcher(const Expression& expression, const Segments::Member& member, const Movement* movement, Watch& watch,
+  Matcher(const Expression& expression, const Segments::Member& member, const Movement* movement, StopCheck& watch,
           Plain plain = Plain::sign);
 
   /// Whether the expression holds for the row, and the row is of the sort that the expression ranges over.
@@ -104,7 +104,7 @@ class Matcher {
   const Segments::Member* member_;
   const SegmentTable* table_;
   const Movement* movement_;
-  Watch* watch_;
+  StopCheck* watch_;
   Plain plain_;
   std::vector<std::string> tier_names_;
   std::vector<std::vector<std::uint32_t>> tiers_;

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "signweave/core/text.h"
+#include "signweave/query/keywords.h"
 #include "signweave/query/lexer.h"
 #include "signweave/query/parse_example.h"
 #include "signweave/query/parse_movement.h"
 #include "signweave/query/parse_time.h"
 #include "signweave/query/regex.h"
 #include "signweave/query/scopes.h"
-#include "signweave/query/words.h"
 
 namespace signweave {
 namespace {

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "signweave/core/text.h"
+#include "signweave/query/keywords.h"
 #include "signweave/query/parse.h"
 #include "signweave/query/parse_point.h"
 #include "signweave/query/parse_series.h"
 #include "signweave/query/parse_value.h"
-#include "signweave/query/words.h"
 
 namespace signweave {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "signweave/core/text.h"
-#include "signweave/query/words.h"
+#include "signweave/query/keywords.h"
 
 namespace signweave {
 namespace {

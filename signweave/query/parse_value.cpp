@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "signweave/core/text.h"
-#include "signweave/query/words.h"
+#include "signweave/query/keywords.h"
 
 namespace signweave {
 namespace {

@@ -222,7 +222,7 @@ std::size_t rows_of(std::span<const Access> accesses) noexcept {
 
 }  // namespace
 
-BoundQuery bind(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, Watch& watch,
+BoundQuery bind(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck& watch,
                 bool all) {
   BoundQuery result;
   result.gaps = query.gaps;
@@ -297,8 +297,8 @@ std::optional<std::span<const RowId>> one_list(std::span<const Access> accesses)
   return found;
 }
 
-void candidates(std::span<const Access> accesses, const SegmentTable& table, const MovingTable& moving, Watch& watch,
-                std::vector<RowId>& result) {
+void candidates(std::span<const Access> accesses, const SegmentTable& table, const MovingTable& moving,
+                StopCheck& watch, std::vector<RowId>& result) {
   result.clear();
   const auto add = [&](RowId row) {
     watch.tick();
@@ -330,7 +330,7 @@ void candidates(std::span<const Access> accesses, const SegmentTable& table, con
   sort_rows(result, table.size(), watch);
 }
 
-void sort_rows(std::vector<RowId>& rows, RowId table_size, Watch& watch) {
+void sort_rows(std::vector<RowId>& rows, RowId table_size, StopCheck& watch) {
   bool ascending = true;
   for (std::size_t i = 1; i < rows.size() && ascending; ++i) {
     watch.tick();

@@ -58,7 +58,7 @@ struct BoundQuery {
 };
 
 /// Borrows all, which must outlive the result. With `all`, every combination of the parts of partners counts.
-BoundQuery bind(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, Watch& watch,
+BoundQuery bind(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck& watch,
                 bool all);
 
 /// Where a search begins: with the element, or the partner in a relation, that has the fewest rows to look at. From
@@ -75,10 +75,10 @@ struct Plan {
 Plan plan(BoundQuery& query);
 
 /// Puts the rows of the accesses into `result`, ascending, each once.
-void candidates(std::span<const Access> accesses, const SegmentTable& table, const MovingTable& moving, Watch& watch,
-                std::vector<RowId>& result);
+void candidates(std::span<const Access> accesses, const SegmentTable& table, const MovingTable& moving,
+                StopCheck& watch, std::vector<RowId>& result);
 /// Makes rows of a table of so many ascending, each once. Looks at the watch.
-void sort_rows(std::vector<RowId>& rows, RowId table_size, Watch& watch);
+void sort_rows(std::vector<RowId>& rows, RowId table_size, StopCheck& watch);
 /// The same where it is one list of an index: that.
 std::optional<std::span<const RowId>> one_list(std::span<const Access> accesses) noexcept;
 

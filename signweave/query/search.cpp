@@ -59,11 +59,11 @@ Search::Search(const PhaseQuery& query, const Segments::Member& member, const Mo
                const FindLimits& limits)
     : Search(query, member, movement, nullptr, limits, false) {}
 
-Search::Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, Watch& watch,
+Search::Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck& watch,
                bool all)
     : Search(query, member, movement, &watch, {}, all) {}
 
-Search::Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, Watch* watch,
+Search::Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck* watch,
                const FindLimits& limits, bool all)
     : member_(member),
       table_(member.table),

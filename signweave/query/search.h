@@ -21,7 +21,7 @@ class Search {
   Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, const FindLimits& limits);
   /// Of a partner of something else, whose watch it looks at. With `all` every combination of its parts counts, else
   /// the first that makes up its places.
-  Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, Watch& watch, bool all);
+  Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck& watch, bool all);
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
@@ -53,7 +53,7 @@ class Search {
   bool has_place(const Match& match, RowId row) const noexcept;
 
  private:
-  Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, Watch* watch,
+  Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck* watch,
          const FindLimits& limits, bool all);
   bool less(const Match& a, const Match& b);
   bool same(const Match& a, const Match& b);
@@ -82,8 +82,8 @@ class Search {
   const Segments::Member& member_;
   const SegmentTable& table_;
   const Movement* movement_;
-  Watch own_watch_;
-  Watch& watch_;
+  StopCheck own_watch_;
+  StopCheck& watch_;
   VariableCheck variables_;
   bool inner_;       ///< of a partner
   bool all_rows_;    ///< each partner that is a row is tried, not only the first

@@ -8,7 +8,7 @@
 
 namespace signweave {
 
-VariableCheck::VariableCheck(const PhaseQuery& query, const SegmentTable& table, Watch& watch)
+VariableCheck::VariableCheck(const PhaseQuery& query, const SegmentTable& table, StopCheck& watch)
     : table_(&table), watch_(&watch) {
   std::size_t part = 0;
   for_parts(query, [&](const Term& term) { look_at(term.expression, part++); });

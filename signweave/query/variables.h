@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "signweave/query/phase_query.h"
-#include "signweave/query/watch.h"
+#include "signweave/query/stop_check.h"
 #include "signweave/semantic_db/segment_table.h"
 
 namespace signweave {
@@ -17,7 +17,7 @@ namespace signweave {
 /// looked at apart from the others. Borrows all. For one thread.
 class VariableCheck {
  public:
-  VariableCheck(const PhaseQuery& query, const SegmentTable& table, Watch& watch);
+  VariableCheck(const PhaseQuery& query, const SegmentTable& table, StopCheck& watch);
 
   bool none() const noexcept { return variables_.empty(); }
   /// Of the parts that are filled (kNoRow: not yet), as Segment::parts lists them.
@@ -42,7 +42,7 @@ class VariableCheck {
   bool value_of(const Variable& variable, std::span<const RowId> parts, std::uint32_t& value) const;
 
   const SegmentTable* table_;
-  Watch* watch_;
+  StopCheck* watch_;
   std::vector<Variable> variables_;
 };
 

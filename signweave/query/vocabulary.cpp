@@ -5,8 +5,8 @@
 #include <set>
 #include <unordered_map>
 
+#include "signweave/query/keywords.h"
 #include "signweave/query/movement_term.h"
-#include "signweave/query/words.h"
 
 namespace signweave {
 

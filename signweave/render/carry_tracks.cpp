@@ -8,39 +8,40 @@
 namespace signweave {
 namespace {
 
-/// Reads and joins the tracks of all stretches. `tracks_` are the result's, in the frames of a window.
+/// Reads and joins the tracks of all clips. `tracks_` are the result's, in the frames of a window.
 class TrackCarrier {
  public:
   TrackCarrier(std::vector<ScalarTrack>& tracks, FrameRange window)
       : tracks_(tracks), window_(window), faded_(tracks.size()) {}
 
-  /// A stretch, and the transition from the one before, which ends at output frame `last_end`.
-  void carry(const Laid& laid, std::int64_t last_end, bool first) {
-    const std::int64_t shared = std::max<std::int64_t>(0, last_end - laid.begin());
-    const FrameRange own{std::max(laid.begin() + shared, window_.begin), std::min(laid.end(), window_.end)};
+  /// A clip, and the transition from the one before, which ends at output frame `last_end`.
+  void carry(const PlacedClip& placed, std::int64_t last_end, bool first) {
+    const std::int64_t shared = std::max<std::int64_t>(0, last_end - placed.begin());
+    const FrameRange own{std::max(placed.begin() + shared, window_.begin), std::min(placed.end(), window_.end)};
     for (std::vector<float>& values : faded_) values.resize(static_cast<std::size_t>(shared));
-    read(laid, {laid.begin(), laid.begin() + shared}, [&](std::size_t track) { return std::span(faded_[track]); });
-    read(laid, own, [&](std::size_t track) {
+    read(placed, {placed.begin(), placed.begin() + shared},
+         [&](std::size_t track) { return std::span(faded_[track]); });
+    read(placed, own, [&](std::size_t track) {
       return std::span(tracks_[track].values)
           .subspan(static_cast<std::size_t>(own.begin - window_.begin), static_cast<std::size_t>(own.size()));
     });
     if (first) return;
-    fade(laid.begin(), shared);
-    fill_gap(last_end, laid.begin() - last_end);
+    fade(placed.begin(), shared);
+    fill_gap(last_end, placed.begin() - last_end);
   }
 
  private:
-  /// Reads all tracks of a stretch at once, each to where it belongs among the result's; those that it lacks are 0.
+  /// Reads all tracks of a clip at once, each to where it belongs among the result's; those that it lacks are 0.
   template <typename Place>
-  void read(const Laid& laid, FrameRange output, Place place) {
+  void read(const PlacedClip& placed, FrameRange output, Place place) {
     if (output.empty()) return;
-    const std::span<const std::string> names = laid.stretch->source->tracks();
+    const std::span<const std::string> names = placed.captured->source->tracks();
     spans_.clear();
     for (const std::string& name : names) {
       const std::size_t index = index_of(name);
       spans_.push_back(index < tracks_.size() ? place(index) : std::span<float>());
     }
-    read_tracks(laid, output, spans_);
+    read_tracks(placed, output, spans_);
     for (std::size_t track = 0; track < tracks_.size(); ++track) {
       if (std::ranges::find(names, tracks_[track].name) == names.end()) std::ranges::fill(place(track), 0.0f);
     }
@@ -84,20 +85,20 @@ class TrackCarrier {
 
 }  // namespace
 
-void carry_tracks(std::span<const Laid> laid, FrameRange window, std::vector<ScalarTrack>& tracks) {
+void carry_tracks(std::span<const PlacedClip> placed, FrameRange window, std::vector<ScalarTrack>& tracks) {
   TrackCarrier carrier(tracks, window);
   for (ScalarTrack& track : tracks) track.values.resize(static_cast<std::size_t>(window.size()));
-  for (std::size_t i = 0; i < laid.size() && !tracks.empty(); ++i) {
-    carrier.carry(laid[i], i == 0 ? laid[i].begin() : laid[i - 1].end(), i == 0);
+  for (std::size_t i = 0; i < placed.size() && !tracks.empty(); ++i) {
+    carrier.carry(placed[i], i == 0 ? placed[i].begin() : placed[i - 1].end(), i == 0);
   }
 }
 
-std::vector<std::string> tracks_of(std::span<const Laid> laid) {
+std::vector<std::string> tracks_of(std::span<const PlacedClip> placed) {
   std::vector<std::string> names;
   const MotionSource* seen = nullptr;
-  for (const Laid& one : laid) {
-    if (one.stretch->source.get() == seen) continue;
-    seen = one.stretch->source.get();
+  for (const PlacedClip& one : placed) {
+    if (one.captured->source.get() == seen) continue;
+    seen = one.captured->source.get();
     for (const std::string& name : seen->tracks()) {
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }

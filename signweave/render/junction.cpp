@@ -6,15 +6,15 @@
 
 namespace signweave {
 
-const TransitionMethod& method_of(const JunctionSettings& settings, const Laid& laid) noexcept {
-  const TransitionMethod* const own = laid.stretch->junction.method;
+const TransitionMethod& method_of(const JunctionSettings& settings, const PlacedClip& placed) noexcept {
+  const TransitionMethod* const own = placed.captured->junction.method;
   return own != nullptr ? *own : *settings.method;
 }
 
 JunctionFiller::JunctionFiller(const JunctionSettings& settings)
     : settings_(settings), guard_(*settings_.skeleton, settings_.rig->signer, settings_.rig->groups) {}
 
-std::int64_t JunctionFiller::shared(const Laid& a, const Laid& b) noexcept {
+std::int64_t JunctionFiller::shared(const PlacedClip& a, const PlacedClip& b) noexcept {
   return std::max<std::int64_t>(0, a.end() - b.begin());
 }
 
@@ -22,7 +22,7 @@ std::int64_t JunctionFiller::context() const noexcept {
   return context_frames(settings_.rate);
 }
 
-void JunctionFiller::fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window,
+void JunctionFiller::fill(const PlacedClip& a, const PlacedClip& b, const TransitionCuts& cuts, OutputWindow window,
                           JunctionScratch& scratch) {
   Motion& shared = scratch.shared;
   const bool as_one = std::ranges::all_of(cuts, [&](const TransitionCut& cut) { return cut == cuts.front(); });
@@ -46,7 +46,7 @@ void JunctionFiller::fill(const Laid& a, const Laid& b, const TransitionCuts& cu
   }
 }
 
-JunctionFiller::Meeting JunctionFiller::meeting(const Laid& a, const Laid& b, const TransitionCuts& cuts,
+JunctionFiller::Meeting JunctionFiller::meeting(const PlacedClip& a, const PlacedClip& b, const TransitionCuts& cuts,
                                                 Timed part) noexcept {
   const std::int64_t faded = cuts.front().overlap();
   const TransitionCut& cut = cuts[static_cast<std::size_t>(part)];
@@ -55,11 +55,11 @@ JunctionFiller::Meeting JunctionFiller::meeting(const Laid& a, const Laid& b, co
   return {a.core_end() + cut.retraction_frames - 1, begin};
 }
 
-/// Each stretch keeps its quaternions' signs from frame to frame, so one sign a joint makes the whole of it go on from
+/// Each clip keeps its quaternions' signs from frame to frame, so one sign a joint makes the whole of it go on from
 /// the side before. It is chosen where the two meet: in the middle of a cross-fade, so that there the shorter arc is
 /// taken. Choosing anew for each frame would make a joint jump where the sides pass half a turn apart.
-void JunctionFiller::turn_signs(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window,
-                                Motion& shared) const {
+void JunctionFiller::turn_signs(const PlacedClip& a, const PlacedClip& b, const TransitionCuts& cuts,
+                                OutputWindow window, Motion& shared) const {
   const std::int64_t own_begin = b.begin() + shared.frame_count();
   const std::int64_t own_end = std::min(b.end(), window.frames().end);
   const auto right_pose = [&](std::int64_t frame) {
@@ -81,7 +81,8 @@ void JunctionFiller::turn_signs(const Laid& a, const Laid& b, const TransitionCu
   }
 }
 
-void JunctionFiller::crossfade(const Laid& b, std::int64_t frames, OutputWindow window, const Motion& shared) const {
+void JunctionFiller::crossfade(const PlacedClip& b, std::int64_t frames, OutputWindow window,
+                               const Motion& shared) const {
   for (std::int64_t k = 0; k < frames; ++k) {
     const MutablePoseView pose = window.pose(b.begin() + k);
     const PoseView other = shared.pose(k);
@@ -94,7 +95,7 @@ void JunctionFiller::crossfade(const Laid& b, std::int64_t frames, OutputWindow 
 }
 
 /// Where one part still shows the side before and another already this one.
-void JunctionFiller::take_over(const Laid& b, const TransitionCuts& cuts, OutputWindow window,
+void JunctionFiller::take_over(const PlacedClip& b, const TransitionCuts& cuts, OutputWindow window,
                                const Motion& shared) const {
   const JointGroups& groups = settings_.rig->groups;
   for (std::int64_t k = 0; k < shared.frame_count(); ++k) {
@@ -115,18 +116,18 @@ void JunctionFiller::take_over(const Laid& b, const TransitionCuts& cuts, Output
 
 /// The context reaches into the strokes, where it is only looked at, and no farther: what follows a stroke need not be
 /// known yet.
-Gap JunctionFiller::gap_at(const Laid& a, const Laid& b, FrameRange frames, OutputWindow window) const {
+Gap JunctionFiller::gap_at(const PlacedClip& a, const PlacedClip& b, FrameRange frames, OutputWindow window) const {
   return {.skeleton = settings_.skeleton.get(),
           .groups = &settings_.rig->groups,
           .rate = settings_.rate,
           .before = window.view({std::max(a.core, frames.begin - context()), frames.begin}),
           .after = window.view({frames.end, std::min(frames.end + context(), b.core_end())}),
           .count = frames.size(),
-          .noise_before = a.stretch->noise.get(),
-          .noise_after = b.stretch->noise.get()};
+          .noise_before = a.captured->noise.get(),
+          .noise_after = b.captured->noise.get()};
 }
 
-void JunctionFiller::fill_gap(const Laid& a, const Laid& b, FrameRange frames, GroupSet groups,
+void JunctionFiller::fill_gap(const PlacedClip& a, const PlacedClip& b, FrameRange frames, GroupSet groups,
                               const TransitionCut& cut, OutputWindow window, GapScratch& scratch) const {
   static const GapMethod* const waiting =
       find_gap_method("sine");  // from rest to rest, whatever noise the borders have

@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "signweave/motion/motion.h"
-#include "signweave/render/laid.h"
-#include "signweave/score/stretch.h"
+#include "signweave/render/placed_clip.h"
+#include "signweave/score/motion_clip.h"
 #include "signweave/transition/body_guard.h"
 
 /// One junction at a time, from nothing but its two sides: a `Renderer` makes all those of a score with it, and
-/// `Weaver` one after another while an utterance grows. So both make the same of the same stretches.
+/// `TransitionBuilder` one after another while an utterance grows. So both make the same of the same clips.
 namespace signweave {
 
 /// What all junctions of a result have in common. Everything is borrowed.
@@ -21,8 +21,8 @@ struct JunctionSettings {
   const TransitionModel* model = nullptr;    ///< null: the default
 };
 
-/// How the junction before a stretch that is laid is made.
-const TransitionMethod& method_of(const JunctionSettings& settings, const Laid& laid) noexcept;
+/// How the junction before a clip that is placed is made.
+const TransitionMethod& method_of(const JunctionSettings& settings, const PlacedClip& placed) noexcept;
 
 struct JunctionCuts {
   TransitionCuts parts;
@@ -35,7 +35,7 @@ using JointSigns = std::vector<bool>;
 /// Memory that junctions use; kept from one to the next, so that only the first ones allocate.
 struct JunctionScratch {
   Motion left, right;  ///< what lies around the cuts
-  Motion shared;       ///< the frames of a stretch that the one before has too
+  Motion shared;       ///< the frames of a clip that the one before has too
   GapScratch gap;
 };
 
@@ -57,7 +57,7 @@ class JunctionFiller {
 
   /// Frames of b that a has too: of the whole body in a cross-fade, of one part here and another there where each has
   /// its own cut.
-  static std::int64_t shared(const Laid& a, const Laid& b) noexcept;
+  static std::int64_t shared(const PlacedClip& a, const PlacedClip& b) noexcept;
   /// As many frames beside a transition are looked at.
   std::int64_t context() const noexcept;
   /// The output frames at which a part of both sides is compared: b's rotations are turned so that they go on from a's.
@@ -65,20 +65,22 @@ class JunctionFiller {
     std::int64_t of_a = 0;
     std::int64_t of_b = 0;
   };
-  static Meeting meeting(const Laid& a, const Laid& b, const TransitionCuts& cuts, Timed part) noexcept;
+  static Meeting meeting(const PlacedClip& a, const PlacedClip& b, const TransitionCuts& cuts, Timed part) noexcept;
 
   /// The transition: Algorithm 1, lines 3 to 6. The window has what both sides keep of it already, and of both cores
   /// `context()` frames or all; the frames that they share are there as a's, and in `scratch.shared` as b's.
   /// Quaternions of b in the window may be turned to their negatives. Arms that were made are kept within what a body
   /// can do (see BodyGuard), except where the method is offered for evaluation alone.
-  void fill(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, JunctionScratch& scratch);
+  void fill(const PlacedClip& a, const PlacedClip& b, const TransitionCuts& cuts, OutputWindow window,
+            JunctionScratch& scratch);
 
  private:
-  void turn_signs(const Laid& a, const Laid& b, const TransitionCuts& cuts, OutputWindow window, Motion& shared) const;
-  void crossfade(const Laid& b, std::int64_t frames, OutputWindow window, const Motion& shared) const;
-  void take_over(const Laid& b, const TransitionCuts& cuts, OutputWindow window, const Motion& shared) const;
-  Gap gap_at(const Laid& a, const Laid& b, FrameRange frames, OutputWindow window) const;
-  void fill_gap(const Laid& a, const Laid& b, FrameRange frames, GroupSet groups, const TransitionCut& cut,
+  void turn_signs(const PlacedClip& a, const PlacedClip& b, const TransitionCuts& cuts, OutputWindow window,
+                  Motion& shared) const;
+  void crossfade(const PlacedClip& b, std::int64_t frames, OutputWindow window, const Motion& shared) const;
+  void take_over(const PlacedClip& b, const TransitionCuts& cuts, OutputWindow window, const Motion& shared) const;
+  Gap gap_at(const PlacedClip& a, const PlacedClip& b, FrameRange frames, OutputWindow window) const;
+  void fill_gap(const PlacedClip& a, const PlacedClip& b, FrameRange frames, GroupSet groups, const TransitionCut& cut,
                 OutputWindow window, GapScratch& scratch) const;
 
   JunctionSettings settings_;

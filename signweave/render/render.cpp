@@ -14,67 +14,67 @@
 namespace signweave {
 namespace {
 
-const std::string& name_at_end(const Stretch& stretch) {
-  return stretch.signs.empty() ? stretch.recording : stretch.signs.back().gloss;
+const std::string& name_at_end(const MotionClip& clip) {
+  return clip.signs.empty() ? clip.recording : clip.signs.back().gloss;
 }
-const std::string& name_at_begin(const Stretch& stretch) {
-  return stretch.signs.empty() ? stretch.recording : stretch.signs.front().gloss;
+const std::string& name_at_begin(const MotionClip& clip) {
+  return clip.signs.empty() ? clip.recording : clip.signs.front().gloss;
 }
 
 /// Where each frame of a plan comes from.
 void name_sources(const Plan& plan, std::vector<FrameSource>& sources) {
   sources.resize(static_cast<std::size_t>(plan.frames));
   const auto at = [&](std::int64_t frame) -> FrameSource& { return sources[static_cast<std::size_t>(frame)]; };
-  for (std::size_t i = 0; i < plan.laid.size(); ++i) {
-    const Laid& now = plan.laid[i];
-    const auto stretch = static_cast<std::int32_t>(i);
-    const bool last = i + 1 == plan.laid.size();
+  for (std::size_t i = 0; i < plan.placed.size(); ++i) {
+    const PlacedClip& now = plan.placed[i];
+    const auto clip = static_cast<std::int32_t>(i);
+    const bool last = i + 1 == plan.placed.size();
     const std::int64_t kept_before = i == 0 ? now.before : common_to(plan.cuts[i - 1].parts).kept_before();
     const std::int64_t kept_after = last ? now.after : common_to(plan.cuts[i].parts).kept_after();
     if (i > 0) {
-      const std::int64_t made_from = plan.laid[i - 1].core_end() + common_to(plan.cuts[i - 1].parts).kept_after();
+      const std::int64_t made_from = plan.placed[i - 1].core_end() + common_to(plan.cuts[i - 1].parts).kept_after();
       for (std::int64_t frame = made_from; frame < now.core - kept_before; ++frame) {
-        at(frame) = {FrameSource::kNone, stretch - 1, 0};
+        at(frame) = {FrameSource::kNone, clip - 1, 0};
       }
     }
     const auto kept = [&](std::int64_t begin, std::int64_t end, std::int32_t junction) {
       if (now.captured_as_is()) {
-        const std::int64_t shift = now.stretch->core.begin - now.core;
+        const std::int64_t shift = now.captured->core.begin - now.core;
         for (std::int64_t frame = begin; frame < end; ++frame) {
-          at(frame) = {stretch, junction, static_cast<double>(frame + shift)};
+          at(frame) = {clip, junction, static_cast<double>(frame + shift)};
         }
       } else {
-        for (std::int64_t frame = begin; frame < end; ++frame) at(frame) = {stretch, junction, now.frame_at(frame)};
+        for (std::int64_t frame = begin; frame < end; ++frame) at(frame) = {clip, junction, now.frame_at(frame)};
       }
     };
-    kept(now.core - kept_before, now.core, i > 0 ? stretch - 1 : FrameSource::kNone);
+    kept(now.core - kept_before, now.core, i > 0 ? clip - 1 : FrameSource::kNone);
     kept(now.core, now.core_end(), FrameSource::kNone);
-    kept(now.core_end(), now.core_end() + kept_after, last ? FrameSource::kNone : stretch);
+    kept(now.core_end(), now.core_end() + kept_after, last ? FrameSource::kNone : clip);
   }
 }
 
-void place_stretches(const Plan& plan, Synthesis& out) {
-  out.stretches.clear();
-  for (std::size_t i = 0; i < plan.laid.size(); ++i) {
-    const Laid& laid = plan.laid[i];
-    const FrameRange core{laid.core, laid.core_end()};
-    out.stretches.push_back({.recording = laid.stretch->recording,
-                             .output = {i == 0 ? 0 : core.begin, i + 1 == plan.laid.size() ? plan.frames : core.end},
-                             .core = core,
-                             .first_frame = laid.frame_at(core.begin),
-                             .step = laid.step});
+void place_clips(const Plan& plan, Synthesis& out) {
+  out.clips.clear();
+  for (std::size_t i = 0; i < plan.placed.size(); ++i) {
+    const PlacedClip& placed = plan.placed[i];
+    const FrameRange core{placed.core, placed.core_end()};
+    out.clips.push_back({.recording = placed.captured->recording,
+                         .output = {i == 0 ? 0 : core.begin, i + 1 == plan.placed.size() ? plan.frames : core.end},
+                         .core = core,
+                         .first_frame = placed.frame_at(core.begin),
+                         .step = placed.step});
   }
 }
 
 void place_junctions(const Score& score, const Plan& plan, Synthesis& out) {
   out.junctions.clear();
-  for (std::size_t i = 0; i + 1 < plan.laid.size(); ++i) {
-    const Laid& a = plan.laid[i];
-    const Laid& b = plan.laid[i + 1];
+  for (std::size_t i = 0; i + 1 < plan.placed.size(); ++i) {
+    const PlacedClip& a = plan.placed[i];
+    const PlacedClip& b = plan.placed[i + 1];
     const JunctionRef& junction = score.junctions[i];
     out.junctions.push_back(
-        {.from = name_at_end(*a.stretch),
-         .to = name_at_begin(*b.stretch),
+        {.from = name_at_end(*a.captured),
+         .to = name_at_begin(*b.captured),
          .frames = {a.core_end(), b.core},
          .cut = common_to(plan.cuts[i].parts),
          .cuts = plan.cuts[i].parts,
@@ -98,21 +98,21 @@ void copy(const Motion& made, std::int64_t from, FrameRange frames, Motion& out)
 }  // namespace
 
 Renderer::Renderer(Plan plan, const JunctionSettings& settings)
-    : plan_(std::move(plan)), settings_(settings), filler_(settings), tracks_(tracks_of(plan_.laid)) {}
+    : plan_(std::move(plan)), settings_(settings), filler_(settings), tracks_(tracks_of(plan_.placed)) {}
 
 /// With the transitions that the frames touch as a whole, and beside those as much as they look at.
 Renderer::Part Renderer::part_with(FrameRange frames) const {
-  const std::vector<Laid>& laid = plan_.laid;
+  const std::vector<PlacedClip>& placed = plan_.placed;
   const auto clip_at = [&](std::int64_t frame) {  // the last one whose core has begun, or the first
-    const auto after = std::ranges::upper_bound(laid, frame, {}, &Laid::core);
-    return after == laid.begin() ? std::size_t{0} : static_cast<std::size_t>(after - laid.begin()) - 1;
+    const auto after = std::ranges::upper_bound(placed, frame, {}, &PlacedClip::core);
+    return after == placed.begin() ? std::size_t{0} : static_cast<std::size_t>(after - placed.begin()) - 1;
   };
   Part part{.first = clip_at(frames.begin), .last = clip_at(frames.end - 1), .frames = frames};
-  if (part.last + 1 < laid.size() && frames.end > laid[part.last].core_end()) ++part.last;
+  if (part.last + 1 < placed.size() && frames.end > placed[part.last].core_end()) ++part.last;
   if (part.first == part.last) return part;
   const std::int64_t context = filler_.context();
-  const Laid& first = laid[part.first];
-  const Laid& last = laid[part.last];
+  const PlacedClip& first = placed[part.first];
+  const PlacedClip& last = placed[part.last];
   part.frames.begin = std::min(frames.begin, std::max(first.core, first.core_end() - context));
   part.frames.end = std::max(frames.end, std::min(last.core + context, last.core_end()));
   return part;
@@ -128,8 +128,8 @@ const JointSigns& Renderer::turned_in(std::size_t clip) {
   Motion right(settings_.skeleton, settings_.rate, 1);
   while (turned_.size() <= clip) {
     const std::size_t i = turned_.size();
-    const Laid& a = plan_.laid[i - 1];
-    const Laid& b = plan_.laid[i];
+    const PlacedClip& a = plan_.placed[i - 1];
+    const PlacedClip& b = plan_.placed[i];
     const JointSigns& before = turned_.back();
     JointSigns turned(joints, false);
     for (const Timed part : kAllTimed) {
@@ -163,7 +163,7 @@ void Renderer::render(FrameRange frames, Motion& out) {
   Motion& made = part.frames == frames ? out : window_;
   made.reset(settings_.skeleton, settings_.rate, part.frames.size());
   const OutputWindow window{made, part.frames.begin};
-  signweave::fetch(std::span(plan_.laid).subspan(part.first, part.last - part.first + 1), window);
+  signweave::fetch(std::span(plan_.placed).subspan(part.first, part.last - part.first + 1), window);
   join_part(part, window, std::move(used));
   if (&made == &out) return;
   copy(made, part.frames.begin, frames, out);
@@ -171,39 +171,39 @@ void Renderer::render(FrameRange frames, Motion& out) {
 }
 
 void Renderer::render_fetched(Motion& out, std::vector<ScalarTrack> used) {
-  join_part({.first = 0, .last = plan_.laid.size() - 1, .frames = {0, plan_.frames}}, {out}, std::move(used));
+  join_part({.first = 0, .last = plan_.placed.size() - 1, .frames = {0, plan_.frames}}, {out}, std::move(used));
 }
 
 void Renderer::join_part(const Part& part, OutputWindow window, std::vector<ScalarTrack> used) {
-  const std::span clips = std::span(plan_.laid).subspan(part.first, part.last - part.first + 1);
+  const std::span clips = std::span(plan_.placed).subspan(part.first, part.last - part.first + 1);
   const std::span cuts = std::span(plan_.cuts).subspan(part.first, part.last - part.first);
   join({.clips = clips, .cuts = cuts, .turned = part.first == 0 ? nullptr : &turned_in(part.first)}, filler_, window,
        scratch_);
   if (tracks_.empty()) return;
-  std::vector<Laid> laid(clips.begin(), clips.end());
+  std::vector<PlacedClip> placed(clips.begin(), clips.end());
   for (std::size_t i = 0; i < cuts.size(); ++i) {
-    laid[i].after = cuts[i].tracks.retraction_frames;
-    laid[i + 1].before = cuts[i].tracks.preparation_frames;
+    placed[i].after = cuts[i].tracks.retraction_frames;
+    placed[i + 1].before = cuts[i].tracks.preparation_frames;
   }
   used.resize(tracks_.size());
   for (std::size_t i = 0; i < tracks_.size(); ++i) used[i].name = tracks_[i];
-  carry_tracks(laid, part.frames, used);
+  carry_tracks(placed, part.frames, used);
   for (ScalarTrack& track : used) window.motion.add_track(std::move(track));
 }
 
 std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& settings, Motion& out) {
   std::vector<ScalarTrack> used_tracks = out.take_tracks();
   out.reset(settings.skeleton, settings.rate, plan.frames);
-  fetch(plan.laid, {out});
+  fetch(plan.placed, {out});
   return used_tracks;
 }
 
-void render(Score score, const std::vector<Stretch>& stretches, const JunctionSettings& settings, Synthesis& out) {
-  Renderer renderer(plan_of(score, stretches), settings);
-  render(std::move(score), renderer, stretches, std::nullopt, out);
+void render(Score score, const std::vector<MotionClip>& clips, const JunctionSettings& settings, Synthesis& out) {
+  Renderer renderer(plan_of(score, clips), settings);
+  render(std::move(score), renderer, clips, std::nullopt, out);
 }
 
-void render(Score score, Renderer& renderer, const std::vector<Stretch>& stretches,
+void render(Score score, Renderer& renderer, const std::vector<MotionClip>& clips,
             std::optional<std::vector<ScalarTrack>> fetched, Synthesis& out) {
   const Plan& plan = renderer.plan();
   if (fetched) {
@@ -212,10 +212,10 @@ void render(Score score, Renderer& renderer, const std::vector<Stretch>& stretch
     renderer.render({0, plan.frames}, out.motion);
   }
   name_sources(plan, out.sources);
-  place_stretches(plan, out);
+  place_clips(plan, out);
   place_junctions(score, plan, out);
   out.signs.clear();
-  place_signs(stretches, out);
+  place_signs(clips, out);
   out.score = std::move(score);
 }
 

@@ -14,7 +14,7 @@ namespace signweave {
 /// motion is put onto another skeleton up to the signs of quaternions. Belongs to one thread.
 class Renderer {
  public:
-  /// What the settings and the plan's stretches point to must outlive it.
+  /// What the settings and the plan's clips point to must outlive it.
   Renderer(Plan plan, const JunctionSettings& settings);
 
   const Plan& plan() const noexcept { return plan_; }
@@ -47,17 +47,17 @@ class Renderer {
   Motion window_;
 };
 
-/// Puts the captured frames of a plan's stretches where they lie, as they were captured, into `out`, which becomes as
+/// Puts the captured frames of a plan's clips where they lie, as they were captured, into `out`, which becomes as
 /// long as the plan says. Returns the tracks that it had, for their memory. Throws Error{corrupt}.
 std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& settings, Motion& out);
 
-/// Makes what a score says of its stretches, which stretches_of or the score's maker has: all of `out` but its
+/// Makes what a score says of its clips, which clips_of or the score's maker has: all of `out` but its
 /// notices and declarations. Decides nothing. The memory of what `out` was is used again. Throws Error{bad_input} as
 /// plan_of, Error{corrupt}.
-void render(Score score, const std::vector<Stretch>& stretches, const JunctionSettings& settings, Synthesis& out);
+void render(Score score, const std::vector<MotionClip>& clips, const JunctionSettings& settings, Synthesis& out);
 /// The same by the renderer of the score's plan; `fetched`: what `fetch` gave back, where it has put the captured
 /// frames into `out` already.
-void render(Score score, Renderer& renderer, const std::vector<Stretch>& stretches,
+void render(Score score, Renderer& renderer, const std::vector<MotionClip>& clips,
             std::optional<std::vector<ScalarTrack>> fetched, Synthesis& out);
 
 }  // namespace signweave

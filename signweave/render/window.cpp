@@ -12,12 +12,12 @@ FrameRange inside(FrameRange frames, FrameRange window) noexcept {
   return {begin, std::max(begin, std::min(frames.end, window.end))};
 }
 
-void stand(const Laid& laid, const Skeleton& skeleton, MutablePoses poses) noexcept {
-  if (!laid.standing) return;
+void stand(const PlacedClip& placed, const Skeleton& skeleton, MutablePoses poses) noexcept {
+  if (!placed.standing) return;
   const std::size_t joints = skeleton.joint_count();
   const std::size_t moved = skeleton.translation_count();
   for (std::size_t k = 0; k * joints < poses.rotations.size(); ++k) {
-    apply(*laid.standing, skeleton,
+    apply(*placed.standing, skeleton,
           {poses.rotations.subspan(k * joints, joints), poses.translations.subspan(k * moved, moved)});
   }
 }
@@ -31,16 +31,16 @@ void turn(const JointSigns& turned, std::span<Eigen::Quaternionf> rotations) noe
 
 }  // namespace
 
-FrameRange own_frames(const Laid* before, const Laid& laid) noexcept {
-  return {laid.begin() + (before == nullptr ? 0 : JunctionFiller::shared(*before, laid)), laid.end()};
+FrameRange own_frames(const PlacedClip* before, const PlacedClip& placed) noexcept {
+  return {placed.begin() + (before == nullptr ? 0 : JunctionFiller::shared(*before, placed)), placed.end()};
 }
 
-void read_standing(const Laid& laid, const Skeleton& skeleton, FrameRange output, MutablePoses out) {
-  read_frames(laid, output, out);
-  stand(laid, skeleton, out);
+void read_standing(const PlacedClip& placed, const Skeleton& skeleton, FrameRange output, MutablePoses out) {
+  read_frames(placed, output, out);
+  stand(placed, skeleton, out);
 }
 
-void fetch(std::span<const Laid> clips, OutputWindow window) {
+void fetch(std::span<const PlacedClip> clips, OutputWindow window) {
   for (std::size_t i = 0; i < clips.size(); ++i) {
     const FrameRange own = inside(own_frames(i == 0 ? nullptr : &clips[i - 1], clips[i]), window.frames());
     read_frames(clips[i], own, window.poses(own));
@@ -50,8 +50,8 @@ void fetch(std::span<const Laid> clips, OutputWindow window) {
 void join(const JoinedClips& joined, JunctionFiller& filler, OutputWindow window, JunctionScratch& scratch) {
   const Skeleton& skeleton = window.motion.skeleton();
   for (std::size_t i = 0; i < joined.clips.size(); ++i) {
-    const Laid& now = joined.clips[i];
-    const Laid* const before = i == 0 ? nullptr : &joined.clips[i - 1];
+    const PlacedClip& now = joined.clips[i];
+    const PlacedClip* const before = i == 0 ? nullptr : &joined.clips[i - 1];
     const FrameRange all = own_frames(before, now);
     const MutablePoses own = window.poses(inside(all, window.frames()));
     stand(now, skeleton, own);

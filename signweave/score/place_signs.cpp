@@ -11,7 +11,7 @@ Milliseconds time_of(std::int64_t frame, FrameRate rate) {
                                    static_cast<double>(rate.numerator)));
 }
 
-/// Where a stretch's signs may lie: between the middles of the transitions on both sides.
+/// Where a clip's signs may lie: between the middles of the transitions on both sides.
 struct Room {
   TimeSpan span;
   TimeSpan kept;               ///< where the frames are those of the recording
@@ -19,27 +19,27 @@ struct Room {
   bool joined_after = false;
 };
 
-/// Places a stretch's signs in output time. At a junction its first sign begins, and its last ends, with the room.
-void place_signs_of(const Stretch& stretch, const Placed& placed, std::size_t index, const Room& room, Synthesis& out) {
+/// Places a clip's signs in output time. At a junction its first sign begins, and its last ends, with the room.
+void place_signs_of(const MotionClip& clip, const ShownClip& placed, std::size_t index, const Room& room,
+                    Synthesis& out) {
   const FrameRate rate = out.motion.rate();
   const auto output_time = [&](Milliseconds recorded) {
-    const double frame = stretch.clock.frame_at(recorded);
+    const double frame = clip.clock.frame_at(recorded);
     const double at = static_cast<double>(placed.core.begin) + (frame - placed.first_frame) / placed.step;
     const Milliseconds time(std::llround(at * 1000.0 / rate.hertz()));
     return std::clamp(time, room.span.begin, room.span.end);
   };
-  for (std::size_t i = 0; i < stretch.signs.size(); ++i) {
-    const Sign& source = stretch.signs[i];
-    PlacedSign sign{
-        .sign = source, .stretch = index, .place = place_of_sign(stretch, i, index), .recorded = source.span};
+  for (std::size_t i = 0; i < clip.signs.size(); ++i) {
+    const Sign& source = clip.signs[i];
+    PlacedSign sign{.sign = source, .clip = index, .place = place_of_sign(clip, i, index), .recorded = source.span};
     const auto recorded_stroke = source.stroke_span();
     // Where the core begins or ends with the stroke. At a piece cut through a sign it does not: that sign stays as it
     // was.
     const auto meets = [&](Milliseconds recorded, std::int64_t frame) {
-      return std::abs(stretch.clock.frame_at(recorded) - static_cast<double>(frame)) <= 1.0;
+      return std::abs(clip.clock.frame_at(recorded) - static_cast<double>(frame)) <= 1.0;
     };
-    const bool first = i == 0 && recorded_stroke && meets(recorded_stroke->begin, stretch.core.begin);
-    const bool last = i + 1 == stretch.signs.size() && recorded_stroke && meets(recorded_stroke->end, stretch.core.end);
+    const bool first = i == 0 && recorded_stroke && meets(recorded_stroke->begin, clip.core.begin);
+    const bool last = i + 1 == clip.signs.size() && recorded_stroke && meets(recorded_stroke->end, clip.core.end);
     sign.sign.span = {first && room.joined_before ? room.span.begin : output_time(source.span.begin),
                       last && room.joined_after ? room.span.end : output_time(source.span.end)};
     std::vector<Phase> phases;
@@ -103,16 +103,16 @@ void place_signs_of(const Stretch& stretch, const Placed& placed, std::size_t in
 
 }  // namespace
 
-void place_signs(const std::vector<Stretch>& stretches, Synthesis& out) {
+void place_signs(const std::vector<MotionClip>& clips, Synthesis& out) {
   const FrameRate rate = out.motion.rate();
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
+  for (std::size_t i = 0; i < clips.size(); ++i) {
     // The middle of what was made between two signs parts them.
     const auto middle = [&](std::size_t junction) {
       const Junction& one = out.junctions[junction];
       const std::int64_t kept = one.cut.retraction_frames - one.cut.overlap();
       return time_of(one.frames.begin + kept + (one.cut.overlap() + one.cut.gap()) / 2, rate);
     };
-    const bool last = i + 1 == stretches.size();
+    const bool last = i + 1 == clips.size();
     const TimeSpan span{i == 0 ? Milliseconds(0) : middle(i - 1),
                         last ? time_of(out.motion.frame_count(), rate) : middle(i)};
     TimeSpan kept = span;
@@ -124,7 +124,7 @@ void place_signs(const std::vector<Stretch>& stretches, Synthesis& out) {
       const Junction& after = out.junctions[i];
       kept.end = time_of(after.frames.begin + after.cut.retraction_frames - after.cut.overlap(), rate);
     }
-    place_signs_of(stretches[i], out.stretches[i], i, {span, kept, i > 0, !last}, out);
+    place_signs_of(clips[i], out.clips[i], i, {span, kept, i > 0, !last}, out);
   }
 }
 

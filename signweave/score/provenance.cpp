@@ -43,13 +43,13 @@ AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& 
     const std::string id = new_id();
     gloss.annotations.push_back(annotation(placed.sign.span, placed.sign.gloss, id));
     place.annotations.push_back(
-        annotation(placed.sign.span, fmt::format("{}, clip {}", placed.place, placed.stretch), new_id(), id));
+        annotation(placed.sign.span, fmt::format("{}, clip {}", placed.place, placed.clip), new_id(), id));
     for (const Phase& one : placed.sign.phases) {
       phase.annotations.push_back(annotation(one.span, one.label, new_id(), id));
     }
   }
-  for (std::size_t i = 0; i < synthesis.stretches.size(); ++i) {
-    const Placed& placed = synthesis.stretches[i];
+  for (std::size_t i = 0; i < synthesis.clips.size(); ++i) {
+    const ShownClip& placed = synthesis.clips[i];
     const double frames = static_cast<double>(placed.output.end - placed.core.begin) * placed.step;
     const double before = static_cast<double>(placed.core.begin - placed.output.begin) * placed.step;
     source.annotations.push_back(

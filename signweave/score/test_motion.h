@@ -6,7 +6,7 @@
 #include <string>
 
 #include "signweave/motion/motion.h"
-#include "signweave/score/stretch.h"
+#include "signweave/score/motion_clip.h"
 
 namespace signweave::testing_motion {
 
@@ -36,12 +36,12 @@ inline Motion moving(std::int64_t frames, FrameRate rate, float seed,
   return motion;
 }
 
-/// A stretch of one sign: preparation, stroke and retraction of so many frames, out of a longer recording.
-inline Stretch stretch(const std::string& name, float seed, std::int64_t preparation, std::int64_t stroke,
+/// A clip of one sign: preparation, stroke and retraction of so many frames, out of a longer recording.
+inline MotionClip clip(const std::string& name, float seed, std::int64_t preparation, std::int64_t stroke,
                        std::int64_t retraction, FrameRate rate = {100, 1},
                        std::shared_ptr<const Skeleton> skeleton = small_skeleton()) {
   constexpr std::int64_t kBefore = 7;  // frames of the recording that are not part of the sign
-  Stretch result;
+  MotionClip result;
   result.recording = name;
   result.whole = {kBefore, kBefore + preparation + stroke + retraction};
   result.core = {kBefore + preparation, kBefore + preparation + stroke};
@@ -59,9 +59,9 @@ inline Stretch stretch(const std::string& name, float seed, std::int64_t prepara
   return result;
 }
 
-/// The recording that such a stretch is from.
-inline const Motion& motion_of(const Stretch& stretch) {
-  return dynamic_cast<const MemorySource&>(*stretch.source).motion();
+/// The recording that such a clip is from.
+inline const Motion& motion_of(const MotionClip& clip) {
+  return dynamic_cast<const MemorySource&>(*clip.source).motion();
 }
 
 /// Angle between two rotations in radians.

@@ -67,15 +67,15 @@ TEST_P(AcrossRigs, HandsPointBendAndLieAsTheyDid) {
     return body_of(snapshot.contents(), name, *snapshot.motion(snapshot.contents().at(name)));
   };
   const RecordedBody there = body(other);
-  const RecordedBody here = body(made.stretches[0].recording);
+  const RecordedBody here = body(made.clips[0].recording);
   const BodyMapping mapping = map_body(there, here);
   const float ratio = BodyMapper(mapping).retargeter().unit_ratio();
   const Motion captured = corpus().read(other);
   std::vector<float> palm, fingers, shape, place;
   for (std::int64_t frame = 0; frame < made.motion.frame_count(); ++frame) {
     const FrameSource& source = made.sources[static_cast<std::size_t>(frame)];
-    if (source.stretch == FrameSource::kNone || source.frame != std::floor(source.frame)) continue;
-    if (made.stretches[static_cast<std::size_t>(source.stretch)].recording != other) continue;
+    if (source.clip == FrameSource::kNone || source.frame != std::floor(source.frame)) continue;
+    if (made.clips[static_cast<std::size_t>(source.clip)].recording != other) continue;
     const ModelPose a = to_model_space(captured.skeleton(), captured.pose(static_cast<std::int64_t>(source.frame)));
     const ModelPose b = to_model_space(made.motion.skeleton(), made.motion.pose(frame));
     const SignerSpace space_a = signer_space(*there.signer.body, there.signer.rig, a);
@@ -91,7 +91,7 @@ TEST_P(AcrossRigs, HandsPointBendAndLieAsTheyDid) {
       shape.push_back(
           distance(handshape_of(hand_a, axes_of(hand_a, side)), handshape_of(hand_b, axes_of(hand_b, side))));
       const Eigen::Vector3f shoulder = position_of(there.signer.rig[of(side, Part::left_upper_arm)], a);
-      if ((hand_a.wrist - shoulder).norm() > 0.4f) continue;  // straight arms keep their stretch
+      if ((hand_a.wrist - shoulder).norm() > 0.4f) continue;  // straight arms keep their clip
       place.push_back((space_a.to_signer(palm_of(hand_a)) - space_b.to_signer(palm_of(hand_b))).norm());
     }
   }

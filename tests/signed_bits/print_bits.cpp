@@ -115,7 +115,7 @@ void add_result(const Synthesis& made, Line& line) {
     sum.add(made.motion.pose(frame));
     for (const ScalarTrack& track : made.motion.tracks()) sum.add(track.values[static_cast<std::size_t>(frame)]);
     const FrameSource& source = made.sources[static_cast<std::size_t>(frame)];
-    sum.add(source.stretch);
+    sum.add(source.clip);
     sum.add(source.junction);
     sum.add(source.frame);
     line.frame(sum.value());
@@ -132,7 +132,7 @@ void add_result(const Synthesis& made, Line& line) {
     words.add(sign.sign.gloss);
     words.add(sign.sign.span.begin.count());
     words.add(sign.sign.span.end.count());
-    words.add(sign.stretch);
+    words.add(sign.clip);
     words.add(sign.recorded.begin.count());
   }
   line.say(words);
@@ -352,7 +352,7 @@ class Cases {
 
   const Database& database_;
   std::string_view only_;
-  SigningBase base_;
+  SharedSigningCache base_;
   std::map<std::string, std::vector<std::string>> glosses_;  ///< [recording]
   std::vector<std::string> all_;
 };

@@ -17,9 +17,9 @@ struct FindLimits {
 };
 
 /// Looks at deadline and cancel now and then. Belongs to one search.
-class Watch {
+class StopCheck {
  public:
-  explicit Watch(const FindLimits& limits = {}) : limits_(limits) {}
+  explicit StopCheck(const FindLimits& limits = {}) : limits_(limits) {}
   /// For another search.
   void begin(const FindLimits& limits) {
     limits_ = limits;

@@ -4,17 +4,16 @@
 #include <optional>
 
 #include "signweave/motion/blend.h"
-#include "signweave/score/stretch.h"
+#include "signweave/score/motion_clip.h"
 
 namespace signweave {
 
-/// A stretch on the output's time grid: its output frame k shows the recording's frame core.begin + k · step. Negative
+/// A clip on the output's time grid: its output frame k shows the recording's frame core.begin + k · step. Negative
 /// k are its preparation, k ≥ core_frames its retraction.
-struct Laid {
-  const Stretch* stretch = nullptr;
+struct PlacedClip {
+  const MotionClip* captured = nullptr;
   double step = 1;
-  std::int64_t last =
-      0;  ///< the recording's last frame that may be looked at: one beyond the stretch, where there is one
+  std::int64_t last = 0;  ///< the recording's last frame that may be looked at: one beyond the clip, where there is one
   std::int64_t preparation = 0;  ///< output frames before the core that were captured
   std::int64_t core_frames = 1;
   std::int64_t retraction = 0;  ///< output frames after it
@@ -35,15 +34,15 @@ struct Laid {
   std::int64_t frame_of(std::int64_t recorded) const noexcept;
 };
 
-/// Lays a stretch on a grid of `rate` at a tempo.
-Laid lay(const Stretch& stretch, FrameRate rate, double tempo);
+/// Lays a clip on a grid of `rate` at a tempo.
+PlacedClip placed_at_tempo(const MotionClip& clip, FrameRate rate, double tempo);
 /// The same by the recording's frames per output frame.
-Laid lay_by_step(const Stretch& stretch, double step);
+PlacedClip placed_by_step(const MotionClip& clip, double step);
 
 /// Puts some of its output frames where they are wanted, as captured, or interpolated where its own grid is another.
 /// They stand where they were captured.
-void read_frames(const Laid& laid, FrameRange output, MutablePoses out);
+void read_frames(const PlacedClip& placed, FrameRange output, MutablePoses out);
 /// The same of its scalar tracks: a span for each, empty where the track is not wanted.
-void read_tracks(const Laid& laid, FrameRange output, std::span<const std::span<float>> out);
+void read_tracks(const PlacedClip& placed, FrameRange output, std::span<const std::span<float>> out);
 
 }  // namespace signweave

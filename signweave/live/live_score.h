@@ -15,7 +15,7 @@
 #include "signweave/live/open_recordings.h"
 #include "signweave/live/place_queue.h"
 #include "signweave/live/player.h"
-#include "signweave/live/signing_base.h"
+#include "signweave/live/shared_signing_cache.h"
 #include "signweave/live/stream_setup.h"
 #include "signweave/live/timeline.h"
 
@@ -25,9 +25,9 @@ namespace signweave {
 /// The score of an utterance while places are added to it, and its timeline: they grow as far as they are asked to, and
 /// are taken back where frames that nobody took yet are to be others. Frames are counted from the first one that a
 /// player shows. Belongs to one thread.
-class GrowingUtterance {
+class LiveScore {
  public:
-  GrowingUtterance(SigningBase& base, const PlayerOptions& options);
+  LiveScore(SharedSigningCache& base, const PlayerOptions& options);
 
   // Each of these is told the first frame that was not taken (`next`), and the ring with those before it. What is
   // known of the timeline may end earlier afterwards, but not before `next`. Throws as PlaceQueue; then nothing has
@@ -46,8 +46,8 @@ class GrowingUtterance {
   void set_loop(bool loop, std::int64_t next, const FrameRing& shown);
 
   const StreamHeader* header() const noexcept { return setup_ ? &setup_->header : nullptr; }
-  /// What the timeline shows, with the frame of it that is shown next; see LiveScore.
-  std::optional<LiveScore> score(std::int64_t next, std::size_t most_clips) const;
+  /// What the timeline shows, with the frame of it that is shown next; see ShownScore.
+  std::optional<ShownScore> score(std::int64_t next, std::size_t most_clips) const;
   std::shared_ptr<const MotionSource> rest() const noexcept { return setup_ ? setup_->living : nullptr; }
 
   /// The timeline is known up to this frame.
@@ -83,16 +83,16 @@ class GrowingUtterance {
   static constexpr Seconds kFinished{1.0};
 
  private:
-  using WovenPtr = std::shared_ptr<Woven>;
+  using ClipPtr = std::shared_ptr<LiveClip>;
   enum class State {
     nothing,  ///< no frame is known
     at_core,  ///< the timeline ends with the tail's core: what comes next is joined there
     resting,  ///< the tail is the rest, which goes on
     ended,    ///< the last retraction is over (Idle::end)
   };
-  /// A stretch of this utterance as it came to lie, with the places that it is of.
+  /// A clip of this utterance as it came to lie, with the places that it is of.
   struct Entry {
-    WovenPtr woven;
+    ClipPtr clip;
     std::size_t first = 0;
     std::size_t last = 0;    ///< inclusive
     bool joined = false;     ///< to the entry before
@@ -101,7 +101,7 @@ class GrowingUtterance {
   };
   /// What was signed last; the rest may follow it.
   struct LastSign {
-    WovenPtr woven;                  ///< null: nothing
+    ClipPtr clip;                    ///< null: nothing
     std::optional<Candidate> signs;  ///< what may go on from there
   };
   /// Recordings of other skeletons.
@@ -110,21 +110,21 @@ class GrowingUtterance {
     std::set<std::string> reported;  ///< recordings of which it was reported how they are shown
   };
 
-  /// What was laid last: what comes next is joined to it.
-  Woven& tail() const noexcept { return *chain_.back(); }
-  Stretch stretch_of(const PlaceQueue::Decision& decision, std::size_t place);
+  /// What was placed last: what comes next is joined to it.
+  LiveClip& tail() const noexcept { return *chain_.back(); }
+  MotionClip clip_of(const PlaceQueue::Decision& decision, std::size_t place);
   std::shared_ptr<const MotionSource> on_skeleton(const RecordingInfo& info,
                                                   std::shared_ptr<const MotionSource> source);
   void report_manner(const Entry& entry);
   void sign_next();
   void go_to_rest();
-  std::shared_ptr<const Motion> join(Woven& a, Woven& b);
-  WovenPtr history_of(std::int64_t next, const FrameRing& shown) const;
+  std::shared_ptr<const Motion> join(LiveClip& a, LiveClip& b);
+  ClipPtr history_of(std::int64_t next, const FrameRing& shown) const;
   void leave(std::int64_t next, const FrameRing& shown);
   void leave_rest_at(std::int64_t next);
   void reopen(std::int64_t next, const FrameRing& shown);
   bool grow();
-  bool can_read(const Woven& woven) const;
+  bool can_read(const LiveClip& clip) const;
   void go_on_from(const FrameRing& made);
   Milliseconds end_of_last_sign() const noexcept;
   void cut(std::int64_t end);
@@ -135,7 +135,7 @@ class GrowingUtterance {
   void report_places(const Entry& entry, std::int64_t from);
   Milliseconds time_of(std::int64_t frames) const noexcept;
 
-  SigningBase& base_;
+  SharedSigningCache& base_;
   PlayerOptions options_;
   OpenRecordings open_;
   PlaceQueue queue_;

@@ -1,4 +1,4 @@
-#include "signweave/live/growing_utterance.h"
+#include "signweave/live/live_score.h"
 
 #include <fmt/format.h>
 
@@ -18,14 +18,14 @@ constexpr std::int64_t kChunk = 64;
 
 }  // namespace
 
-GrowingUtterance::GrowingUtterance(SigningBase& base, const PlayerOptions& options)
+LiveScore::LiveScore(SharedSigningCache& base, const PlayerOptions& options)
     : base_(base), options_(options), open_(base.database()), queue_(base, open_, options_) {}
 
-std::int64_t GrowingUtterance::history() const noexcept {
+std::int64_t LiveScore::history() const noexcept {
   return setup_ ? context_frames(setup_->header.rate) : 1;
 }
 
-bool GrowingUtterance::extend(const FrameRing& shown) {
+bool LiveScore::extend(const FrameRing& shown) {
   try {
     return grow();
   } catch (const Error&) {
@@ -34,20 +34,20 @@ bool GrowingUtterance::extend(const FrameRing& shown) {
   }
 }
 
-/// False where what is laid has been removed since, or is damaged.
-bool GrowingUtterance::can_read(const Woven& woven) const {
+/// False where what is placed has been removed since, or is damaged.
+bool LiveScore::can_read(const LiveClip& clip) const {
   Motion one(setup_->header.skeleton, setup_->header.rate, 1);
-  const std::int64_t last = woven.laid.core_end() - 1;
+  const std::int64_t last = clip.placed.core_end() - 1;
   try {
-    setup_->weaver->read(woven, {last, last + 1}, one.poses({0, 1}), {});
+    setup_->builder->read(clip, {last, last + 1}, one.poses({0, 1}), {});
     return true;
   } catch (const Error&) {
     return false;
   }
 }
 
-/// Nothing follows the frames that are made but what is signed next, from there: what was laid cannot be read.
-void GrowingUtterance::go_on_from(const FrameRing& made) {
+/// Nothing follows the frames that are made but what is signed next, from there: what was placed cannot be read.
+void LiveScore::go_on_from(const FrameRing& made) {
   last_sign_ = {};
   if (made.end() > made.begin()) {
     chain_.begin(history_of(made.end(), made));
@@ -59,7 +59,7 @@ void GrowingUtterance::go_on_from(const FrameRing& made) {
   cut(made.end());
 }
 
-bool GrowingUtterance::grow() {
+bool LiveScore::grow() {
   if (queue_.has_next()) {
     sign_next();
     return true;
@@ -72,11 +72,11 @@ bool GrowingUtterance::grow() {
       if (options_.idle == Idle::living_rest) {
         go_to_rest();
       } else {
-        timeline_.append({end(), end() + tail().laid.retraction}, chain_.back());
+        timeline_.append({end(), end() + tail().placed.retraction}, chain_.back());
         state_ = State::ended;
         events_.push_back({.kind = PlayerEvent::Kind::end,
                            .frame = static_cast<std::uint64_t>(end()),
-                           .at = end_of_last_sign() + time_of(tail().laid.retraction)});
+                           .at = end_of_last_sign() + time_of(tail().placed.retraction)});
       }
       return true;
     case State::resting:
@@ -86,12 +86,12 @@ bool GrowingUtterance::grow() {
   return false;
 }
 
-void GrowingUtterance::go_to_rest() {
-  const WovenPtr rest = lay_rest(*setup_);
+void LiveScore::go_to_rest() {
+  const ClipPtr rest = place_rest(*setup_);
   rest->key = "rest";
   std::shared_ptr<const Motion> made = join(tail(), *rest);
   const std::int64_t made_frames = made->frame_count();
-  timeline_.append({end(), rest->laid.core}, std::move(made));
+  timeline_.append({end(), rest->placed.core}, std::move(made));
   chain_.add(rest);
   state_ = State::resting;
   events_.push_back({.kind = PlayerEvent::Kind::rest,
@@ -101,29 +101,29 @@ void GrowingUtterance::go_to_rest() {
 }
 
 /// Lays b behind a; the frames between them, made now or before.
-std::shared_ptr<const Motion> GrowingUtterance::join(Woven& a, Woven& b) {
+std::shared_ptr<const Motion> LiveScore::join(LiveClip& a, LiveClip& b) {
   std::string key;
   if (!a.key.empty() && !b.key.empty()) {
-    key = fmt::format("{}|{}|{}|{}", setup_->key, a.key, b.key, b.stretch.pause_before.count());
+    key = fmt::format("{}|{}|{}|{}", setup_->key, a.key, b.key, b.captured.pause_before.count());
     if (const std::shared_ptr<const MadeTransition> made = base_.transitions().find(key)) {
-      a.laid.after = 0;
-      b.laid.before = 0;
-      lay_after(a.laid, b.laid, made->cuts);
+      a.placed.after = 0;
+      b.placed.before = 0;
+      place_after(a.placed, b.placed, made->cuts);
       b.cuts = made->cuts;
-      b.laid.standing = made->standing;
+      b.placed.standing = made->standing;
       return made->frames;
     }
   }
   auto frames = std::make_shared<Motion>();
-  const JunctionCuts cuts = setup_->weaver->join(a, b, *frames);
+  const JunctionCuts cuts = setup_->builder->join(a, b, *frames);
   if (!key.empty()) {
     base_.transitions().keep(key,
-                             std::make_shared<const MadeTransition>(MadeTransition{cuts, b.laid.standing, frames}));
+                             std::make_shared<const MadeTransition>(MadeTransition{cuts, b.placed.standing, frames}));
   }
   return frames;
 }
 
-GrowingUtterance::WovenPtr GrowingUtterance::history_of(std::int64_t next, const FrameRing& shown) const {
+LiveScore::ClipPtr LiveScore::history_of(std::int64_t next, const FrameRing& shown) const {
   const std::int64_t first = std::max(shown.begin(), next - history());
   Motion motion(setup_->header.skeleton, setup_->header.rate, next - first);
   std::vector<ScalarTrack> tracks;
@@ -136,21 +136,21 @@ GrowingUtterance::WovenPtr GrowingUtterance::history_of(std::int64_t next, const
     for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i].values.push_back(view.tracks[i]);
   }
   for (ScalarTrack& track : tracks) motion.add_track(std::move(track));
-  auto history = std::make_shared<Woven>();
+  auto history = std::make_shared<LiveClip>();
   const FrameRange all{0, motion.frame_count()};
-  history->stretch = {.recording = {},
-                      .source = std::make_shared<MemorySource>(std::move(motion)),
-                      .whole = all,
-                      .core = all,
-                      .clock = {setup_->header.rate.frame_time(), Seconds(0)},
-                      .signs = {},
-                      .kind = SourceRef::Kind::shown};
-  setup_->weaver->lay_frames(*history);
-  history->laid.core = first;
+  history->captured = {.recording = {},
+                       .source = std::make_shared<MemorySource>(std::move(motion)),
+                       .whole = all,
+                       .core = all,
+                       .clock = {setup_->header.rate.frame_time(), Seconds(0)},
+                       .signs = {},
+                       .kind = SourceRef::Kind::shown};
+  setup_->builder->place_frames(*history);
+  history->placed.core = first;
   return history;
 }
 
-void GrowingUtterance::cut(std::int64_t end) {
+void LiveScore::cut(std::int64_t end) {
   while (!events_.empty() && events_.back().frame >= static_cast<std::uint64_t>(end)) {
     if (events_.back().kind == PlayerEvent::Kind::notice) bodies_.reported.erase(events_.back().recording);
     events_.pop_back();
@@ -159,17 +159,17 @@ void GrowingUtterance::cut(std::int64_t end) {
 }
 
 /// What followed the last sign is not shown after all.
-void GrowingUtterance::end_with_last_sign() {
-  chain_.end_with(last_sign_.woven);
-  cut(tail().laid.core_end());
+void LiveScore::end_with_last_sign() {
+  chain_.end_with(last_sign_.clip);
+  cut(tail().placed.core_end());
   state_ = State::at_core;
 }
 
 /// Goes on from what is shown, whatever it is.
-void GrowingUtterance::leave(std::int64_t next, const FrameRing& shown) {
+void LiveScore::leave(std::int64_t next, const FrameRing& shown) {
   if (state_ == State::nothing) return;
-  last_sign_.woven.reset();
-  if (state_ == State::resting && next > tail().laid.core) {
+  last_sign_.clip.reset();
+  if (state_ == State::resting && next > tail().placed.core) {
     leave_rest_at(next);
   } else if (next > shown.begin()) {
     chain_.begin(history_of(next, shown));
@@ -184,34 +184,34 @@ void GrowingUtterance::leave(std::int64_t next, const FrameRing& shown) {
 }
 
 /// The rest, which is the tail, goes on no longer.
-void GrowingUtterance::leave_rest_at(std::int64_t next) {
-  tail().laid.core_frames = next - tail().laid.core;
+void LiveScore::leave_rest_at(std::int64_t next) {
+  tail().placed.core_frames = next - tail().placed.core;
   tail().key.clear();  // what follows it depends on the moment
 }
 
-void GrowingUtterance::add(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
+void LiveScore::add(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
   queue_.check(utterance, true);
   forget_places();
   queue_.add(utterance);
   if (!utterance.places.empty()) reopen(next, shown);
 }
 
-void GrowingUtterance::set_loop(bool loop, std::int64_t next, const FrameRing& shown) {
+void LiveScore::set_loop(bool loop, std::int64_t next, const FrameRing& shown) {
   queue_.set_loop(loop);
   if (queue_.has_next()) reopen(next, shown);
 }
 
 /// Something follows after all what was thought the end.
-void GrowingUtterance::reopen(std::int64_t next, const FrameRing& shown) {
+void LiveScore::reopen(std::int64_t next, const FrameRing& shown) {
   if (state_ != State::resting && state_ != State::ended) return;
-  if (last_sign_.woven != nullptr && next <= last_sign_.woven->laid.core_end()) {
+  if (last_sign_.clip != nullptr && next <= last_sign_.clip->placed.core_end()) {
     end_with_last_sign();
   } else {
     leave(next, shown);
   }
 }
 
-void GrowingUtterance::forget_places() {
+void LiveScore::forget_places() {
   const std::size_t count = queue_.forget();
   if (count == 0) return;
   std::erase_if(entries_, [&](const Entry& entry) { return entry.first < count; });
@@ -222,11 +222,11 @@ void GrowingUtterance::forget_places() {
   if (!entries_.empty()) {
     Entry& front = entries_.front();
     front.joined = false;
-    front.begin = front.core - front.woven->laid.preparation;
+    front.begin = front.core - front.clip->placed.preparation;
   }
 }
 
-void GrowingUtterance::replace(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
+void LiveScore::replace(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
   queue_.check(utterance, false);
   const bool finished = finish_sign(next);
   queue_.replace(utterance);
@@ -240,62 +240,62 @@ void GrowingUtterance::replace(const Utterance& utterance, std::int64_t next, co
 }
 
 /// Where a sign's core is shown, the timeline ends with that sign, or at once where it lasts long. False where none is.
-bool GrowingUtterance::finish_sign(std::int64_t next) {
-  if (entries_.empty() && last_sign_.woven != nullptr && next >= last_sign_.woven->laid.core &&
-      next < last_sign_.woven->laid.core_end()) {  // as it was cut when the last utterance began
+bool LiveScore::finish_sign(std::int64_t next) {
+  if (entries_.empty() && last_sign_.clip != nullptr && next >= last_sign_.clip->placed.core &&
+      next < last_sign_.clip->placed.core_end()) {  // as it was cut when the last utterance began
     end_with_last_sign();
     return true;
   }
-  const WovenPtr woven = timeline_.clip_at(next);
-  if (woven == nullptr) return false;
-  const Laid& laid = woven->laid;
-  if (woven->stretch.kind == SourceRef::Kind::rest || next < laid.core || next >= laid.core_end()) return false;
+  const ClipPtr clip = timeline_.clip_at(next);
+  if (clip == nullptr) return false;
+  const PlacedClip& placed = clip->placed;
+  if (clip->captured.kind == SourceRef::Kind::rest || next < placed.core || next >= placed.core_end()) return false;
   std::optional<std::size_t> last_place;  // none: all of its signs are finished
-  FrameRange core = woven->stretch.core;
-  FrameRange whole = woven->stretch.whole;
-  const auto entry = std::ranges::find(entries_, woven, &Entry::woven);
+  FrameRange core = clip->captured.core;
+  FrameRange whole = clip->captured.whole;
+  const auto entry = std::ranges::find(entries_, clip, &Entry::clip);
   for (std::size_t place = entry == entries_.end() ? 1 : entry->first; entry != entries_.end() && place <= entry->last;
        ++place) {
     const Candidate& candidate = queue_.chosen(place);
-    if (next >= laid.frame_of(candidate.core.end)) continue;
+    if (next >= placed.frame_of(candidate.core.end)) continue;
     core.end = candidate.core.end;
     whole.end = candidate.whole.end;
     last_place = place + queue_.forgotten();
     break;
   }
-  auto last = std::make_shared<Woven>();
-  last->stretch = woven->stretch;
-  last->stretch.core.end = core.end;
-  last->stretch.whole = whole;
+  auto last = std::make_shared<LiveClip>();
+  last->captured = clip->captured;
+  last->captured.core.end = core.end;
+  last->captured.whole = whole;
   if (last_place) {
-    const auto end = std::ranges::upper_bound(last->stretch.sign_places, *last_place);
-    const auto kept = end - last->stretch.sign_places.begin();
-    last->stretch.signs.erase(last->stretch.signs.begin() + kept, last->stretch.signs.end());
-    last->stretch.sign_places.erase(end, last->stretch.sign_places.end());
+    const auto end = std::ranges::upper_bound(last->captured.sign_places, *last_place);
+    const auto kept = end - last->captured.sign_places.begin();
+    last->captured.signs.erase(last->captured.signs.begin() + kept, last->captured.signs.end());
+    last->captured.sign_places.erase(end, last->captured.sign_places.end());
   }
-  setup_->weaver->lay_sign(*last);
-  last->laid.core = laid.core;
-  last->laid.before = laid.before;
-  last->laid.standing = woven->laid.standing;
-  last->laid.core_frames = std::min(last->laid.core_frames, laid.core_frames);
-  last->cuts = woven->cuts;
+  setup_->builder->place_sign(*last);
+  last->placed.core = placed.core;
+  last->placed.before = placed.before;
+  last->placed.standing = clip->placed.standing;
+  last->placed.core_frames = std::min(last->placed.core_frames, placed.core_frames);
+  last->cuts = clip->cuts;
   const auto soon = static_cast<std::int64_t>(kFinished.count() * setup_->header.rate.hertz());
-  if (last->laid.core_end() - next > soon) {
-    if (next == laid.core) return false;
-    last->laid.core_frames = next - laid.core;
-    last->laid.retraction = 0;
+  if (last->placed.core_end() - next > soon) {
+    if (next == placed.core) return false;
+    last->placed.core_frames = next - placed.core;
+    last->placed.retraction = 0;
   }
-  chain_.end_with(woven);
+  chain_.end_with(clip);
   chain_.replace_back(last);
-  timeline_.replace(woven, last);
-  last_sign_.woven = std::move(last);
+  timeline_.replace(clip, last);
+  last_sign_.clip = std::move(last);
   end_with_last_sign();
   return true;
 }
 
-bool GrowingUtterance::seek(std::int64_t at, std::int64_t next) {
+bool LiveScore::seek(std::int64_t at, std::int64_t next) {
   if (entries_.empty()) return false;
-  const auto end_of = [](const Entry& entry) { return entry.core + entry.woven->laid.core_frames; };
+  const auto end_of = [](const Entry& entry) { return entry.core + entry.clip->placed.core_frames; };
   // A loop that has just begun anew: the round before tells what comes later.
   const bool earlier = at >= end_of(entries_.back()) && !last_round_.empty();
   const std::vector<Entry>& entries = earlier ? last_round_ : entries_;
@@ -303,49 +303,49 @@ bool GrowingUtterance::seek(std::int64_t at, std::int64_t next) {
   std::size_t index = entries.size() - 1;
   while (index > 0 && entries[index].begin > at) --index;
   const Entry& entry = entries[index];
-  const WovenPtr woven = entry.woven;
-  WovenPtr before_it;
+  const ClipPtr clip = entry.clip;
+  ClipPtr before_it;
   std::shared_ptr<const Motion> made;
   if (at < entry.core && entry.joined) {
-    before_it = entries[index - 1].woven;
-    Woven& before = *before_it;
-    const Laid was = before.laid;
-    const Laid will = woven->laid;
-    before.laid.core = next - (at - entries[index - 1].core);
+    before_it = entries[index - 1].clip;
+    LiveClip& before = *before_it;
+    const PlacedClip was = before.placed;
+    const PlacedClip will = clip->placed;
+    before.placed.core = next - (at - entries[index - 1].core);
     try {
-      made = join(before, *woven);
+      made = join(before, *clip);
     } catch (const Error&) {  // nothing has changed
-      before.laid = was;
-      woven->laid = will;
+      before.placed = was;
+      clip->placed = will;
       throw;
     }
   } else {
-    woven->laid.core = next + entry.core - at;
+    clip->placed.core = next + entry.core - at;
   }
   cut(next);
   timeline_.begin_anew(next);
   events_.push_back({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
   if (made != nullptr) {
     chain_.begin(std::move(before_it));
-    chain_.add(woven);
-    timeline_.append({next, woven->laid.core}, std::move(made));
+    chain_.add(clip);
+    timeline_.append({next, clip->placed.core}, std::move(made));
   } else {
-    woven->cuts.reset();
-    chain_.begin(woven);
-    timeline_.append({next, woven->laid.core}, woven);
+    clip->cuts.reset();
+    chain_.begin(clip);
+    timeline_.append({next, clip->placed.core}, clip);
   }
-  timeline_.append({std::max(next, woven->laid.core), woven->laid.core_end()}, woven);
+  timeline_.append({std::max(next, clip->placed.core), clip->placed.core_end()}, clip);
   if (earlier) entries_ = std::move(last_round_);
   last_round_.clear();
   entries_.resize(index + 1);
   queue_.go_on_at(entries_.back().last + 1);
-  last_sign_ = {.woven = woven, .signs = {}};
+  last_sign_ = {.clip = clip, .signs = {}};
   state_ = State::at_core;
   report_places(entries_.back(), next);
   return true;
 }
 
-void GrowingUtterance::read(std::int64_t until, FrameRing& ring) {
+void LiveScore::read(std::int64_t until, FrameRing& ring) {
   const std::size_t joints = setup_->header.skeleton->joint_count();
   while (ring.end() < until) {
     const std::int64_t end_of_same = timeline_.end_of_same(ring.end());
@@ -353,7 +353,7 @@ void GrowingUtterance::read(std::int64_t until, FrameRing& ring) {
     if (count <= 0) return;
     const MutablePoses poses = ring.poses(count);
     try {
-      timeline_.read({ring.end(), ring.end() + count}, *setup_->weaver, ring);
+      timeline_.read({ring.end(), ring.end() + count}, *setup_->builder, ring);
     } catch (const Error&) {
       go_on_from(ring);
       throw;
@@ -370,35 +370,35 @@ void GrowingUtterance::read(std::int64_t until, FrameRing& ring) {
   }
 }
 
-void GrowingUtterance::let_go(std::int64_t taken) noexcept {
+void LiveScore::let_go(std::int64_t taken) noexcept {
   open_.close();
   timeline_.forget(taken);
 }
 
-std::optional<PlayerEvent> GrowingUtterance::take_event(std::int64_t frame) noexcept {
+std::optional<PlayerEvent> LiveScore::take_event(std::int64_t frame) noexcept {
   if (events_.empty() || events_.front().frame > static_cast<std::uint64_t>(frame)) return std::nullopt;
   std::optional<PlayerEvent> event(std::move(events_.front()));
   events_.pop_front();
   return event;
 }
 
-bool GrowingUtterance::idle(std::int64_t frame) const noexcept {
+bool LiveScore::idle(std::int64_t frame) const noexcept {
   if (queue_.has_next()) return false;
   return state_ == State::nothing || (state_ == State::ended && frame >= end()) ||
-         (state_ == State::resting && frame >= tail().laid.core);
+         (state_ == State::resting && frame >= tail().placed.core);
 }
 
-Milliseconds GrowingUtterance::end_of_last_sign() const noexcept {
-  return entries_.empty() ? Milliseconds(0) : time_of(entries_.back().core + entries_.back().woven->laid.core_frames);
+Milliseconds LiveScore::end_of_last_sign() const noexcept {
+  return entries_.empty() ? Milliseconds(0) : time_of(entries_.back().core + entries_.back().clip->placed.core_frames);
 }
 
-Milliseconds GrowingUtterance::time_of(std::int64_t frames) const noexcept {
+Milliseconds LiveScore::time_of(std::int64_t frames) const noexcept {
   return Milliseconds(std::llround(static_cast<double>(frames) * 1000.0 / setup_->header.rate.hertz()));
 }
 
-std::optional<LiveScore> GrowingUtterance::score(std::int64_t next, std::size_t most_clips) const {
+std::optional<ShownScore> LiveScore::score(std::int64_t next, std::size_t most_clips) const {
   if (!setup_) return std::nullopt;
-  return chain_.score(*setup_->weaver, setup_->skeleton, next, end(), most_clips);
+  return chain_.score(*setup_->builder, setup_->skeleton, next, end(), most_clips);
 }
 
 }  // namespace signweave

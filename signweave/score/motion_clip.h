@@ -17,8 +17,8 @@
 
 namespace signweave {
 
-/// A stretch of a recording, ready to be joined. Its frames are read when they are needed, straight into the result.
-struct Stretch {
+/// A clip of a recording, ready to be joined. Its frames are read when they are needed, straight into the result.
+struct MotionClip {
   std::string recording;                       ///< empty of frames that are of none
   std::shared_ptr<const MotionSource> source;  ///< the recording's motion
   FrameRange whole;         ///< what may be used of it: the core with the first preparation and the last retraction
@@ -36,14 +36,14 @@ struct Stretch {
   std::shared_ptr<const CaptureNoise> noise = nullptr;
 };
 
-/// The place that one of its signs is of; `number`: the place of a stretch that names none.
-inline std::size_t place_of_sign(const Stretch& stretch, std::size_t sign, std::size_t number) {
-  return stretch.sign_places.empty() ? stretch.place.value_or(number) : stretch.sign_places[sign];
+/// The place that one of its signs is of; `number`: the place of a clip that names none.
+inline std::size_t place_of_sign(const MotionClip& clip, std::size_t sign, std::size_t number) {
+  return clip.sign_places.empty() ? clip.place.value_or(number) : clip.sign_places[sign];
 }
 
-/// Where a stretch is from, as a score names it.
-inline SourceRef source_of(const Stretch& stretch) {
-  return {stretch.kind, stretch.recording, stretch.fingerprint};
+/// Where a clip is from, as a score names it.
+inline SourceRef source_of(const MotionClip& clip) {
+  return {clip.kind, clip.recording, clip.fingerprint};
 }
 
 /// Which joint of the result is what.

@@ -5,13 +5,13 @@
 #include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/core/error.h"
-#include "signweave/live/growing_utterance.h"
+#include "signweave/live/live_score.h"
 #include "signweave/retarget/retargeted_source.h"
 
 // How places are signed; where their frames come to lie is in growing_utterance.cpp.
 namespace signweave {
 
-Stretch GrowingUtterance::stretch_of(const PlaceQueue::Decision& decision, std::size_t place) {
+MotionClip LiveScore::clip_of(const PlaceQueue::Decision& decision, std::size_t place) {
   const Candidate& candidate = decision.candidate;
   const RecordingInfo& info = decision.contents->recordings[candidate.recording];
   const auto own = std::make_shared<RecordingSource>(open_, info);
@@ -29,8 +29,8 @@ Stretch GrowingUtterance::stretch_of(const PlaceQueue::Decision& decision, std::
 }
 
 /// A recording's motion on the stream's skeleton.
-std::shared_ptr<const MotionSource> GrowingUtterance::on_skeleton(const RecordingInfo& info,
-                                                                  std::shared_ptr<const MotionSource> source) {
+std::shared_ptr<const MotionSource> LiveScore::on_skeleton(const RecordingInfo& info,
+                                                           std::shared_ptr<const MotionSource> source) {
   if (!setup_ || have_same_joints(setup_->header.skeleton, source->skeleton())) return source;
   std::weak_ptr<const MotionSource>& known = bodies_.shown[info.motion->generation];
   std::shared_ptr<const MotionSource> shown = known.lock();
@@ -42,120 +42,120 @@ std::shared_ptr<const MotionSource> GrowingUtterance::on_skeleton(const Recordin
 }
 
 /// How the stream is signed, and how a recording of another skeleton is shown: once each.
-void GrowingUtterance::report_manner(const Entry& entry) {
+void LiveScore::report_manner(const Entry& entry) {
   const auto report = [&](const std::vector<Notice>& notices) {
     for (const Notice& notice : notices) {
       events_.push_back({.kind = PlayerEvent::Kind::notice,
-                         .frame = static_cast<std::uint64_t>(entry.woven->laid.core),
+                         .frame = static_cast<std::uint64_t>(entry.clip->placed.core),
                          .place = entry.first + queue_.forgotten(),
                          .recording = notice.where,
                          .text = notice.text});
     }
   };
   if (bodies_.reported.insert(std::string()).second) report(setup_->notices);
-  const auto* const shown = dynamic_cast<const RetargetedSource*>(entry.woven->stretch.source.get());
-  if (shown == nullptr || !bodies_.reported.insert(entry.woven->stretch.recording).second) return;
+  const auto* const shown = dynamic_cast<const RetargetedSource*>(entry.clip->captured.source.get());
+  if (shown == nullptr || !bodies_.reported.insert(entry.clip->captured.recording).second) return;
   report(shown->mapping().notices);
 }
 
-void GrowingUtterance::rest_in(const std::string& recording) {
+void LiveScore::rest_in(const std::string& recording) {
   const std::shared_ptr<const Contents>& contents = open_.snapshot().shared_contents();
   const RecordingInfo& info = contents->at(recording);
   if (!info.motion) throw Error(ErrorCode::not_found, fmt::format("recording '{}' has no motion", info.name));
   const FrameRange all{0, info.motion->frames};
-  const Stretch first{.recording = info.name,
-                      .source = std::make_shared<RecordingSource>(open_, info),
-                      .whole = all,
-                      .core = clamp({0, kBodyFrames}, info.motion->frames),
-                      .clock = info.clock,
-                      .signs = {},
-                      .fingerprint = info.motion_fingerprint};
+  const MotionClip first{.recording = info.name,
+                         .source = std::make_shared<RecordingSource>(open_, info),
+                         .whole = all,
+                         .core = clamp({0, kBodyFrames}, info.motion->frames),
+                         .clock = info.clock,
+                         .signs = {},
+                         .fingerprint = info.motion_fingerprint};
   setup_ = set_up(base_, open_.snapshot(), contents, first, options_);
   if (options_.idle != Idle::living_rest) return;
-  chain_.begin(lay_rest(*setup_));
-  tail().laid.core = end();
+  chain_.begin(place_rest(*setup_));
+  tail().placed.core = end();
   state_ = State::resting;
 }
 
 /// Joins the next place to what is there, and the places after it that stay together with it.
-void GrowingUtterance::sign_next() {
+void LiveScore::sign_next() {
   if (queue_.begins_anew()) {
     last_round_ = std::exchange(entries_, {});
     last_sign_.signs.reset();
   }
   const std::size_t first = queue_.take_next();  // whatever happens, it is not tried again
   const PlaceQueue::Decision& decision = queue_.decide(first);
-  if (state_ == State::at_core && last_sign_.signs && chain_.back() == last_sign_.woven && !entries_.empty() &&
+  if (state_ == State::at_core && last_sign_.signs && chain_.back() == last_sign_.clip && !entries_.empty() &&
       queue_.follows(*last_sign_.signs, first)) {
     go_on_as_captured(first);
     return;
   }
-  auto woven = std::make_shared<Woven>();
-  woven->stretch = stretch_of(decision, first);
+  auto clip = std::make_shared<LiveClip>();
+  clip->captured = clip_of(decision, first);
   Candidate signs = decision.candidate;
   std::size_t last = first;
-  std::vector<std::size_t> sign_places(signs.signs.size(), *woven->stretch.place);
+  std::vector<std::size_t> sign_places(signs.signs.size(), *clip->captured.place);
   while (queue_.will_follow(signs, last + 1)) {
     const Candidate& next = queue_.chosen(++last);
     sign_places.insert(sign_places.end(), next.signs.size(), last + queue_.forgotten());
-    go_on_with(signs, next);
+    extend_with(signs, next);
   }
-  woven->stretch.core = signs.core;
-  woven->stretch.whole = signs.whole;
-  woven->stretch.signs = signs.signs;
-  woven->stretch.sign_places = std::move(sign_places);
-  if (!setup_) setup_ = set_up(base_, open_.snapshot(), decision.contents, woven->stretch, options_);
-  setup_->weaver->lay_sign(*woven);
-  woven->key = key_of(woven->stretch);
+  clip->captured.core = signs.core;
+  clip->captured.whole = signs.whole;
+  clip->captured.signs = signs.signs;
+  clip->captured.sign_places = std::move(sign_places);
+  if (!setup_) setup_ = set_up(base_, open_.snapshot(), decision.contents, clip->captured, options_);
+  setup_->builder->place_sign(*clip);
+  clip->key = key_of(clip->captured);
 
-  Entry entry{.woven = woven, .first = first, .last = last};
+  Entry entry{.clip = clip, .first = first, .last = last};
   if (state_ == State::nothing && options_.idle == Idle::living_rest) {  // out of a rest that nobody saw
-    chain_.begin(lay_rest(*setup_));
-    tail().laid.core_frames = history();
-    tail().laid.core = end() - history();
+    chain_.begin(place_rest(*setup_));
+    tail().placed.core_frames = history();
+    tail().placed.core = end() - history();
   } else if (state_ == State::resting) {
     leave_rest_at(end());
   }
   if (chain_.empty()) {
-    woven->laid.before = woven->laid.preparation;
-    woven->laid.core = end() + woven->laid.preparation;
-    setup_->weaver->place(*woven);
-    timeline_.append({end(), woven->laid.core}, woven);
-    entry.core = woven->laid.preparation;
-    chain_.begin(woven);
+    clip->placed.before = clip->placed.preparation;
+    clip->placed.core = end() + clip->placed.preparation;
+    setup_->builder->place_first(*clip);
+    timeline_.append({end(), clip->placed.core}, clip);
+    entry.core = clip->placed.preparation;
+    chain_.begin(clip);
   } else {
-    std::shared_ptr<const Motion> made = join(tail(), *woven);
-    entry.joined = !entries_.empty() && chain_.back() == entries_.back().woven;
-    if (!entries_.empty()) entry.begin = entries_.back().core + entries_.back().woven->laid.core_frames;
-    entry.core = entry.begin + (entry.joined ? made->frame_count() : woven->laid.preparation);
-    timeline_.append({end(), woven->laid.core}, std::move(made));
-    chain_.add(woven);
+    std::shared_ptr<const Motion> made = join(tail(), *clip);
+    entry.joined = !entries_.empty() && chain_.back() == entries_.back().clip;
+    if (!entries_.empty()) entry.begin = entries_.back().core + entries_.back().clip->placed.core_frames;
+    entry.core = entry.begin + (entry.joined ? made->frame_count() : clip->placed.preparation);
+    timeline_.append({end(), clip->placed.core}, std::move(made));
+    chain_.add(clip);
   }
-  timeline_.append({end(), woven->laid.core_end()}, woven);
+  timeline_.append({end(), clip->placed.core_end()}, clip);
   queue_.go_on_at(last + 1);
   entries_.push_back(std::move(entry));
-  last_sign_ = {.woven = std::move(woven), .signs = std::move(signs)};
+  last_sign_ = {.clip = std::move(clip), .signs = std::move(signs)};
   state_ = State::at_core;
   report_manner(entries_.back());
   report_places(entries_.back(), 0);
 }
 
 /// The place goes on from the tail in its recording: the tail becomes longer.
-void GrowingUtterance::go_on_as_captured(std::size_t place) {
+void LiveScore::go_on_as_captured(std::size_t place) {
   const Candidate& candidate = queue_.chosen(place);
-  go_on_with(*last_sign_.signs, candidate);
-  Woven& woven = tail();
-  const Laid before = woven.laid;
-  woven.stretch.core.end = candidate.core.end;
-  woven.stretch.whole.end = candidate.whole.end;
-  woven.stretch.signs = last_sign_.signs->signs;
-  woven.stretch.sign_places.resize(woven.stretch.signs.size(), place + queue_.forgotten());
-  setup_->weaver->lay_sign(woven);
-  woven.laid.core = before.core;
-  woven.laid.before = before.before;
-  woven.laid.standing = before.standing;
-  woven.key.clear();  // it stands where its beginning alone was brought
-  timeline_.append({end(), woven.laid.core_end()}, chain_.back());
+  extend_with(*last_sign_.signs, candidate);
+  LiveClip& clip = tail();
+  const PlacedClip before = clip.placed;
+  clip.captured.core.end = candidate.core.end;
+  clip.captured.whole.end = candidate.whole.end;
+  clip.captured.signs = last_sign_.signs->signs;
+  clip.captured.sign_places.resize(clip.captured.signs.size(), place + queue_.forgotten());
+  setup_->builder->place_sign(clip);
+  clip.placed.core = before.core;
+  clip.placed.before = before.before;
+  clip.placed.standing = before.standing;
+  clip.key.clear();  // it stands where its beginning alone was brought
+  timeline_.append({end(), clip.placed.core_end()}, chain_.back());
   entries_.back().last = place;
   Entry now = entries_.back();
   now.first = place;
@@ -163,17 +163,17 @@ void GrowingUtterance::go_on_as_captured(std::size_t place) {
 }
 
 /// Events of the places whose strokes begin at or after a frame.
-void GrowingUtterance::report_places(const Entry& entry, std::int64_t from) {
-  const Laid& laid = entry.woven->laid;
+void LiveScore::report_places(const Entry& entry, std::int64_t from) {
+  const PlacedClip& placed = entry.clip->placed;
   for (std::size_t place = entry.first; place <= entry.last; ++place) {
     const Candidate& candidate = queue_.chosen(place);
-    const std::int64_t frame = laid.frame_of(candidate.core.begin);
+    const std::int64_t frame = placed.frame_of(candidate.core.begin);
     for (const Sign& sign : candidate.left_out) {
       events_.push_back({.kind = PlayerEvent::Kind::notice,
                          .frame = static_cast<std::uint64_t>(std::max(frame, from)),
                          .place = place + queue_.forgotten(),
-                         .recording = entry.woven->stretch.recording,
-                         .text = notice_left_out(entry.woven->stretch.recording, sign).text});
+                         .recording = entry.clip->captured.recording,
+                         .text = notice_left_out(entry.clip->captured.recording, sign).text});
     }
     if (frame < from) continue;
     events_.push_back({.kind = PlayerEvent::Kind::place,
@@ -181,9 +181,9 @@ void GrowingUtterance::report_places(const Entry& entry, std::int64_t from) {
                        .place = place + queue_.forgotten(),
                        .gloss = candidate.signs.empty() ? std::string() : candidate.gloss(),
                        .token = candidate.token,
-                       .recording = entry.woven->stretch.recording,
-                       .clip = entry.woven->number,
-                       .at = time_of(entry.core + frame - laid.core)});
+                       .recording = entry.clip->captured.recording,
+                       .clip = entry.clip->number,
+                       .at = time_of(entry.core + frame - placed.core)});
   }
 }
 

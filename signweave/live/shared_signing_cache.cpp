@@ -1,4 +1,4 @@
-#include "signweave/live/signing_base.h"
+#include "signweave/live/shared_signing_cache.h"
 
 #include <fmt/format.h>
 
@@ -26,10 +26,10 @@ constexpr std::size_t kMostRests = 64;
 
 }  // namespace
 
-SigningBase::SigningBase(const Database& database, std::size_t cached_bytes)
+SharedSigningCache::SharedSigningCache(const Database& database, std::size_t cached_bytes)
     : database_(database), transitions_(cached_bytes) {}
 
-SigningBase::Known& SigningBase::of(const std::shared_ptr<const Contents>& contents) {
+SharedSigningCache::Known& SharedSigningCache::of(const std::shared_ptr<const Contents>& contents) {
   if (known_.contents != contents) {
     const std::uint64_t number = known_.number + 1;
     known_ = {};
@@ -40,15 +40,15 @@ SigningBase::Known& SigningBase::of(const std::shared_ptr<const Contents>& conte
   return known_;
 }
 
-std::uint64_t SigningBase::state_number(const std::shared_ptr<const Contents>& contents) {
+std::uint64_t SharedSigningCache::state_number(const std::shared_ptr<const Contents>& contents) {
   const std::lock_guard lock(mutex_);
   return of(contents).number;
 }
 
 /// `find` gives the place of a value among what is known; where it is empty, `make` makes the value, with no lock held.
 template <typename Value, typename Find, typename Make>
-std::shared_ptr<const Value> SigningBase::look_up(const std::shared_ptr<const Contents>& contents, Find find,
-                                                  Make make) {
+std::shared_ptr<const Value> SharedSigningCache::look_up(const std::shared_ptr<const Contents>& contents, Find find,
+                                                         Make make) {
   {
     const std::lock_guard lock(mutex_);
     if (std::shared_ptr<const Value>& known = find(of(contents))) return known;
@@ -60,7 +60,7 @@ std::shared_ptr<const Value> SigningBase::look_up(const std::shared_ptr<const Co
   return known;
 }
 
-void SigningBase::warm_up() {
+void SharedSigningCache::warm_up() {
   const Snapshot snapshot = database_.snapshot();
   const std::shared_ptr<const Contents>& contents = snapshot.shared_contents();
   durations(contents, {});
@@ -75,28 +75,28 @@ void SigningBase::warm_up() {
     if (!info.motion || ++looked_at > kMostRests) continue;
     const FrameRange all{0, info.motion->frames};
     try {
-      const Stretch stretch{.recording = info.name,
+      const MotionClip clip{.recording = info.name,
                             .source = std::make_shared<RecordingSource>(open, info),
                             .whole = all,
                             .core = clamp({0, kBodyFrames}, info.motion->frames),
                             .clock = info.clock,
                             .signs = {}};
-      rest(snapshot, stretch, *rig(snapshot, info.name));
+      rest(snapshot, clip, *rig(snapshot, info.name));
     } catch (const Error& error) {  // told when it is signed
       if (error.code() != ErrorCode::corrupt) throw;
     }
   }
 }
 
-std::shared_ptr<const DurationFit> SigningBase::durations(const std::shared_ptr<const Contents>& contents,
-                                                          const DurationModel& model) {
+std::shared_ptr<const DurationFit> SharedSigningCache::durations(const std::shared_ptr<const Contents>& contents,
+                                                                 const DurationModel& model) {
   if (model.fixed) return std::make_shared<const DurationFit>(DurationFit{.mean = *model.fixed});
   return look_up<DurationFit>(
       contents, [&](Known & known) -> auto& { return known.durations[model.fitted]; },
       [&] { return durations_of(*contents, *database_.snapshot().learned(), model); });
 }
 
-void SigningBase::check(const std::shared_ptr<const Contents>& contents, const std::vector<Place>& places) {
+void SharedSigningCache::check(const std::shared_ptr<const Contents>& contents, const std::vector<Place>& places) {
   std::vector<const Place*> unknown;
   {
     const std::lock_guard lock(mutex_);
@@ -115,8 +115,8 @@ void SigningBase::check(const std::shared_ptr<const Contents>& contents, const s
   }
 }
 
-std::shared_ptr<const std::vector<Candidate>> SigningBase::candidates(const std::shared_ptr<const Contents>& contents,
-                                                                      const Place& place) {
+std::shared_ptr<const std::vector<Candidate>> SharedSigningCache::candidates(
+    const std::shared_ptr<const Contents>& contents, const Place& place) {
   if (place.kind != Place::Kind::gloss) {
     return std::make_shared<const std::vector<Candidate>>(candidates_for(*contents, place));
   }
@@ -135,7 +135,7 @@ std::shared_ptr<const std::vector<Candidate>> SigningBase::candidates(const std:
   return known.candidates.try_emplace(std::move(key), std::move(made)).first->second;
 }
 
-std::shared_ptr<const SignerRig> SigningBase::rig(const Snapshot& snapshot, const std::string& recording) {
+std::shared_ptr<const SignerRig> SharedSigningCache::rig(const Snapshot& snapshot, const std::string& recording) {
   return look_up<SignerRig>(
       snapshot.shared_contents(),
       [&](Known & known) -> auto& {
@@ -145,20 +145,20 @@ std::shared_ptr<const SignerRig> SigningBase::rig(const Snapshot& snapshot, cons
       [&] { return signer_rig_of(snapshot, snapshot.contents().at(recording)); });
 }
 
-std::shared_ptr<const CapturedSpans> SigningBase::spans(const Snapshot& snapshot, const Stretch& stretch,
-                                                        const SignerRig& rig, Needs needs) {
+std::shared_ptr<const CapturedSpans> SharedSigningCache::spans(const Snapshot& snapshot, const MotionClip& clip,
+                                                               const SignerRig& rig, Needs needs) {
   return look_up<CapturedSpans>(
       snapshot.shared_contents(),
       [&](Known & known) -> auto& {
-        return known.spans[{stretch.recording, needs}];
+        return known.spans[{clip.recording, needs}];
       },
-      [&] { return captured_spans(snapshot, *stretch.source->skeleton(), rig.groups, needs); });
+      [&] { return captured_spans(snapshot, *clip.source->skeleton(), rig.groups, needs); });
 }
 
-std::shared_ptr<const KnownRest> SigningBase::rest(const Snapshot& snapshot, const Stretch& stretch,
-                                                   const SignerRig& rig) {
-  const RecordingInfo& info = snapshot.contents().at(stretch.recording);
-  const std::shared_ptr<const Skeleton>& skeleton = stretch.source->skeleton();
+std::shared_ptr<const KnownRest> SharedSigningCache::rest(const Snapshot& snapshot, const MotionClip& clip,
+                                                          const SignerRig& rig) {
+  const RecordingInfo& info = snapshot.contents().at(clip.recording);
+  const std::shared_ptr<const Skeleton>& skeleton = clip.source->skeleton();
   const auto look = [&]() -> std::shared_ptr<const KnownRest> {
     for (const auto& known : of(snapshot.shared_contents()).rests) {
       if (known->signer == info.signer && (known->skeleton == skeleton || *known->skeleton == *skeleton)) return known;
@@ -179,8 +179,8 @@ std::shared_ptr<const KnownRest> SigningBase::rest(const Snapshot& snapshot, con
   return made;
 }
 
-std::shared_ptr<const BodyMapping> SigningBase::mapping(const Snapshot& snapshot, const std::string& recording,
-                                                        const std::string& onto, const Skeleton& skeleton) {
+std::shared_ptr<const BodyMapping> SharedSigningCache::mapping(const Snapshot& snapshot, const std::string& recording,
+                                                               const std::string& onto, const Skeleton& skeleton) {
   return look_up<BodyMapping>(
       snapshot.shared_contents(),
       [&](Known & known) -> auto& {
@@ -202,7 +202,7 @@ std::shared_ptr<const BodyMapping> SigningBase::mapping(const Snapshot& snapshot
       });
 }
 
-std::vector<std::string> SigningBase::tracks(const Contents& contents, const std::string& recording) const {
+std::vector<std::string> SharedSigningCache::tracks(const Contents& contents, const std::string& recording) const {
   std::vector<std::string> names;
   const auto add = [&](const RecordingInfo& info) {
     if (!info.motion) return;
@@ -215,7 +215,7 @@ std::vector<std::string> SigningBase::tracks(const Contents& contents, const std
   return names;
 }
 
-std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> SigningBase::declarations(
+std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> SharedSigningCache::declarations(
     const std::shared_ptr<const Contents>& contents) {
   using Declarations = std::vector<std::pair<std::string, std::string>>;
   return look_up<Declarations>(

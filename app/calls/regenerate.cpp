@@ -1,4 +1,4 @@
-#include "app/calls/remake.h"
+#include "app/calls/regenerate.h"
 
 #include <fmt/format.h>
 
@@ -115,15 +115,15 @@ void remake(const Snapshot& snapshot, const RemakeJob& job, Motion& motion, std:
     }
   }
   const FrameRange all{0, source->frame_count()};
-  const std::vector<Stretch> stretches = stretches_beside(
+  const std::vector<MotionClip> clips = clips_around(
       job.gaps, {.recording = job.info.name, .source = source, .whole = all, .core = all, .clock = job.info.clock});
   std::vector<std::int64_t> counts;
   for (const FrameRange& gap : job.gaps) counts.push_back(gap.size());
-  Renderer renderer(plan_with_gaps(stretches, counts), {.skeleton = source->skeleton(),
-                                                        .rate = source->rate(),
-                                                        .method = &job.method,
-                                                        .rig = &rig,
-                                                        .model = captured.model.get()});
+  Renderer renderer(plan_with_gaps(clips, counts), {.skeleton = source->skeleton(),
+                                                    .rate = source->rate(),
+                                                    .method = &job.method,
+                                                    .rig = &rig,
+                                                    .model = captured.model.get()});
   const Wanted wanted = wanted_of(*source->skeleton(), job.joints);
   std::vector<ScalarTrack> tracks = motion.take_tracks();
   Motion made;

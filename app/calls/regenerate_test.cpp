@@ -1,4 +1,4 @@
-#include "app/calls/remake.h"
+#include "app/calls/regenerate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

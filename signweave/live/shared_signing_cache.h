@@ -33,9 +33,9 @@ struct KnownRest {
 /// What many players of one database share and what does not depend on what they sign: how long transitions last, which
 /// joint is what, where a signer rests, the tokens of a gloss. Made when it is first asked for, and again after a
 /// change of the database. Threads may share it; it must outlive its players, and the database it.
-class SigningBase {
+class SharedSigningCache {
  public:
-  explicit SigningBase(const Database& database, std::size_t cached_bytes = kCachedBytes);
+  explicit SharedSigningCache(const Database& database, std::size_t cached_bytes = kCachedBytes);
   static constexpr std::size_t kCachedBytes = std::size_t{256} << 20;
 
   const Database& database() const noexcept { return database_; }
@@ -56,10 +56,10 @@ class SigningBase {
   /// As `signer_rig_of` for a recording.
   std::shared_ptr<const SignerRig> rig(const Snapshot& snapshot, const std::string& recording);
   /// As `captured_spans`, for the skeleton of a recording.
-  std::shared_ptr<const CapturedSpans> spans(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig,
+  std::shared_ptr<const CapturedSpans> spans(const Snapshot& snapshot, const MotionClip& clip, const SignerRig& rig,
                                              Needs needs);
   /// Where the signer of a recording rests, in one of the signer's recordings.
-  std::shared_ptr<const KnownRest> rest(const Snapshot& snapshot, const Stretch& stretch, const SignerRig& rig);
+  std::shared_ptr<const KnownRest> rest(const Snapshot& snapshot, const MotionClip& clip, const SignerRig& rig);
   /// How a recording's motion is put onto the skeleton of `onto`, which has other joints. Throws what `map_body`
   /// throws; Error{conflict} where `onto` was removed since, or has no longer that skeleton.
   std::shared_ptr<const BodyMapping> mapping(const Snapshot& snapshot, const std::string& recording,

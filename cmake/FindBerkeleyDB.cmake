@@ -1,4 +1,4 @@
-# Berkeley DB 5.3, which brings neither a pkg-config file nor a CMake package: BerkeleyDB::berkeley.
+# Berkeley DB 5.3, which has neither a pkg-config file nor a CMake package: BerkeleyDB::berkeley.
 find_path(BerkeleyDB_INCLUDE_DIR db.h)
 find_library(BerkeleyDB_LIBRARY NAMES db-5.3 db)
 if(BerkeleyDB_INCLUDE_DIR)

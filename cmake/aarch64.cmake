@@ -1,5 +1,5 @@
-# For CMAKE_TOOLCHAIN_FILE: Debian's cross compiler for aarch64, and the libraries of that architecture beside this machine's own
-# (scripts/setup --arm64). Programs for it, such as tests, are run by qemu.
+# For CMAKE_TOOLCHAIN_FILE: Debian's cross compiler for aarch64, and the libraries of that architecture, which are
+# installed alongside this machine's own (scripts/setup --arm64). qemu runs programs for it, such as tests.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)

@@ -1,5 +1,5 @@
-# cmake -DCMAKE_PROJECT_signweave_INCLUDE=cmake/alone.cmake: every source is compiled by itself and without precompiled headers, so that
-# each has its own row in compile_commands.json. For tools that read sources one by one (scripts/tidy).
+# cmake -DCMAKE_PROJECT_signweave_INCLUDE=cmake/alone.cmake: compiles every source separately and without precompiled
+# headers, so that each has its own row in compile_commands.json. For tools that read sources one by one (scripts/tidy).
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 

@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 # cmake -DROOT=… -DLAYERS=layers.txt -P check_layers.cmake
-# Fails on an #include of a signweave module that the including module does not name in its DEPENDS, and on a folder of
-# signweave/ that is no module.
+# Fails if a file includes a signweave module that its own module does not name in DEPENDS, and if a folder of signweave/
+# is not a module.
 get_filename_component(ROOT ${ROOT} ABSOLUTE)
 file(STRINGS ${LAYERS} rows)
 set(faults "")
@@ -34,7 +34,7 @@ endforeach()
 file(GLOB folders LIST_DIRECTORIES true RELATIVE ${ROOT}/signweave ${ROOT}/signweave/*)
 foreach(folder IN LISTS folders)
   if(IS_DIRECTORY ${ROOT}/signweave/${folder} AND NOT folder IN_LIST modules)
-    list(APPEND faults "signweave/${folder}: a folder that is no module")
+    list(APPEND faults "signweave/${folder}: a folder that is not a module")
   endif()
 endforeach()
 if(checked EQUAL 0)

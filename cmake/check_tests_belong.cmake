@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 # cmake -DROOT=… -DBUILT=tested.txt -P check_tests_belong.cmake
-# Fails on a *_test.cpp of the tree that no test program is made from. BUILT lists those of all test programs, one a line.
-# Fails also on a *.test.* outside studio/, where nothing would run it; those of the studio are checked by its lint.
+# Fails if a *_test.cpp of the tree belongs to no test program. BUILT lists the files of all test programs, one per line.
+# Also fails if there is a *.test.* outside studio/, where nothing would run it; the studio's lint checks its own.
 file(STRINGS ${BUILT} built)
 get_filename_component(ROOT ${ROOT} ABSOLUTE)
 file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/*_test.cpp)
@@ -9,13 +9,13 @@ list(FILTER found EXCLUDE REGEX "(^|/)(build|out|node_modules)/|belong_wrong/")
 set(lost "")
 foreach(file IN LISTS found)
   if(NOT file IN_LIST built)
-    list(APPEND lost "${file}: no test program is made from it, so call signweave_tests or signweave_module in its folder")
+    list(APPEND lost "${file}: it belongs to no test program; call signweave_tests or signweave_module in its folder")
   endif()
 endforeach()
 file(GLOB_RECURSE scripts RELATIVE ${ROOT} ${ROOT}/*.test.*)
 list(FILTER scripts EXCLUDE REGEX "(^|/)(build|out|node_modules)/|belong_wrong/|^studio/")
 foreach(file IN LISTS scripts)
-  list(APPEND lost "${file}: nothing runs a test of this ending outside studio/")
+  list(APPEND lost "${file}: nothing runs a test with this extension outside studio/")
 endforeach()
 list(LENGTH found count)
 if(count EQUAL 0)

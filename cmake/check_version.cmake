@@ -1,11 +1,11 @@
 cmake_minimum_required(VERSION 3.25)
 # cmake -DROOT=… -P check_version.cmake
-# Fails unless the version that project() states in CMakeLists.txt is stated there only. Changelogs, lock files of npm and the data
-# of tests may name versions of their own.
+# Fails unless the version that project() states in CMakeLists.txt is stated only there. Changelogs, npm lock files and
+# test data may name versions of their own.
 get_filename_component(ROOT ${ROOT} ABSOLUTE)
 file(STRINGS ${ROOT}/CMakeLists.txt project REGEX "^project\\([a-z]+ VERSION [0-9.]+")
 if(NOT project MATCHES "VERSION ([0-9.]+)")
-  message(FATAL_ERROR "version: project() in ${ROOT}/CMakeLists.txt states none")
+  message(FATAL_ERROR "version: project() in ${ROOT}/CMakeLists.txt states no version")
 endif()
 set(version ${CMAKE_MATCH_1})
 string(REPLACE "." "\\." pattern ${version})

@@ -1,5 +1,5 @@
-# Run by CPack between installing and packing: adds to both packages the copyright and the changelogs that Debian asks for, and the
-# manual page, which help2man makes from the help of the program.
+# Run by CPack between installing and packing: adds the copyright and the changelogs that Debian requires to both
+# packages, and the manual page, which help2man generates from the program's help.
 set(source ${CPACK_SIGNWEAVE_SOURCE_DIR})
 
 function(run)
@@ -9,7 +9,7 @@ function(run)
   endif()
 endfunction()
 
-# One field of a control file: lines after the first begin with a blank, and empty ones hold a dot.
+# Formats one field of a control file: lines after the first begin with a blank, and empty lines contain a dot.
 function(as_field text result)
   string(STRIP "${text}" text)
   string(REPLACE "\n\n" "\n.\n" text "${text}")
@@ -23,7 +23,7 @@ string(REGEX MATCH "Copyright ([0-9]+[^\n]*)" holder "${notice}")
 set(holder "${CMAKE_MATCH_1}")
 execute_process(COMMAND git -C ${source} log -1 --format=%at OUTPUT_VARIABLE changed OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT DEFINED ENV{SOURCE_DATE_EPOCH} AND changed)
-  set(ENV{SOURCE_DATE_EPOCH} ${changed})  # the packages of one commit are the same
+  set(ENV{SOURCE_DATE_EPOCH} ${changed})  # packages of the same commit are identical
 endif()
 string(TIMESTAMP day "%a, %d %b %Y %H:%M:%S +0000" UTC)
 set(version ${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})

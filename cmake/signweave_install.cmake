@@ -1,7 +1,7 @@
-# cmake --install puts the library, its headers and a package for find_package(signweave) in place, and the program.
+# cmake --install installs the program, the library, its headers and a package for find_package(signweave).
 # The components `program` and `development` are the Debian packages (signweave_package.cmake).
 if(EXISTS /etc/debian_version AND CMAKE_LIBRARY_ARCHITECTURE)
-  set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE} CACHE PATH "Libraries, below the prefix")  # under any prefix, as under /usr
+  set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE} CACHE PATH "Libraries, below the prefix")  # under any prefix, not only under /usr
 endif()
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)

@@ -1,13 +1,13 @@
 # signweave_module(NAME SOURCES a.cpp … DEPENDS core … [LIBRARIES Eigen3::Eigen …])
 #
-# One module of the library: the folder it is called from. The sources are its table of contents; its tests are found by
-# name (*_test.cpp), never listed. DEPENDS names the modules whose headers it may include; the test `layers` holds it to
-# that. LIBRARIES are third-party targets. TEST_SOURCES are compiled into the test program beside the tests.
+# Defines one module of the library from the folder it is called in. The sources are its table of contents; its tests are
+# found by name (*_test.cpp), never listed. DEPENDS names the modules whose headers it may include; the test `layers`
+# enforces this. LIBRARIES are third-party targets. TEST_SOURCES are compiled into the test program along with the tests.
 define_property(GLOBAL PROPERTY SIGNWEAVE_LAYERS BRIEF_DOCS "rows 'module:dependency,dependency'")
 define_property(GLOBAL PROPERTY SIGNWEAVE_MODULES BRIEF_DOCS "library targets, lowest first")
 
-# What nearly every file reads, compiled once (docs/building.md says what it saves). Includes stay written out in each file, and
-# `scripts/alone` compiles each without any of this: precompiled headers and batches only save time.
+# Headers that nearly every file includes, precompiled (docs/building.md says what this saves). Each file still lists its
+# own includes, and `scripts/alone` compiles each without any of this: precompiled headers and batches only save time.
 set(read_by_all <Eigen/Geometry> <algorithm> <array> <charconv> <cmath> <filesystem> <functional> <map> <memory> <mutex> <optional> <set>
                 <span> <string> <string_view> <unordered_map> <variant> <vector> <fmt/format.h>)
 file(WRITE ${PROJECT_BINARY_DIR}/pch.cpp "")
@@ -24,9 +24,9 @@ if(SIGNWEAVE_TESTS)
   signweave_precompiled(signweave_test_pch LIBRARIES signweave_test_flags HEADERS <gmock/gmock.h> <gtest/gtest.h> <rapidcheck/gtest.h>)
 endif()
 
-# signweave_batches(TARGET [PER_BATCH]): compiles the target's files in batches, so that what they all include and instantiate is
-# compiled once a batch. Files of one target must therefore not share private names. SIGNWEAVE_BATCHES=OFF compiles each by itself,
-# which is quicker where one file is changed again and again.
+# signweave_batches(TARGET [PER_BATCH]): compiles the target's files in batches, so that common headers and template
+# instances are compiled once per batch. Files of one target must therefore not share private names.
+# SIGNWEAVE_BATCHES=OFF compiles each separately, which is quicker if one file is changed repeatedly.
 function(signweave_batches target)
   set(size 40)
   if(ARGC GREATER 1)
@@ -34,7 +34,8 @@ function(signweave_batches target)
   endif()
   if(SIGNWEAVE_BATCHES)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
-    # A type of one file's unnamed namespace is a member of another of its types: no fault, though the batch's name is not the file's.
+    # GCC warns if a type in a file's unnamed namespace has a member of another such type, because the batch has a
+    # different name than the file; this is harmless.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()
@@ -64,17 +65,18 @@ function(signweave_module name)
   signweave_tests(${name} LIBRARIES signweave::${name} SOURCES ${arg_TEST_SOURCES})
 endfunction()
 
-# signweave_tests(NAME [LABEL full] LIBRARIES …): one test program from every *_test.cpp of the folder it is called from and of
-# those below. Its tests are of the tier `quick` unless LABEL says otherwise (CONTRIBUTING.md). UNRUN: they are compiled, and not run.
-define_property(GLOBAL PROPERTY SIGNWEAVE_TEST_FILES BRIEF_DOCS "every *_test.cpp of a test program, whether this build makes it or not")
+# signweave_tests(NAME [LABEL full] LIBRARIES …): one test program from every *_test.cpp of the folder it is called in and
+# of the folders below. Its tests are in the tier `quick` unless LABEL says otherwise (CONTRIBUTING.md). UNRUN: they are
+# compiled but not run.
+define_property(GLOBAL PROPERTY SIGNWEAVE_TEST_FILES BRIEF_DOCS "every *_test.cpp of a test program, whether this build compiles it or not")
 function(signweave_tests name)
   cmake_parse_arguments(arg "UNRUN" "LABEL" "LIBRARIES;SOURCES" ${ARGN})
   if(NOT SIGNWEAVE_TESTS)
     return()
   endif()
   file(GLOB_RECURSE tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
-  list(FILTER tests EXCLUDE REGEX "_wrong/")  # what a check of the tests is shown as wrong
-  # A folder below that has a CMakeLists.txt has its own.
+  list(FILTER tests EXCLUDE REGEX "_wrong/")  # deliberately wrong files for testing the checks
+  # A folder below with its own CMakeLists.txt defines its own test program.
   file(GLOB_RECURSE below CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*/CMakeLists.txt)
   foreach(list IN LISTS below)
     get_filename_component(folder ${list} DIRECTORY)
@@ -102,7 +104,7 @@ function(signweave_tests name)
     return()
   endif()
   if(SIGNWEAVE_SANITIZE)
-    # Instrumented programs take long to start: each runs as a whole, in two halves.
+    # Instrumented programs are slow to start, so each runs as two halves instead of one test at a time.
     foreach(half IN ITEMS 0 1)
       add_test(NAME ${name}_test.${half} COMMAND ${name}_test)
       set_tests_properties(${name}_test.${half} PROPERTIES TIMEOUT 1800 LABELS ${arg_LABEL}
@@ -113,7 +115,7 @@ function(signweave_tests name)
   endif()
 endfunction()
 
-# Writes what tests of the structure read: the table of modules, and the files of tests that belong to a program.
+# Writes the input of the structure tests: the table of modules, and the test files that belong to a program.
 function(signweave_write_structure)
   get_property(rows GLOBAL PROPERTY SIGNWEAVE_LAYERS)
   string(REPLACE ";" "\n" text "${rows}")

@@ -1,4 +1,4 @@
-# Debian packages, by `scripts/package`: signweave, the program, and libsignweave-dev, the library.
+# Debian packages, built by `scripts/package`: signweave, the program, and libsignweave-dev, the library.
 set(SIGNWEAVE_MAINTAINER "the signweave authors <maintainers@signweave.invalid>" CACHE STRING "Maintainer of the Debian packages, NAME <ADDRESS>")
 set(SIGNWEAVE_DEBIAN_REVISION 1 CACHE STRING "Revision of the Debian packages of one version")
 
@@ -32,7 +32,7 @@ translate: it signs what you recorded, from the glosses that you give it.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsignweave-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-# What signweave-config.cmake looks for, and what the headers include.
+# The packages that signweave-config.cmake searches for and that the headers include.
 set(development_needs libeigen3-dev libfmt-dev liblmdb-dev libmeshoptimizer-dev libpugixml-dev libre2-dev libtinygltf-dev
                       libutf8proc-dev libxml2-dev libxxhash-dev pkgconf zlib1g-dev)
 if(SIGNWEAVE_BERKELEY)
@@ -49,7 +49,7 @@ libraries and headers, and the CMake package for find_package(signweave).
 .
 It holds no sign language and no recordings.")
 
-# What only a package needs beside the installed files: see the script.
+# Adds the files that only a package needs; see the script.
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/finish_package.cmake)
 set(CPACK_SIGNWEAVE_SOURCE_DIR ${PROJECT_SOURCE_DIR})
 set(CPACK_SIGNWEAVE_PROGRAM ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/signweave)

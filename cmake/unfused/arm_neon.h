@@ -1,4 +1,4 @@
-// The compiler's own, less the macro by which Eigen decides to join a multiplication and an addition into one instruction, which
-// rounds once: x86-64's baseline has none, and results should be the same (signweave_compiler.cmake).
+// The compiler's own header without the macro by which Eigen decides to fuse a multiplication and an addition into one
+// instruction, which rounds once: the x86-64 baseline has none, and results should agree (signweave_compiler.cmake).
 #include_next <arm_neon.h>
 #undef __ARM_FEATURE_FMA

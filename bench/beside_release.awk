@@ -1,13 +1,13 @@
-# beside_release.awk RELEASE LINES: results of benchmarks beside those of the last release (bench/release.txt), by name. Of a name that
-# LINES has several times, from several runs, the best counts. Prints each goal missed with the figure of the last release, and fails where a
-# figure is more than three times that. Yardsticks are measured in the same run, so a slow machine makes no ratio worse; where
-# a yardstick is a fixed number, and so the same as at the release, it says how much is too much: such a figure fails only if its
-# goal is missed as well. Three times nothing is nothing: a figure that was 0 is printed, and cannot fail.
+# beside_release.awk RELEASE LINES: compares benchmark results with those of the last release (bench/release.txt), by name.
+# If a name occurs several times in LINES, from several runs, the best result counts. Prints each missed goal with the
+# figure of the last release, and fails if a figure is more than three times as bad. Yardsticks are measured in the same
+# run, so a slow machine makes no ratio worse. If a yardstick is a fixed number, and so the same as at the release, the
+# figure fails only if its goal is missed as well. A figure that was 0 at the release is printed, and cannot fail.
 BEGIN { kMost = 3 }
 /^#/ || $6 !~ /^[<>]=$/ { next }  # a line without a goal
 {
   at_most = $6 == "<="
-  figure = NF > 7 ? $2 : $5  # a goal with a unit is of the value, others of the ratio
+  figure = NF > 7 ? $2 : $5  # a goal with a unit applies to the value, others to the ratio
   goal = $7
   for (i = 8; i <= NF; ++i) goal = goal " " $i
 }

@@ -1,7 +1,7 @@
-# A bare Debian 12 in a folder (debootstrap, as root), for scripts/fresh, scripts/package and scripts/aarch64 to source. Package sources
-# and their settings are taken from this machine.
-#   chroot_make [FOLDER]   makes it in $root: FOLDER, or one under /tmp that is removed at the end of the script
-#   chroot_run COMMAND     runs a command of bash in it
+# A bare Debian 12 in a folder (debootstrap, as root); sourced by scripts/fresh, scripts/package and scripts/aarch64.
+# Package sources and their settings are copied from this machine.
+#   chroot_make [FOLDER]   creates it in $root: FOLDER, or a folder under /tmp that is removed at the end of the script
+#   chroot_run COMMAND     runs a bash command in it
 
 chroot_make() {
   [ "$(id -u)" -eq 0 ] || { echo "$0: needs root, for debootstrap and chroot" >&2; exit 1; }
@@ -13,15 +13,16 @@ chroot_make() {
   mirror=$(cat /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | grep -E '^(URIs:|deb )' |
     grep -oE 'https?://[^ ]+' | grep -v security | head -n 1 || true)
   [ -e "$root/etc/debian_version" ] || debootstrap --variant=minbase bookworm "$root" "${mirror:-http://deb.debian.org/debian}" >/dev/null
-  # The host's access to its package registry: sources, keys, proxies, certificates, names.
+  # Copies the host's access to its package registry: sources, keys, proxies, certificates, names.
   rm -f "$root/etc/apt/sources.list"
   cp -rT /etc/apt "$root/etc/apt"
   cp /etc/resolv.conf /etc/hosts "$root/etc/" 2>/dev/null || true
-  # A folder used before has links there; as seen from here they lead into this machine, so they are replaced, not written through.
+  # A folder used before contains links there; seen from here they point into the host, so they are replaced, not
+  # written through.
   for folder in /etc/ssl/certs /usr/share/keyrings /usr/local/share/ca-certificates; do
     [ -d "$folder" ] && mkdir -p "$root$folder" && cp -rLT --remove-destination "$folder" "$root$folder"
   done
-  chmod 755 "$root"  # mktemp leaves it to root alone
+  chmod 755 "$root"  # mktemp restricts it to root
   mount --bind /proc "$root/proc"
   mount --bind /dev "$root/dev"
   mount --bind /dev/pts "$root/dev/pts"

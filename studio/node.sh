@@ -1,7 +1,7 @@
-# Sourced in studio/: installs the packages where the lock file is newer than what is there, and puts the pinned Node first
-# in PATH, since Vite needs a newer one than Debian 12 has. Of several at once one installs, and the others wait for it.
-# The pinned Node comes first and installs the rest: npm leaves out, without a word, what the Node that it runs with is too old for.
-# It trusts what the machine trusts, as Debian's own does.
+# Sourced in studio/: installs the packages if the lock file is newer than the installed ones, and puts the pinned Node
+# first in PATH, since Vite needs a newer version than Debian 12 has. If several processes source it at once, one installs
+# and the others wait. The pinned Node is installed first and then installs the rest: npm silently omits packages for which
+# the Node that it runs on is too old. It trusts the machine's certificates, as Debian's own Node does.
 stale='[ ! -e node_modules/.package-lock.json ] || [ package-lock.json -nt node_modules/.package-lock.json ]'
 install='
   first=$(mktemp -d)

@@ -1,15 +1,15 @@
-"""Where Blender's own importer puts the joints of a glTF file, to compare with ours; outside of the tests.
+"""Prints where Blender's own importer puts the joints of a glTF file, to compare with ours; not part of the tests.
 
     blender --background --factory-startup --python tools/blender_fk.py -- FILE.glb RATE FRAMES > places.csv
 
-Prints "place,FRAME,NAME,X,Y,Z" for each bone and each frame at RATE frames a second from the file's time 0 on, metres, Y up.
+Prints "place,FRAME,NAME,X,Y,Z" for each bone and each frame at RATE frames a second starting at the file's time 0, in metres, Y up.
 """
 import sys
 
 import bpy
 import numpy
 
-numpy.bool = bool  # Blender 3.4's importer uses the name, which NumPy has had no longer since 1.24
+numpy.bool = bool  # Blender 3.4's importer uses this name, which NumPy removed in 1.24
 
 path, rate, frames = sys.argv[sys.argv.index("--") + 1:]
 bpy.ops.wm.read_factory_settings(use_empty=True)

@@ -1,4 +1,4 @@
-"""Writes arm.fbx of this folder as binary FBX: arm_7400.fbx, and arm_7700.fbx with places of 64 bits and compressed arrays.
+"""Writes arm.fbx of this folder as binary FBX: arm_7400.fbx, and arm_7700.fbx with 64-bit positions and compressed arrays.
 
     python3 testdata/fbx/make_binary.py
 """

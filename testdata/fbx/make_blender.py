@@ -1,8 +1,8 @@
-"""Makes the binary FBX files of this folder with Blender, and beside each a CSV of where Blender itself has every bone.
+"""Writes the binary FBX files of this folder with Blender, and next to them a CSV with Blender's own bone positions.
 
     blender --background --factory-startup --python testdata/fbx/make_blender.py
 
-Six bones, three of them rolled, with two takes. The CSV holds, of each frame of the first take, each bone's head and its
+Six bones, three of them rolled, with two takes. The CSV contains, for each frame of the first take, each bone's head and its
 orientation as a quaternion (w, x, y, z), in metres and Blender's space (Z up).
 """
 import math

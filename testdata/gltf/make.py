@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Makes the glTF files of ../gltf, ../gltf_broken and ../gltf_fuzz: the same bytes each time.
+"""Generates the glTF files of ../gltf, ../gltf_broken and ../gltf_fuzz, with the same bytes each time.
 
     testdata/gltf/make.py
 
-Needs Python 3 alone, and for the packed file Debian's libmeshoptimizer2d. Numbers are such that what must come out can be
-told without a computer: quarter and half turns, halves and quarters of metres. The expected messages of broken files are
-written by hand, not made.
+Needs only Python 3 and, for the packed file, Debian's libmeshoptimizer2d. The numbers are chosen so that the expected
+results can be found by hand: quarter and half turns, halves and quarters of metres. The expected messages of broken files
+are written by hand, not generated.
 """
 import base64
 import ctypes

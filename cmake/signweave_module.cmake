@@ -115,11 +115,22 @@ function(signweave_tests name)
   endif()
 endfunction()
 
+# signweave_app(FOLDER [DEPENDS calls …]): names the folders of app/ whose headers FOLDER may include; the test `layers` checks it.
+define_property(GLOBAL PROPERTY SIGNWEAVE_APP_LAYERS BRIEF_DOCS "rows 'folder:dependency,dependency' of app/")
+function(signweave_app folder)
+  cmake_parse_arguments(arg "" "" "DEPENDS" ${ARGN})
+  string(REPLACE ";" "," row "${arg_DEPENDS}")
+  set_property(GLOBAL APPEND PROPERTY SIGNWEAVE_APP_LAYERS "${folder}:${row}")
+endfunction()
+
 # Writes the input of the structure tests: the table of modules, and the test files that belong to a program.
 function(signweave_write_structure)
   get_property(rows GLOBAL PROPERTY SIGNWEAVE_LAYERS)
   string(REPLACE ";" "\n" text "${rows}")
   file(WRITE ${PROJECT_BINARY_DIR}/layers.txt "${text}\n")
+  get_property(rows GLOBAL PROPERTY SIGNWEAVE_APP_LAYERS)
+  string(REPLACE ";" "\n" text "${rows}")
+  file(WRITE ${PROJECT_BINARY_DIR}/app_layers.txt "${text}\n")
   get_property(files GLOBAL PROPERTY SIGNWEAVE_TEST_FILES)
   string(REPLACE ";" "\n" text "${files}")
   file(WRITE ${PROJECT_BINARY_DIR}/tested.txt "${text}\n")

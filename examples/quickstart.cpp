@@ -1,14 +1,9 @@
-// From a folder of recordings to a signed utterance: the whole way through the library, read from top to bottom.
+// From a folder of recordings to a signed utterance.
 //
 //   quickstart FOLDER DATABASE OUT.bvh
-#include <filesystem>
-#include <iostream>
+#include <signweave/signweave.h>
 
-#include "signweave/choose/synthesizer.h"
-#include "signweave/database/database.h"
-#include "signweave/database/import.h"
-#include "signweave/formats/bvh/bvh.h"
-#include "signweave/query/parse.h"
+#include <iostream>
 
 int main(int argc, char** argv) {
   using namespace signweave;
@@ -17,7 +12,6 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    // 1. An empty database, and the recordings of a folder in it.
     std::filesystem::remove_all(argv[2]);
     Database::create(argv[2], {});
     Database database(argv[2], kv::Access::read_write);
@@ -26,18 +20,13 @@ int main(int argc, char** argv) {
       std::cout << job.name << ": " << report.frames << " frames, " << report.signs << " signs\n";
     }
 
-    // 2. Find: a query on the semantic side gives segments, a segment gives frames.
-    const std::vector<Segment> strokes = database.find(parse("gloss = \"VANNES\" & phase = stroke"));
-    for (const Segment& stroke : strokes) {
+    for (const Segment& stroke : database.find(parse("gloss = \"VANNES\" & phase = stroke"))) {
       std::cout << stroke.recording << ' ' << stroke.span.begin.count()
                 << " ms: " << database.read(stroke).frame_count() << " frames\n";
     }
 
-    // 3. Sign: glosses in, motion out.
     const Synthesized made = synthesize(database, parse_utterance("VANNES MATIN PLUIE"));
-    const RecordingInfo source = *database.info(made.layout_from);
-    bvh::write(argv[3], made.result.motion,
-               source.layout ? *source.layout : bvh::default_layout(made.result.motion.skeleton()));
+    save(made.result, {argv[3]});
     std::cout << made.result.motion.frame_count() << " frames, " << made.result.junctions.size() << " junctions\n";
   } catch (const Error& error) {
     std::cerr << "quickstart: " << error.what() << '\n';

@@ -1,15 +1,11 @@
 // From an utterance to a score, from the score to a part of its frames, and the same signing as a stream.
 //
 //   score DATABASE UTTERANCE SCORE.json PART.bvh
+#include <signweave/signweave.h>
+
 #include <fstream>
 #include <iostream>
 #include <vector>
-
-#include "signweave/choose/synthesizer.h"
-#include "signweave/core/atomic_file.h"
-#include "signweave/formats/bvh/bvh.h"
-#include "signweave/live/player.h"
-#include "signweave/score/score_json.h"
 
 int main(int argc, char** argv) {
   using namespace signweave;
@@ -37,8 +33,8 @@ int main(int argc, char** argv) {
     std::cout << part.frame_count() << " of " << open.score().frames << " frames in " << argv[4] << '\n';
 
     // 3. Stream it: frame by frame in the bytes that a client reads, with events that name the clips of the score.
-    SharedSigningCache base(database);
-    Player player(base, {.idle = Idle::end});
+    SharedSigningCache cache(database);
+    Player player(cache, {.idle = Idle::end});
     player.sign(utterance);
     std::size_t frames = 0;
     std::vector<std::byte> message;

@@ -59,7 +59,7 @@ json run(Database& database, const RemoveCall& call) {
 
 std::string nothing_to_change(const RelayoutCall& call) {
   const bool nothing = call.access_mode.empty() && !call.compact && call.documents.empty();
-  return nothing ? "what is to be changed? give --access-mode, --compact, --documents or several of them" : "";
+  return nothing ? "what is to be changed? give access_mode, compact, documents or several of them" : "";
 }
 
 Relayouted run(Database& database, const RelayoutCall& call, const Listener& listener,
@@ -94,7 +94,7 @@ Relayouted run(Database& database, const RelayoutCall& call, const Listener& lis
       if (changed) changed(names[i]);
     } catch (const Error& error) {  // the others go on
       if (error.code() == ErrorCode::cancelled) throw;
-      listener.blame(fmt::format("{}: {}", names[i], error.what()));
+      listener.blame(fmt::format("{}: {}", names[i], error.what()), error.remedies());
       whole = false;
     }
   }

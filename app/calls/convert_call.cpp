@@ -33,7 +33,7 @@ std::optional<fs::path> annotation_beside(const fs::path& motion) {
   std::error_code ignored;
   for (const FileFormat& format : file_formats()) {
     if (format.kind != FileKind::annotation || !format.reads) continue;
-    const fs::path path = fs::path(motion).replace_extension(format.ending);
+    const fs::path path = fs::path(motion).replace_extension(format.extension);
     if (fs::is_regular_file(path, ignored)) return path;
   }
   return std::nullopt;
@@ -77,7 +77,7 @@ Exported run(const std::vector<fs::path>& inputs, const ConvertCall& call, const
   const ImportJob job = only_job(inputs, made.notices);
   made.info.name = job.name;
   if (!call.rig.empty()) made.info.rig = read_rig_names(call.rig);
-  const auto is_document = [](const std::string& path) { return ending_of(path) == ".eaf"; };
+  const auto is_document = [](const std::string& path) { return extension_of(path) == ".eaf"; };
   const std::optional<fs::path> annotation = job.annotation ? job.annotation
                                              : job.motion   ? annotation_beside(*job.motion)
                                                             : std::nullopt;

@@ -73,16 +73,16 @@ void keep_tiers(AnnotationDocument& document, const std::vector<std::string>& wa
 
 }  // namespace
 
-Outgoing Exported::outgoing() const {
+FileContent Exported::content() const {
   return {.motion = motion ? &*motion : nullptr,
+          .document = document ? &*document : nullptr,
           .layout = character ? std::nullopt : info.layout,
           .wishes = wishes,
-          .document = document ? &*document : nullptr,
           .title = remade.empty() ? info.name : fmt::format("{}, in part made by {}", info.name, remade_by->name),
-          .signing_space = signing_space,
           .rig = character ? RigNames{} : info.rig,
+          .signing_space = signing_space,
           .declarations = info.declarations,
-          .character = character};
+          .character = character ? character->plain : std::filesystem::path()};
 }
 
 Exported run(const Database& database, const ExportCall& call, const std::vector<std::string>& outputs) {
@@ -96,17 +96,17 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
   const TimeSpan all = info.motion ? span_of(made.frames, info.clock) : TimeSpan{Milliseconds(0), Milliseconds::max()};
   const TimeSpan span{call.from ? Milliseconds(*call.from) : all.begin, call.to ? Milliseconds(*call.to) : all.end};
   if (call.from && call.to && span.begin >= span.end) {
-    throw Error(ErrorCode::bad_input, "--from must be before --to");
+    throw Error(ErrorCode::bad_input, "'from' must be before 'to'");
   }
   if (!call.transition.empty() && call.remake.empty()) {
-    throw Error(ErrorCode::bad_input, "--transition says how --remake makes what it cuts out: give both");
+    throw Error(ErrorCode::bad_input, "'transition' says how 'regenerate' makes what it cuts out: give both");
   }
-  const auto is_document = [](const std::string& path) { return ending_of(path) == ".eaf"; };
+  const auto is_document = [](const std::string& path) { return extension_of(path) == ".eaf"; };
   if (info.motion && !std::ranges::all_of(outputs, is_document)) {
     if (part)
       made.frames = span.begin < span.end ? clamp(frames_of(span, info.clock), info.motion->frames) : FrameRange{};
     if (made.frames.empty()) {
-      throw Error(ErrorCode::bad_input, fmt::format("nothing between --from and --to: the motion covers {}..{} ms",
+      throw Error(ErrorCode::bad_input, fmt::format("nothing between 'from' and 'to': the motion covers {}..{} ms",
                                                     all.begin.count(), all.end.count()));
     }
     const JointSet joints = call.joints.empty() ? JointSet{} : joints_named(call.joints, *database.skeleton(info.name));
@@ -122,8 +122,8 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
     made.motion = at_rate(std::move(motion), call.rate, info.name, made.notices);
   }
   if (!call.remake.empty() && !made.motion) {
-    throw Error(ErrorCode::bad_input, info.motion ? "--remake makes motion: ask for a file of motion"
-                                                  : fmt::format("--remake: '{}' has no motion", info.name));
+    throw Error(ErrorCode::bad_input, info.motion ? "'regenerate' makes motion: ask for a file of motion"
+                                                  : fmt::format("regenerate: '{}' has no motion", info.name));
   }
   if (info.document != 0 && std::ranges::any_of(outputs, is_document)) made.document = database.document(info.name);
   if (made.document && part) {
@@ -131,8 +131,8 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
   }
   if (made.document && !call.tiers.empty()) keep_tiers(*made.document, call.tiers);
   for (const std::string& path : outputs) {
-    if (!call.joints.empty() && ending_of(path) == ".face.csv") {
-      throw Error(ErrorCode::bad_input, path + ": --joints leaves scalar tracks out; export it without");
+    if (!call.joints.empty() && extension_of(path) == ".face.csv") {
+      throw Error(ErrorCode::bad_input, path + ": 'joints' leaves scalar tracks out; export it without");
     }
   }
   return made;

@@ -8,12 +8,13 @@
 
 #include "app/calls/characters.h"
 #include "app/calls/field.h"
-#include "app/calls/files.h"
 #include "app/calls/json.h"
 #include "app/calls/motion_writing.h"
 #include "app/calls/regenerate.h"
+#include "app/calls/signing_space.h"
 #include "app/calls/synthesis_call.h"
 #include "signweave/database/database.h"
+#include "signweave/formats/write_file.h"
 
 namespace signweave::calls {
 
@@ -76,7 +77,8 @@ struct Exported {
   const TransitionMethod* remade_by = nullptr;  ///< where any were
   std::vector<Notice> notices;
 
-  Outgoing outgoing() const;
+  /// Borrows from this.
+  FileContent content() const;
 };
 
 /// `outputs`: names of the files that it will be written to, which say by their endings what is needed. The annotation

@@ -43,12 +43,16 @@ bool has_tracks(const RecordingInfo& info) {
   return info.motion && !info.motion->tracks.empty();
 }
 
-/// True where the recording has what a file of this ending holds.
+FileKind kind_of(const std::string& extension) {
+  return file_format("x" + extension)->kind;
+}
+
+/// True if the recording has what a file with this extension holds.
 bool has_part(const RecordingInfo& info, const std::string& ending) {
-  switch (writer_of(ending)) {
-    case FileWriter::eaf:
+  switch (kind_of(ending)) {
+    case FileKind::annotation:
       return info.document != 0;
-    case FileWriter::face_csv:
+    case FileKind::face:
       return has_tracks(info);
     default:
       return info.motion.has_value();
@@ -57,9 +61,9 @@ bool has_part(const RecordingInfo& info, const std::string& ending) {
 
 void check_endings(const std::vector<std::string>& endings) {
   for (const std::string& ending : endings) {
-    if (const std::string fault = check_ending("x" + ending, writable_endings()); !fault.empty()) {
-      throw Error(ErrorCode::bad_input, fmt::format("--as: '{}' cannot be written; use {}", printable(ending),
-                                                    fmt::join(writable_endings(), " ")));
+    if (const std::string fault = check_extension("x" + ending, writable_extensions()); !fault.empty()) {
+      throw Error(ErrorCode::bad_input, fmt::format("as: '{}' cannot be written; use {}", printable(ending),
+                                                    fmt::join(writable_extensions(), " ")));
     }
   }
 }
@@ -153,7 +157,7 @@ FolderExported run(const Database& database, const FolderExport& call, const Lis
     const RecordingInfo& info = recordings[i];
     std::vector<std::string> files;
     for (const std::string& ending : endings) {
-      const bool empty = writer_of(ending) == FileWriter::eaf && !call.call.tiers.empty() && tiers[i].empty();
+      const bool empty = kind_of(ending) == FileKind::annotation && !call.call.tiers.empty() && tiers[i].empty();
       if (has_part(info, ending) && !empty) files.push_back((call.folder / (names[i] + ending)).string());
     }
     if (files.empty()) {
@@ -165,13 +169,13 @@ FolderExported run(const Database& database, const FolderExport& call, const Lis
     one.tiers = tiers[i];
     const Exported made = run(database, one, files);
     listener.tell_all(made.notices);
-    Outgoing outgoing = made.outgoing();
+    FileContent content = made.content();
     const auto advance = [&](double fraction) {
       listener.advance((static_cast<double>(i) + fraction) / static_cast<double>(recordings.size()));
     };
-    outgoing.progress = advance;
+    content.progress = advance;
     advance(0);
-    for (const std::string& file : files) write_recording(file, outgoing);
+    for (const std::string& file : files) write_file(file, content);
     done.files.insert(done.files.end(), files.begin(), files.end());
     for (const auto& declared : made.info.declarations) {
       if (std::ranges::find(done.declarations, declared) == done.declarations.end())
@@ -179,8 +183,9 @@ FolderExported run(const Database& database, const FolderExport& call, const Lis
     }
     if (info.motion && std::abs(info.clock.frame_time.count() * info.motion->rate.hertz() - 1) > 1e-9) {
       listener.tell({info.name,
-                     "its annotation's clock is not that of its frames, which pairs.csv cannot tell; give --sync "
-                     "when it is imported again"});
+                     "its annotation's clock is not that of its frames, which pairs.csv cannot hold; give sync points "
+                     "when it is imported again",
+                     {{"sync", ""}}});
     }
     pairs.push_back(pair_row(info, files, part));
   }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/calls/json.h"
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/query/parse.h"
 
@@ -31,6 +32,7 @@ std::string_view name_of(ErrorCode code) noexcept {
 
 nlohmann::json fault_json(const Error& error, std::string_view code, const std::string& message) {
   nlohmann::json fault = {{"code", code}, {"message", message}};
+  if (!error.remedies().empty()) fault["remedies"] = json_of(error.remedies());
   if (const auto* query = dynamic_cast<const QueryError*>(&error)) {
     fault["line"] = query->line;
     fault["column"] = query->column;

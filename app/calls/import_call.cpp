@@ -62,9 +62,10 @@ std::string check_sync(const std::string& text) {
 
 std::string check_fingerprint(const std::string& text) {
   const bool is_one = text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-  return is_one || text == "none" ? std::string()
-                                  : "expected annotation_fingerprint as info --json tells it: 16 hexadecimal digits, "
-                                    "or none";
+  return is_one || text == "none"
+             ? std::string()
+             : "expected annotation_fingerprint as the recording's information gives it: 16 hexadecimal digits, "
+               "or none";
 }
 
 std::string_view name_of(ImportOutcome outcome) {
@@ -150,7 +151,11 @@ void run(Database& database, const Pairing& pairing, const ImportOptions& option
 }
 
 json json_of(const Imported& imported) {
-  if (imported.error) return {{"name", imported.name}, {"outcome", "failed"}, {"error", imported.error->what()}};
+  if (imported.error) {
+    json failed = {{"name", imported.name}, {"outcome", "failed"}, {"error", imported.error->what()}};
+    if (!imported.error->remedies().empty()) failed["remedies"] = json_of(imported.error->remedies());
+    return failed;
+  }
   const ImportReport& report = *imported.report;
   return {{"name", report.name},
           {"outcome", name_of(report.outcome)},

@@ -131,7 +131,7 @@ json json_of(const CheckResult& result) {
 std::vector<std::vector<std::string>> format_rows() {
   std::vector<std::vector<std::string>> rows = {{"ending", "reads", "writes", "holds", "is lost"}};
   for (const FileFormat& format : file_formats()) {
-    rows.push_back({std::string(format.ending), format.reads ? "yes" : "no", format.writes() ? "yes" : "no",
+    rows.push_back({std::string(format.extension), format.reads ? "yes" : "no", format.writes ? "yes" : "no",
                     std::string(format.holds), std::string(format.lost)});
   }
   return rows;
@@ -140,10 +140,10 @@ std::vector<std::vector<std::string>> format_rows() {
 json formats_json() {
   json list = json::array();
   for (const FileFormat& format : file_formats()) {
-    list.push_back({{"ending", format.ending},
+    list.push_back({{"ending", format.extension},
                     {"name", format.name},
                     {"reads", format.reads},
-                    {"writes", format.writes()},
+                    {"writes", format.writes},
                     {"holds", format.holds},
                     {"lost", format.lost}});
   }

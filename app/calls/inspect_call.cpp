@@ -103,6 +103,7 @@ void inspect(const Database& database, const Pairing& pairing, const ImportOptio
     ordered_json one = report(pairing.jobs[at++]);
     if (imported.error) {
       one["error"] = imported.error->what();
+      if (!imported.error->remedies().empty()) one["remedies"] = json_of(imported.error->remedies());
     } else {
       describe(store, *imported.report, one);
       store.remove(imported.name);  // what is not looked at any more takes no room

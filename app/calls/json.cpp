@@ -4,9 +4,21 @@ namespace signweave::calls {
 
 using nlohmann::json;
 
+json json_of(const Remedies& remedies) {
+  json list = json::array();
+  for (const Remedy& remedy : remedies) {
+    list.push_back({{"parameter", remedy.parameter}});
+    if (!remedy.value.empty()) list.back()["value"] = remedy.value;
+  }
+  return list;
+}
+
 json json_of(const std::vector<Notice>& notices) {
   json list = json::array();
-  for (const Notice& notice : notices) list.push_back({{"where", notice.where}, {"text", notice.text}});
+  for (const Notice& notice : notices) {
+    list.push_back({{"where", notice.where}, {"text", notice.text}});
+    if (!notice.remedies.empty()) list.back()["remedies"] = json_of(notice.remedies);
+  }
   return list;
 }
 

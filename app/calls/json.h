@@ -17,7 +17,10 @@ std::string text_of(const Json& document) {
   return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
-/// {"where", "text"} each.
+/// {"parameter", "value"} each, without a value if the user has to choose it.
+nlohmann::json json_of(const Remedies& remedies);
+
+/// {"where", "text"} each, and "remedies" if there are any.
 nlohmann::json json_of(const std::vector<Notice>& notices);
 
 /// What sources say of themselves, such as that a demo's shapes are placeholders: an object of names and values.

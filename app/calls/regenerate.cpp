@@ -32,7 +32,7 @@ std::optional<TimeSpan> span_in(std::string_view text) {
 }
 
 [[noreturn]] void refuse(std::string_view span, const std::string& what) {
-  throw Error(ErrorCode::bad_input, fmt::format("--remake {}: {}", span, what));
+  throw Error(ErrorCode::bad_input, fmt::format("regenerate {}: {}", span, what));
 }
 
 [[noreturn]] void refuse_replaced(const std::string& recording) {

@@ -15,7 +15,7 @@ Segmented propose(const Motion& motion, const RigMap& rig, const std::string& wh
   try {
     made.proposed = propose_phases(upper_body_of(motion, rig));
   } catch (const Error& error) {  // the library knows parts of the body, the user a file
-    throw Error(error.code(), fmt::format("{}: {}", where, error.what()));
+    throw Error(error.code(), fmt::format("{}: {}", where, error.what()), error.remedies());
   }
   // The segmenter's frames are longer than most motions' own, so the last one may reach past the end.
   for (std::vector<ProposedPhase>& hand : made.proposed.hands) {

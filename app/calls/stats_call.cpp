@@ -128,7 +128,7 @@ std::string plot_of(const Counted& counted, const std::string& where) {
 
 std::string csv_fault(const StatsCall& call) {
   return (call.pairs ? 1 : 0) + (call.glosses ? 1 : 0) + (call.ngrams > 0 ? 1 : 0) > 1
-             ? "csv holds one table: give one of --pairs, --glosses and --ngrams"
+             ? "csv holds one table: give one of pairs, glosses and ngrams"
              : "";
 }
 

@@ -6,9 +6,9 @@
 #include <charconv>
 
 #include "app/calls/selection_report.h"
-#include "app/calls/synthesis_report.h"
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/core/text.h"
+#include "signweave/formats/json/synthesis_json.h"
 
 namespace signweave::calls {
 
@@ -151,7 +151,7 @@ Synthesized run(const Database& database, const Score& score, const ScoreCall& c
     if (std::ranges::find(formats, whole) == formats.end()) continue;
     throw Error(
         ErrorCode::bad_input,
-        fmt::format("{} is of a whole score: leave --frames out, or ask for a format of motion such as bvh", whole));
+        fmt::format("{} is of a whole score: leave frames out, or ask for a format of motion such as bvh", whole));
   }
   return run_part(database, score, *frames);
 }
@@ -165,7 +165,7 @@ std::string title_of(const EditCall& call) {
 }
 
 json report_of(const Synthesized& made, const SynthesisChoices& choices) {
-  json report = describe(made.result);
+  json report = report_json(made.result);
   report["timings"] = timings_of(made.timings);
   if (choices.explain) {
     report["places"] = places_of(made);
@@ -183,23 +183,26 @@ void show_on(Synthesized& made, const SignerStance& stance, const CharacterFile&
   made.result.motion = on_character(made.result.motion, stance, character.character, made.result.notices);
 }
 
-SynthesisLook look_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
-                      SharedCharacter character) {
-  SynthesisLook look;
-  look.wishes = wishes_of(choices.bvh);
-  look.sheet = {.title = title, .signing_space = choices.signing_space, .rig = {}};
-  look.character = std::move(character);
-  if (look.character) return look;
+FileContent content_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
+                       const SharedCharacter& character) {
+  FileContent content = signweave::content_of(made.result);
+  content.wishes = wishes_of(choices.bvh);
+  content.title = title;
+  content.signing_space = choices.signing_space;
+  if (character) {
+    content.character = character->plain;
+    return content;
+  }
   if (const RecordingInfo* source = made.contents->find(made.layout_from)) {
-    look.layout = source->layout;
-    look.sheet.rig = source->rig;
+    content.layout = source->layout;
+    content.rig = source->rig;
   }
-  if (look.layout) {  // of the source's file its axes, unit and orders, but not its oddities
-    look.layout->root_columns = bvh::RootColumns::declared;
-    look.layout->root_unit = look.layout->unit;
-    look.layout->frame_time.clear();
+  if (content.layout) {  // the axes, unit and orders of the source's file, but not its oddities
+    content.layout->root_columns = bvh::RootColumns::declared;
+    content.layout->root_unit = content.layout->unit;
+    content.layout->frame_time.clear();
   }
-  return look;
+  return content;
 }
 
 }  // namespace signweave::calls

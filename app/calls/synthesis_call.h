@@ -5,10 +5,11 @@
 
 #include "app/calls/characters.h"
 #include "app/calls/field.h"
-#include "app/calls/files.h"
 #include "app/calls/json.h"
 #include "app/calls/motion_writing.h"
+#include "app/calls/signing_space.h"
 #include "signweave/choose/synthesizer.h"
+#include "signweave/formats/write_file.h"
 
 namespace signweave::calls {
 
@@ -179,7 +180,7 @@ void show_on(Synthesized& made, const SignerStance& stance, const CharacterFile&
 
 /// How the result is written: the layout of its source's file without that file's oddities, and what heads a sheet.
 /// `character`: whose joints it has; none: those of its source.
-SynthesisLook look_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
-                      SharedCharacter character);
+FileContent content_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
+                       SharedCharacter character);
 
 }  // namespace signweave::calls

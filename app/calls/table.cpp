@@ -74,13 +74,4 @@ std::string counted(std::size_t count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : noun.ends_with('s') ? "es" : "s");
 }
 
-std::string size_text(std::uint64_t bytes) {
-  constexpr double kKibi = 1024;
-  const auto size = static_cast<double>(bytes);
-  if (size < kKibi) return fmt::format("{} bytes", bytes);
-  if (size < kKibi * kKibi) return fmt::format("{:.1f} KiB", size / kKibi);
-  if (size < kKibi * kKibi * kKibi) return fmt::format("{:.1f} MiB", size / (kKibi * kKibi));
-  return fmt::format("{:.2f} GiB", size / (kKibi * kKibi * kKibi));
-}
-
 }  // namespace signweave::calls

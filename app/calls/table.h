@@ -13,9 +13,6 @@ std::string format_table(const std::vector<std::vector<std::string>>& rows);
 /// Rows as CSV (RFC 4180).
 std::string format_csv(const std::vector<std::vector<std::string>>& rows);
 
-/// "12.3 MiB".
-std::string size_text(std::uint64_t bytes);
-
 /// "1 recording", "2 recordings".
 std::string counted(std::size_t count, const std::string& noun);
 

@@ -57,6 +57,10 @@ int dispatch(const std::vector<std::string>& words, Io& io);
 std::string one_line(std::string_view text);
 
 /// "signweave: WHERE: text" on `err`.
+/// How the command line spells what would fix a fault: "; use --up or --unit", "; use --root-order rotation_first
+/// --root-unit m"; empty for none.
+std::string advice_of(const Remedies& remedies);
+
 void print_notices(Io& io, const std::vector<Notice>& notices);
 
 /// Tells of recordings that are damaged and therefore left out, on `err`, and sets the exit status to 1.

@@ -9,6 +9,7 @@
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "signweave/core/text.h"
 #include "signweave/database/compact_file.h"
 
 namespace signweave::cli {

@@ -19,8 +19,9 @@ Run convert(CLI::App& verb) {
   };
   auto options = std::make_shared<ConvertArguments>();
   verb.add_option("FILE", options->inputs,
-                  "a motion file " + readable_endings(FileKind::motion) +
-                      ", its face capture (.face.csv), or an annotation file " + readable_endings(FileKind::annotation))
+                  "a motion file " + readable_extensions(FileKind::motion) +
+                      ", its face capture (.face.csv), or an annotation file " +
+                      readable_extensions(FileKind::annotation))
       ->required();
   add_outputs(verb, options->outputs);
   bind(verb, options->call);

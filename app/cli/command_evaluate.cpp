@@ -6,7 +6,6 @@
 
 #include "app/calls/collection_report.h"
 #include "app/calls/evaluate_call.h"
-#include "app/calls/files.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
@@ -15,6 +14,7 @@
 #include "signweave/core/text.h"
 #include "signweave/evaluation/collection_table.h"
 #include "signweave/formats/file_format.h"
+#include "signweave/formats/write_file.h"
 
 namespace signweave::cli {
 namespace {
@@ -102,7 +102,7 @@ void run_evaluate(const EvaluateArguments& options, Io& io) {
 Run evaluate(CLI::App& verb) {
   auto options = std::make_shared<EvaluateArguments>();
   verb.add_option("PATH", options->paths,
-                  "databases, motion files " + readable_endings(FileKind::motion) + ", or folders of them")
+                  "databases, motion files " + readable_extensions(FileKind::motion) + ", or folders of them")
       ->required();
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next != "seed") return;
@@ -112,7 +112,7 @@ Run evaluate(CLI::App& verb) {
         ->type_name("FILE.csv");
     verb.add_flag("--full", options->full, "every measure of every group and hand, with intervals");
     verb.add_option("--plot", options->plot, "draw the summary with intervals (.svg)")
-        ->check([](const std::string& path) { return calls::check_ending(path, {".svg"}); });
+        ->check([](const std::string& path) { return check_extension(path, {".svg"}); });
   });
   bind(verb, options->reading);
   return [options](Io& io) { run_evaluate(*options, io); };

@@ -33,8 +33,8 @@ std::string with_dot(const std::string& ending) {
 
 void export_one(const ExportArguments& options, Io& io) {
   for (const std::string& path : options.outputs) {
-    if (const std::string fault = calls::check_ending(path, writable_endings()); !fault.empty()) {
-      const bool folder = calls::ending_of(path).empty();
+    if (const std::string fault = check_extension(path, writable_extensions()); !fault.empty()) {
+      const bool folder = extension_of(path).empty();
       throw CLI::ValidationError("--output",
                                  fault + (folder ? "; for a folder give --as, --all or several recordings" : ""));
     }
@@ -87,7 +87,7 @@ Run export_recording(CLI::App& verb) {
     verb.add_option("-o,--output", options->outputs,
                     fmt::format("file to write: {}; may be given several times; with --all, several recordings or --as "
                                 "a folder",
-                                fmt::join(writable_endings(), " ")))
+                                fmt::join(writable_extensions(), " ")))
         ->required()
         ->allow_extra_args(false);
     verb.add_option("--as", options->endings,

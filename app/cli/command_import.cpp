@@ -25,7 +25,7 @@ void print(const calls::Imported& imported, Io& io) {
   if (imported.error) {
     // What a file is to blame for begins with the file; what the disk is, does not tell whose turn it was.
     io.err << "signweave: " << (imported.error->code() == ErrorCode::io ? imported.name + ": " : "")
-           << one_line(imported.error->what()) << '\n';
+           << one_line(imported.error->what()) << one_line(advice_of(imported.error->remedies())) << '\n';
     io.status = 1;
     return;
   }
@@ -88,8 +88,8 @@ Run import(CLI::App& verb) {
   auto options = std::make_shared<ImportArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   verb.add_option("FILE", options->inputs,
-                  "motion files " + readable_endings(FileKind::motion) + ", annotation files " +
-                      readable_endings(FileKind::annotation) + ", face captures (.face.csv), folders of them");
+                  "motion files " + readable_extensions(FileKind::motion) + ", annotation files " +
+                      readable_extensions(FileKind::annotation) + ", face captures (.face.csv), folders of them");
   bind(verb, options->call);
   return [options](Io& io) {
     if (options->inputs.empty() && options->call.pairs.empty()) throw CLI::RequiredError("FILE or --pairs");

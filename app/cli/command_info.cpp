@@ -126,7 +126,7 @@ void info_of_annotation(const std::string& path, Io& io) {
   };
   std::vector<Notice> notices = file.notices;
   for (const Notice& notice : found.notices) {
-    notices.push_back({notice.where.empty() ? path : path + ": " + notice.where, notice.text});
+    notices.push_back({notice.where.empty() ? path : path + ": " + notice.where, notice.text, notice.remedies});
   }
   if (io.json) {
     json tiers = json::array();
@@ -186,8 +186,8 @@ Run info(CLI::App& verb) {
   };
   auto options = std::make_shared<InfoArguments>();
   verb.add_option("PATH", options->path,
-                  "a database, a backup, a motion file " + readable_endings(FileKind::motion) +
-                      ", an annotation file " + readable_endings(FileKind::annotation) +
+                  "a database, a backup, a motion file " + readable_extensions(FileKind::motion) +
+                      ", an annotation file " + readable_extensions(FileKind::annotation) +
                       ", a face capture (.face.csv) or a score (.json)")
       ->required();
   verb.add_option("RECORDING", options->recording, "of a database: all that is known of this one");
@@ -226,7 +226,7 @@ Run info(CLI::App& verb) {
     } else if (kind == FileKind::motion_part) {
       throw Error(ErrorCode::unsupported, options->path +
                                               ": holds no motion of its own; name a motion file beside it " +
-                                              readable_endings(FileKind::motion));
+                                              readable_extensions(FileKind::motion));
     } else {
       throw Error(ErrorCode::unsupported,
                   options->path + ": of a kind that cannot be read; signweave formats lists those that can");

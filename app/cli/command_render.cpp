@@ -11,7 +11,6 @@
 #include <random>
 #include <thread>
 
-#include "app/calls/files.h"
 #include "app/calls/synthesis_call.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
@@ -24,6 +23,7 @@
 #include "app/server/server.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
+#include "signweave/formats/write_file.h"
 
 namespace signweave::cli {
 namespace {
@@ -155,7 +155,7 @@ json task_of(const RenderArguments& given, const std::string& database, const st
           {"height", size.height},
           {"rate", given.rate},
           {"view", given.view},
-          {"kind", calls::ending_of(given.output) == ".png" ? "png" : "webm"},
+          {"kind", extension_of(given.output) == ".png" ? "png" : "webm"},
           {"at_ms", given.at.empty() ? json() : json(given.at)},
           {"put", put}};
 }
@@ -266,7 +266,7 @@ void check_options(const RenderArguments& given) {
     throw Error(ErrorCode::bad_input,
                 "--junction belongs to an UTTERANCE or to a change: a recording has none to make");
   }
-  if (!given.at.empty() && calls::ending_of(given.output) != ".png") {
+  if (!given.at.empty() && extension_of(given.output) != ".png") {
     throw Error(ErrorCode::bad_input, "--at is for pictures: name them -o FILE.png");
   }
 }
@@ -328,7 +328,7 @@ Run render(CLI::App& verb) {
                   "FILE.webm, a film; FILE.png, the picture of each --at, or of every frame (FILE-00001.png …)")
       ->required()
       ->check([](const std::string& path) {
-        return calls::check_ending(path, {".webm", ".png"});
+        return check_extension(path, {".webm", ".png"});
       });
   verb.add_option("--at", options->moments, "moments of pictures, ms from the first frame: --at 100 200")
       ->type_name("MS");

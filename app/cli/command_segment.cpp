@@ -5,7 +5,6 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/files.h"
 #include "app/calls/motion_reading.h"
 #include "app/calls/segment_call.h"
 #include "app/calls/table.h"
@@ -16,6 +15,7 @@
 #include "signweave/features/phase_proposals.h"
 #include "signweave/formats/eaf/eaf.h"
 #include "signweave/formats/file_format.h"
+#include "signweave/formats/write_file.h"
 
 namespace signweave::cli {
 namespace {
@@ -112,11 +112,11 @@ void run_segment(const SegmentArguments& options, Io& io) {
 Run segment(CLI::App& verb) {
   auto options = std::make_shared<SegmentArguments>();
   verb.add_option("MOTION", options->motion,
-                  "a motion file " + readable_endings(FileKind::motion) + ", or a database and")
+                  "a motion file " + readable_extensions(FileKind::motion) + ", or a database and")
       ->required();
   verb.add_option("RECORDING", options->recording, "the name of a recording in it");
   verb.add_option("-o,--output", options->output, "annotation file to write (.eaf); without it phases are only counted")
-      ->check([](const std::string& path) { return calls::check_ending(path, {".eaf"}); });
+      ->check([](const std::string& path) { return check_extension(path, {".eaf"}); });
   verb.add_flag("--overwrite", options->overwrite, "take the place of an annotation file that is there already");
   verb.add_option("--rig", options->rig, "mapping file: a line 'part = joint' for each part that is not told right")
       ->type_name("FILE");

@@ -4,7 +4,6 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/files.h"
 #include "app/calls/stats_call.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
@@ -12,6 +11,7 @@
 #include "app/cli/validators.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/database/database.h"
+#include "signweave/formats/write_file.h"
 
 namespace signweave::cli {
 namespace {
@@ -88,7 +88,7 @@ Run stats(CLI::App& verb) {
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call);
   verb.add_option("--plot", options->plot, "draw the transitions, split into retraction and preparation (.svg)")
-      ->check([](const std::string& path) { return calls::check_ending(path, {".svg"}); });
+      ->check([](const std::string& path) { return check_extension(path, {".svg"}); });
   verb.add_option("--format", options->format, "of the answer")
       ->check(one_of({"table", "json", "csv"}))
       ->capture_default_str();

@@ -7,13 +7,14 @@
 #include <cmath>
 #include <ostream>
 
-#include "app/calls/files.h"
 #include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/progress.h"
 #include "app/cli/selection_report.h"
 #include "signweave/core/atomic_file.h"
+#include "signweave/core/text.h"
 #include "signweave/formats/file_format.h"
+#include "signweave/formats/write_file.h"
 #include "signweave/score/score_json.h"
 
 namespace signweave::cli {
@@ -68,12 +69,13 @@ void print_junctions(const Synthesized& made, Io& io) {
   io.out << '\n' << format_table(rows) << timing_of(made.durations) << captured_of(made);
 }
 
-/// Before anything is written: tells how large the large ones will be, and refuses what the disk has no room for.
-void announce(const std::vector<std::string>& outputs, const calls::Outgoing& motion, Io& io) {
+/// Before anything is written: reports how large the large files will be, and refuses those that do not fit on the
+/// disk.
+void announce(const std::vector<std::string>& outputs, const FileContent& content, Io& io) {
   constexpr std::uint64_t kLarge = std::uint64_t{100} << 20;
   for (const std::string& path : outputs) {
-    const std::uint64_t bytes = calls::estimated_bytes(path, motion);
-    calls::require_room(path, bytes);
+    const std::uint64_t bytes = estimated_bytes(path, content);
+    require_room(path, bytes);
     if (bytes >= kLarge) {
       io.err << fmt::format("signweave: {}: about {} will be written\n", one_line(path), size_text(bytes));
     }
@@ -84,20 +86,20 @@ void announce(const std::vector<std::string>& outputs, const calls::Outgoing& mo
 
 void add_outputs(CLI::App& verb, std::vector<std::string>& outputs) {
   verb.add_option("-o,--output", outputs,
-                  fmt::format("file to write: {}; may be given several times", fmt::join(writable_endings(), " ")))
+                  fmt::format("file to write: {}; may be given several times", fmt::join(writable_extensions(), " ")))
       ->required()
       ->allow_extra_args(false)
-      ->check([](const std::string& path) { return check_ending(path, writable_endings()); });
+      ->check([](const std::string& path) { return check_extension(path, writable_extensions()); });
 }
 
 void deliver(const calls::Exported& made, const std::vector<std::string>& outputs, Io& io) {
   print_notices(io, made.notices);
   {
     Progress progress(io, "writing", "stopped; the file that was being written is not there");
-    calls::Outgoing written = made.outgoing();
+    FileContent written = made.content();
     written.progress = [&](double fraction) { progress.show(fraction); };
     announce(outputs, written, io);
-    for (const std::string& path : outputs) write_recording(path, written);
+    for (const std::string& path : outputs) write_file(path, written);
   }
   for (const auto& [name, value] : made.info.declarations) io.err << "signweave: " << value << '\n';
   if (!io.json) return;
@@ -115,7 +117,7 @@ void add_reports(CLI::App& verb, Delivery& delivery) {
           "--score", delivery.score,
           "also write the score (.json): which captured frames and transitions the result is made of, and when; "
           "'sign DB --from' renders it again")
-      ->check([](const std::string& path) { return check_ending(path, {".json"}); });
+      ->check([](const std::string& path) { return check_extension(path, {".json"}); });
   verb.add_flag("--timings", delivery.timings, "show how long each step took");
 }
 
@@ -123,10 +125,10 @@ void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, co
              const std::string& title, calls::SharedCharacter character, Io& io) {
   {
     Progress progress(io, "writing", "stopped; the file that was being written is not there");
-    calls::SynthesisLook look = look_of(made, choices, title, std::move(character));
-    look.progress = [&](double fraction) { progress.show(fraction); };
-    announce(delivery.outputs, calls::outgoing(made, look), io);
-    write_synthesis(delivery.outputs, made, look);
+    FileContent content = content_of(made, choices, title, character);
+    content.progress = [&](double fraction) { progress.show(fraction); };
+    announce(delivery.outputs, content, io);
+    write_files(delivery.outputs, content);
     if (!delivery.score.empty()) {
       AtomicFile file(delivery.score);
       file.write(json_of(made.result.score));

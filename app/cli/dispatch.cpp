@@ -152,18 +152,33 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
+std::string advice_of(const Remedies& remedies) {
+  std::string chosen, set;
+  for (const Remedy& remedy : remedies) {
+    std::string option = "--" + remedy.parameter;
+    std::ranges::replace(option, '_', '-');
+    if (remedy.value.empty()) {
+      chosen += (chosen.empty() ? "" : " or ") + option;
+    } else {
+      set += (set.empty() ? "" : " ") + option + (remedy.value == "true" ? "" : " " + remedy.value);
+    }
+  }
+  if (remedies.empty()) return {};
+  return "; use " + set + (set.empty() || chosen.empty() ? "" : ", or ") + chosen;
+}
+
 void print_notices(Io& io, const std::vector<Notice>& notices) {
   for (const Notice& notice : notices) {
     io.err << "signweave: " << one_line(notice.where) << (notice.where.empty() ? "" : ": ") << one_line(notice.text)
-           << '\n';
+           << one_line(advice_of(notice.remedies)) << '\n';
   }
 }
 
 calls::Listener listener_of(Io& io) {
   return {.notice = [&io](const Notice& notice) { print_notices(io, {notice}); },
           .fault =
-              [&io](const std::string& line) {
-                io.err << "signweave: " << one_line(line) << '\n';
+              [&io](const std::string& line, const Remedies& remedies) {
+                io.err << "signweave: " << one_line(line) << one_line(advice_of(remedies)) << '\n';
                 io.status = 1;
               },
           .stage = {},
@@ -207,7 +222,7 @@ int dispatch(const std::vector<std::string>& words, Io& io) {
     io.err << "signweave: " << error.what() << '\n' << error.caret << '\n';
     print_fault(calls::fault_json(error, calls::name_of(error.code()), error.what()), io);
   } catch (const Error& error) {
-    io.err << "signweave: " << one_line(error.what()) << '\n';
+    io.err << "signweave: " << one_line(error.what()) << one_line(advice_of(error.remedies())) << '\n';
     print_fault(calls::fault_json(error, calls::name_of(error.code()), one_line(error.what())), io);
     if (Interrupts::noted()) return kInterrupted;
   } catch (const std::bad_alloc&) {

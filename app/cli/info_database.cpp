@@ -96,7 +96,7 @@ void info_of_backup(const std::string& folder, Io& io) {
   std::vector<std::vector<std::string>> rows = {{"state", "made", "database", "recordings", "size"}};
   for (const BackupState& state : states) {
     rows.push_back({std::to_string(state.number), state.made, state.database, std::to_string(state.recordings),
-                    calls::size_text(state.bytes)});
+                    size_text(state.bytes)});
     if (state.fault.empty()) continue;
     rows.pop_back();
     io.err << "signweave: " << one_line(state.fault) << '\n';

@@ -49,7 +49,7 @@ RigMap rig_map_of(const Motion& motion, const std::string& path) {
   try {
     return map_rig(motion, names);
   } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("{}: {}", path, error.what()));
+    throw Error(error.code(), fmt::format("{}: {}", path, error.what()), error.remedies());
   }
 }
 

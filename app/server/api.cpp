@@ -100,6 +100,7 @@ ApiResponse answer_call(ApiState& state, const ApiRequest& request, std::string&
     for (const Notice& notice : call.notices) {
       if (notices.size() == 10) break;
       notices.push_back({{"where", redacted(state, notice.where)}, {"text", redacted(state, notice.text)}});
+      if (!notice.remedies.empty()) notices.back()["remedies"] = calls::json_of(notice.remedies);
     }
     response.headers.emplace_back("Signweave-Notices", header_json(notices));
   }

@@ -24,10 +24,11 @@ ApiResponse relayout_database(Call& call) {
           const std::size_t wanted =
               parameters.recordings.empty() ? database.contents()->recordings.size() : parameters.recordings.size();
           job.tell({{"recordings", wanted}, {"changed", json::array()}, {"faults", json::array()}});
-          const calls::Listener listener{.notice = {},
-                                         .fault = [&](const std::string& line) { job.add("faults", line); },
-                                         .stage = {},
-                                         .progress = [&](double fraction) { job.advance(fraction); }};
+          const calls::Listener listener{
+              .notice = {},
+              .fault = [&](const std::string& line, const Remedies&) { job.add("faults", line); },
+              .stage = {},
+              .progress = [&](double fraction) { job.advance(fraction); }};
           calls::run(database, parameters, listener, [&](const std::string& name) { job.add("changed", name); });
           calls::learn(database, listener);
         });

@@ -35,11 +35,13 @@ ApiResponse preview_upload(Call& call) {
   try {
     const calls::Preview preview = calls::run(parameters, call.listener());
     call.declare(preview.declarations);
-    for (const Notice& one : preview.notices) call.notices.push_back({without_folder(one.where, hidden), one.text});
+    for (const Notice& one : preview.notices) {
+      call.notices.push_back({without_folder(one.where, hidden), one.text, one.remedies});
+    }
     return file_answer(answer_format("frames"), std::filesystem::path(name).stem().string(),
                        text_of(preview, database, name));
   } catch (const Error& error) {
-    throw Error(error.code(), without_folder(std::string(error.what()), hidden));
+    throw Error(error.code(), without_folder(std::string(error.what()), hidden), error.remedies());
   }
 }
 

@@ -113,8 +113,8 @@ ApiResponse evaluate_methods(Call& call) {
     std::vector<Notice> notices;
     const calls::Listener listener{.notice = [&](const Notice& notice) { notices.push_back(notice); },
                                    .fault =
-                                       [&](const std::string& line) {
-                                         notices.push_back({"", line});
+                                       [&](const std::string& line, const Remedies& remedies) {
+                                         notices.push_back({"", line, remedies});
                                        },
                                    .stage = {},
                                    .progress = [&](double fraction) { job.advance(fraction); }};

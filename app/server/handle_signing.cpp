@@ -16,7 +16,7 @@ namespace {
 /// Of every file that is written, and what only HTTP has.
 std::vector<std::string> synthesis_formats() {
   std::vector<std::string> names;
-  for (const std::string_view ending : writable_endings()) names.emplace_back(ending.substr(1));
+  for (const std::string_view ending : writable_extensions()) names.emplace_back(ending.substr(1));
   names.emplace_back("frames");
   names.emplace_back("score");
   return names;
@@ -129,9 +129,8 @@ ApiResponse deliver(Call& call, Synthesized made, const calls::SynthesisChoices&
                                     .rig = rig_json(made.result.motion, calls::signer_of(made).rig, character.get()),
                                     .report = report_json()}));
   }
-  return file_answer(
-      file, "signing",
-      calls::synthesis_text(file.ending, made, calls::look_of(made, how, title, character), std::string()));
+  return file_answer(file, "signing",
+                     file_text(file.ending, calls::content_of(made, how, title, character), std::string(file.ending)));
 }
 
 }  // namespace
@@ -226,7 +225,7 @@ ApiResponse export_motion(Call& call) {
                                                   .rig = rig_json(*made.motion, made.info.rig, character.get()),
                                                   .report = std::move(report)}));
   }
-  return file_answer(file, made.info.name, calls::recording_text(file.ending, made.outgoing(), made.info.name));
+  return file_answer(file, made.info.name, file_text(file.ending, made.content(), made.info.name));
 }
 
 ApiResponse export_annotation(Call& call) {
@@ -234,8 +233,7 @@ ApiResponse export_annotation(Call& call) {
   const calls::Exported made =
       calls::run(call.database().database(), parameters.call, {parameters.call.recording + ".eaf"});
   call.declare(made.info.declarations);
-  return file_answer(answer_format("eaf"), made.info.name,
-                     calls::recording_text(".eaf", made.outgoing(), made.info.name));
+  return file_answer(answer_format("eaf"), made.info.name, file_text(".eaf", made.content(), made.info.name));
 }
 
 }  // namespace signweave::server

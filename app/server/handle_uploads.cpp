@@ -36,7 +36,8 @@ class Told {
   void add(json recording) { job_.add("recordings", without_folder(std::move(recording), folder_)); }
   calls::Listener listener() {
     return {.notice = {},
-            .fault = [this](const std::string& line) { job_.add("faults", without_folder(line, folder_)); },
+            .fault = [this](const std::string& line,
+                            const Remedies&) { job_.add("faults", without_folder(line, folder_)); },
             .stage = {},
             .progress = [this](double fraction) { job_.advance(fraction); }};
   }

@@ -182,8 +182,8 @@ calls::Listener Call::listener() {
   const auto over = std::chrono::steady_clock::now() + state.limits.sign_time;
   return {.notice = [this](const Notice& notice) { notices.push_back(notice); },
           .fault =
-              [this](const std::string& line) {
-                notices.push_back({"", line});
+              [this](const std::string& line, const Remedies& remedies) {
+                notices.push_back({"", line, remedies});
               },
           .stage = {},
           .progress =

@@ -117,7 +117,7 @@ std::string error_text(ErrorCode code, std::string_view message, std::string_vie
 std::string error_text(const Error& error, std::string_view id) {
   OrderedJson object = {{"type", "error"}, {"code", calls::name_of(error.code())}, {"message", error.what()}};
   const nlohmann::json fault = calls::fault_json(error, calls::name_of(error.code()), error.what());
-  for (const char* field : {"missing", "suggestion"}) {
+  for (const char* field : {"missing", "suggestion", "remedies"}) {
     if (const auto at = fault.find(field); at != fault.end()) object[field] = *at;
   }
   add_id(object, id);

@@ -114,8 +114,8 @@ void Uploads::require_readable(const std::string& name) {
       ErrorCode::unsupported,
       fmt::format("{}: no import reads files ending in '{}'; send motion {}, annotation {}, faces {}, tables and "
                   "mappings (.csv, .txt, .rig)",
-                  printable(name), printable(ending), readable_endings(FileKind::motion),
-                  readable_endings(FileKind::annotation), readable_endings(FileKind::face)));
+                  printable(name), printable(ending), readable_extensions(FileKind::motion),
+                  readable_extensions(FileKind::annotation), readable_extensions(FileKind::face)));
 }
 
 void Uploads::require_open(const std::string& database, const std::string& id, const std::string& name) const {

@@ -1,8 +1,7 @@
 // A program of one's own on the installed library: store a recording made in memory, and find a sign in it.
-#include <iostream>
+#include <signweave/signweave.h>
 
-#include "signweave/database/database.h"
-#include "signweave/query/parse.h"
+#include <iostream>
 
 int main(int argc, char** argv) {
   using namespace signweave;

@@ -53,11 +53,13 @@ std::map<std::string, std::string> damaged_parts(const fs::path& folder, const S
   }
   if (damaged.empty() || (skip && !damaged.contains(state.catalogue))) return damaged;
   const auto& [name, fault] = damaged.contains(state.catalogue) ? *damaged.find(state.catalogue) : *damaged.begin();
-  throw Error(ErrorCode::corrupt,
-              fmt::format("{}: {}{}; take it from a copy, restore an older state (--state){}",
-                          (backup_files::parts_folder(folder) / name).string(), fault,
-                          damaged.size() > 1 ? fmt::format(", and {} more", damaged.size() - 1) : "",
-                          damaged.contains(state.catalogue) ? "" : ", or leave its recording out (--skip-damaged)"));
+  throw Error(
+      ErrorCode::corrupt,
+      fmt::format("{}: {}{}; take it from a copy, or restore an older state{}",
+                  (backup_files::parts_folder(folder) / name).string(), fault,
+                  damaged.size() > 1 ? fmt::format(", and {} more", damaged.size() - 1) : "",
+                  damaged.contains(state.catalogue) ? "" : ", or without its recording"),
+      damaged.contains(state.catalogue) ? Remedies{{"state", ""}} : Remedies{{"state", ""}, {"skip_damaged", ""}});
 }
 
 /// Puts records in transactions of a bounded size.

@@ -28,8 +28,9 @@ void check_length(const std::vector<MotionClip>& clips, std::int64_t frames, Fra
       std::ranges::min_element(clips, {}, [](const MotionClip& clip) { return clip.source->rate().hertz(); });
   throw Error(ErrorCode::bad_input,
               fmt::format("the result would have more than {} frames at {} frames a second ('{}' has {}); sign fewer "
-                          "signs, or give a lower --rate",
-                          most, to_string(rate), slowest->recording, to_string(slowest->source->rate())));
+                          "signs, or at a lower rate",
+                          most, to_string(rate), slowest->recording, to_string(slowest->source->rate())),
+              {{"rate", ""}});
 }
 
 FrameRange standing_frames(const PlacedClip& placed) {

@@ -90,25 +90,25 @@ Replacement parse_replacement(std::string_view text) {
   const std::size_t sign = find_unquoted(text, "=");
   if (sign == text.npos) {
     throw Error(ErrorCode::bad_input,
-                fmt::format("--replace '{}': expected GLOSS=GLOSS, such as BRETAGNE=VANNES#2", printable(text)));
+                fmt::format("replace '{}': expected GLOSS=GLOSS, such as BRETAGNE=VANNES#2", printable(text)));
   }
-  return {parse_gloss_ref(text.substr(0, sign), "--replace"), parse_gloss_ref(text.substr(sign + 1), "--replace")};
+  return {parse_gloss_ref(text.substr(0, sign), "replace"), parse_gloss_ref(text.substr(sign + 1), "replace")};
 }
 
 std::pair<SignRun, SignRun> parse_swap(std::string_view text) {
   const std::size_t comma = find_unquoted(text, ",");
   if (comma == text.npos) {
-    throw Error(ErrorCode::bad_input, fmt::format("--swap '{}': expected FROM..TO,FROM..TO, such as "
+    throw Error(ErrorCode::bad_input, fmt::format("swap '{}': expected FROM..TO,FROM..TO, such as "
                                                   "BRETAGNE..PLUIE,VENDREDI..BROUILLARD",
                                                   printable(text)));
   }
   const auto run_of = [](std::string_view run) {
     const std::size_t dots = find_unquoted(run, "..");
     if (dots == run.npos) {
-      const GlossRef only = parse_gloss_ref(run, "--swap");
+      const GlossRef only = parse_gloss_ref(run, "swap");
       return SignRun{only, only};
     }
-    return SignRun{parse_gloss_ref(run.substr(0, dots), "--swap"), parse_gloss_ref(run.substr(dots + 2), "--swap")};
+    return SignRun{parse_gloss_ref(run.substr(0, dots), "swap"), parse_gloss_ref(run.substr(dots + 2), "swap")};
   };
   return {run_of(text.substr(0, comma)), run_of(text.substr(comma + 1))};
 }

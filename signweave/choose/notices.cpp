@@ -22,8 +22,10 @@ std::optional<Notice> notice_without_captured(std::string_view method, std::size
 
 std::optional<Notice> notice_without_durations(const DurationFit& durations) {
   if (durations.count > 0) return std::nullopt;
-  return Notice{"", fmt::format("no transition in this database to measure: {} ms taken; --duration sets it",
-                                std::llround(1000.0 * durations.mean.count()))};
+  return Notice{"",
+                fmt::format("no transition in this database to measure: {} ms taken",
+                            std::llround(1000.0 * durations.mean.count())),
+                {{"duration", ""}}};
 }
 
 void add_declarations(const RecordingInfo& recording, DeclarationSet& declarations) {

@@ -199,4 +199,13 @@ std::string_view trimmed(std::string_view text) noexcept {
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
+std::string size_text(std::uint64_t bytes) {
+  constexpr double kKibi = 1024;
+  const auto size = static_cast<double>(bytes);
+  if (size < kKibi) return fmt::format("{} bytes", bytes);
+  if (size < kKibi * kKibi) return fmt::format("{:.1f} KiB", size / kKibi);
+  if (size < kKibi * kKibi * kKibi) return fmt::format("{:.1f} MiB", size / (kKibi * kKibi));
+  return fmt::format("{:.2f} GiB", size / (kKibi * kKibi * kKibi));
+}
+
 }  // namespace signweave

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,5 +39,8 @@ std::string printable(std::string_view text);
 
 /// Without the white space (ASCII) at both ends.
 std::string_view trimmed(std::string_view text) noexcept;
+
+/// A number of bytes for people: "12.3 MiB".
+std::string size_text(std::uint64_t bytes);
 
 }  // namespace signweave

@@ -231,8 +231,8 @@ void TextReader::expect(std::string_view expected) {
   fail(fmt::format("expected {}, found '{}'", expected, printable(found)));
 }
 
-void TextReader::fail(std::string_view what) const {
-  throw Error(ErrorCode::bad_input, fmt::format("{}:{}: {}", name_, line_, what));
+void TextReader::fail(std::string_view what, Remedies remedies) const {
+  throw Error(ErrorCode::bad_input, fmt::format("{}:{}: {}", name_, line_, what), std::move(remedies));
 }
 
 Notice TextReader::notice(std::string_view text) const {

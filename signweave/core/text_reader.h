@@ -56,7 +56,7 @@ class TextReader {
   std::size_t bytes_read() const noexcept { return consumed_; }
 
   /// Throws Error{bad_input, "NAME:LINE: what"}.
-  [[noreturn]] void fail(std::string_view what) const;
+  [[noreturn]] void fail(std::string_view what, Remedies remedies = {}) const;
   Notice notice(std::string_view text) const;
 
  private:

@@ -239,6 +239,14 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
     info.motion_declarations = decode_declarations(in);
     if (info.own_tracks > (info.motion ? info.motion->tracks.size() : 0)) in.fail("more tracks than the motion has");
   }
+  if (in.left() > 0) {  // notices stored before they had remedies have none
+    for (Notice& notice : info.notices) {
+      for (std::size_t n = in.count(8); n > 0; --n) {
+        std::string parameter = in.text();
+        notice.remedies.push_back({std::move(parameter), in.text()});
+      }
+    }
+  }
   in.finish();
   return info;
 }
@@ -274,6 +282,13 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
   out.text(info.reading);
   out.number(info.own_tracks);
   encode(info.motion_declarations, out);
+  for (const Notice& notice : info.notices) {
+    out.number(static_cast<std::uint32_t>(notice.remedies.size()));
+    for (const Remedy& remedy : notice.remedies) {
+      out.text(remedy.parameter);
+      out.text(remedy.value);
+    }
+  }
   transaction.put(slot_key(slot), kv::sealed(out.bytes()));
 }
 

@@ -293,8 +293,9 @@ bool Database::relayout(std::string_view name, const Storage& to, const Progress
       throw Error(
           ErrorCode::conflict,
           fmt::format("was rounded within {:.6g} mm when it was stored, and what that dropped is gone; import its "
-                      "motion file again (--replace-motion) where motions are stored otherwise",
-                      1e3 * old.tolerance));
+                      "motion file again into a database that stores motions exactly",
+                      1e3 * old.tolerance),
+          {{"replace_motion", "true"}});
     }
     const std::shared_ptr<const Skeleton> skeleton = motion_db::read_skeleton(*snapshot, old);
     AccessMode mode = to.mode.value_or(old.mode);

@@ -41,8 +41,8 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
   const std::optional<HandTrace> trace = semantic_db::read_trace(snapshot, info.document, info.name);
   if (trace && info.motion && trace->samples() > 0 && trace->frames != info.motion->frames) {
     listener.fault(
-        fmt::format("{}: the stored trace of the hands is not that of its motion; import it again with "
-                    "--replace-motion",
+        fmt::format("{}: the stored trace of the hands is not that of its motion; import it again, "
+                    "replacing its motion",
                     info.name));
   }
   if (!motion_sound) return;  // what is measured of a damaged motion tells nothing

@@ -18,13 +18,13 @@ std::optional<Seconds> given_face_offset(const fs::path& path, std::optional<Sec
     const face_csv::Face face = face_csv::read(path);
     const std::optional<Seconds> timecode = face_csv::seconds_of(*motion_timecode, face.rate);
     if (!timecode) {
-      throw Error(ErrorCode::bad_input, fmt::format("--face-timecode: '{}' is no timecode HOURS:MINUTES:SECONDS:FRAMES",
+      throw Error(ErrorCode::bad_input, fmt::format("face_timecode: '{}' is no timecode HOURS:MINUTES:SECONDS:FRAMES",
                                                     printable(*motion_timecode)));
     }
     offset = face_csv::start_of(face, *timecode);
   }
   if (offset && !(std::abs(offset->count()) <= 1e6)) {
-    throw Error(ErrorCode::bad_input, "--face-offset-ms: a number of milliseconds, at most 1,000,000,000");
+    throw Error(ErrorCode::bad_input, "face_offset_ms: a number of milliseconds, at most 1,000,000,000");
   }
   return offset;
 }
@@ -33,11 +33,10 @@ std::size_t add_face(const fs::path& path, Seconds offset, Motion& motion, std::
   face_csv::Face face = face_csv::read(path);
   const double last = (offset + face.times.back()).count();
   if (last < 0 || offset > motion.duration()) {
-    throw Error(
-        ErrorCode::bad_input,
-        fmt::format("{}: the face, from {:.3f} to {:.3f} s of the motion, lies outside of its {:.3f} s; correct "
-                    "--face-offset-ms or --face-timecode",
-                    path.string(), offset.count(), last, motion.duration().count()));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: the face, from {:.3f} to {:.3f} s of the motion, lies outside of its {:.3f} s",
+                            path.string(), offset.count(), last, motion.duration().count()),
+                {{"face_offset_ms", ""}, {"face_timecode", ""}});
   }
   if (offset.count() > 0.5) {
     face.notices.push_back(

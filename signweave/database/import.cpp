@@ -49,9 +49,9 @@ TierNames tier_names(const AnnotationDocument& document, const ImportOptions& op
       if (tier.hand != Hand::both) told += fmt::format(" ({} hand)", name_of(tier.hand));
     }
     if (told.empty() && as_before) {
-      notices.push_back({where, "no tier is taken for signs, as before; name one with --sign-tier"});
+      notices.push_back({where, "no tier is taken for signs, as before", {{"sign_tier", ""}}});
     } else if (told.empty()) {
-      notices.push_back({where, "no tier looks like glosses, so no sign was found; name one with --sign-tier"});
+      notices.push_back({where, "no tier looks like glosses, so no sign was found", {{"sign_tier", ""}}});
     } else if (!as_before) {
       notices.push_back({where, fmt::format("sign tier {} guessed", told)});
     }
@@ -64,10 +64,10 @@ TierNames tier_names(const AnnotationDocument& document, const ImportOptions& op
   }
   for (const TierNames::SignTier& tier : names.sign_tiers) {
     if (std::ranges::find(names.phase_tiers, tier.id) == names.phase_tiers.end()) continue;
-    throw Error(ErrorCode::bad_input,
-                fmt::format("{}: tier '{}' is taken for signs and for phases; give another with --sign-tier or "
-                            "--phase-tier",
-                            where, tier.id));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("{}: tier '{}' is taken for signs and for phases; name another for one of them", where, tier.id),
+        {{"sign_tier", ""}, {"phase_tier", ""}});
   }
   return names;
 }
@@ -90,12 +90,12 @@ std::optional<FrameClock> given_clock(const ImportJob& job, const ImportOptions&
     const SyncPoint& second = options.sync[1];
     if (first.frame == second.frame) {
       throw Error(ErrorCode::bad_input,
-                  fmt::format("--sync: both points are at frame {:g}; give two frames", first.frame));
+                  fmt::format("sync: both points are at frame {:g}; give two frames", first.frame));
     }
     clock.frame_time = (second.time - first.time) / (second.frame - first.frame);
     clock.origin = first.time - first.frame * clock.frame_time;
   } else if (!options.sync.empty()) {
-    throw Error(ErrorCode::bad_input, "--sync: give two points, or use --offset-ms");
+    throw Error(ErrorCode::bad_input, "sync: give two points", {{"offset_ms", ""}});
   } else if (job.offset || options.offset) {
     clock.origin = job.offset ? *job.offset : *options.offset;
   } else {
@@ -104,10 +104,10 @@ std::optional<FrameClock> given_clock(const ImportJob& job, const ImportOptions&
   const double drift = clock.frame_time / rate.frame_time();
   if (!(std::abs(clock.origin.count()) <= 1e6) || !(drift > 0.5 && drift < 2.0)) {
     if (options.sync.empty()) {
-      throw Error(ErrorCode::bad_input, "--offset-ms: an offset is a number of milliseconds, at most 1,000,000,000");
+      throw Error(ErrorCode::bad_input, "offset_ms: an offset is a number of milliseconds, at most 1,000,000,000");
     }
     throw Error(ErrorCode::bad_input,
-                fmt::format("--sync: frame 0 would be at {:.6g} s and a frame {:.6g} times as long as in the "
+                fmt::format("sync: frame 0 would be at {:.6g} s and a frame {:.6g} times as long as in the "
                             "motion file; give the two points in the order of their times",
                             clock.origin.count(), drift));
   }
@@ -130,7 +130,8 @@ void add_rig_notices(const Motion& motion, const ImportOptions& options, const R
                      const ImportJob& job, std::vector<Notice>& notices) {
   const RigNames names = options.rig ? *options.rig : known != nullptr ? known->rig : RigNames{};
   try {
-    for (const Notice& notice : map_rig(motion, names).notices) notices.push_back({job.motion->string(), notice.text});
+    for (const Notice& notice : map_rig(motion, names).notices)
+      notices.push_back({job.motion->string(), notice.text, notice.remedies});
   } catch (const Error&) {  // names that do not fit: storing it says so
   }
 }
@@ -146,10 +147,11 @@ void report_uncovered(const std::vector<Sign>& signs, const FrameClock& clock, s
     if (outside++ == 0) first = fmt::format("{} at {} ms", sign.gloss, sign.span.begin.count());
   }
   if (outside == 0) return;
-  notices.push_back(
-      {where, fmt::format("{} of {} signs lie outside the motion (the first: {}); if the two do not start "
-                          "together, give --offset-ms or --sync",
-                          outside, signs.size(), first)});
+  notices.push_back({where,
+                     fmt::format("{} of {} signs lie outside the motion (the first: {}); do both start "
+                                 "together?",
+                                 outside, signs.size(), first),
+                     {{"offset_ms", ""}, {"sync", ""}}});
 }
 
 }  // namespace
@@ -178,8 +180,9 @@ void check_annotation(const std::string& expected, const std::optional<Recording
   if (found == expected) return;
   throw Error(ErrorCode::conflict,
               fmt::format("{}: the annotation of recording '{}' is no longer {} but {}; look at what is stored now, "
-                          "and import again with --if-annotation {}",
-                          job.annotation->string(), known ? known->name : job.name, expected, found, found));
+                          "and import again",
+                          job.annotation->string(), known ? known->name : job.name, expected, found),
+              {{"if_annotation", found}});
 }
 
 }  // namespace
@@ -217,17 +220,19 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
   recording.signer = !job.signer.empty() ? job.signer : recording.signer_given ? known->signer : "";
   if (other_face && !options.replace_motion) {
     throw Error(ErrorCode::conflict,
-                fmt::format("{}: {} recording '{}' was imported with; --replace-motion takes it", job.face->string(),
+                fmt::format("{}: {} recording '{}' was imported with", job.face->string(),
                             known->face_fingerprint == face_print ? "lies elsewhere in the motion than the face that"
                                                                   : "is not the face that",
-                            recording.name));
+                            recording.name),
+                {{"replace_motion", "true"}});
   }
   if (new_motion && motion_known && !new_face && !options.replace_motion) {
     throw Error(
         ErrorCode::conflict,
         fmt::format("{}: is not the motion that recording '{}' was imported from (or is read with other options); "
-                    "--replace-motion takes it, and another file name makes another recording",
-                    job.motion->string(), recording.name));
+                    "replace it, or import it under another file name as another recording",
+                    job.motion->string(), recording.name),
+        {{"replace_motion", "true"}});
   }
   const bool same_annotation = document_known && known->annotation_fingerprint == annotation_print;
   if (options.if_annotation && job.annotation && !same_annotation) check_annotation(*options.if_annotation, known, job);
@@ -275,7 +280,7 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
         annotation_notices.push_back(std::move(notice));
       }
     } catch (const Error& error) {  // a tier that was named and is not there: say in which file
-      throw Error(error.code(), fmt::format("{}: {}", where, error.what()));
+      throw Error(error.code(), fmt::format("{}: {}", where, error.what()), error.remedies());
     }
     if (recording.signer.empty() && !signs.empty()) recording.signer = signs[0].signer;
   }
@@ -363,7 +368,9 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     recording.clock = *given_clock(job, options, rate);
     recording.clock_given = true;
   } else if (!options.sync.empty()) {
-    throw Error(ErrorCode::bad_input, recording.name + ": --sync needs the motion; import it too, or give --offset-ms");
+    throw Error(ErrorCode::bad_input,
+                recording.name + ": sync points need the motion; import it too, or give an offset",
+                {{"offset_ms", ""}});
   } else if (known) {
     recording.clock = known->clock;
     recording.clock_given = known->clock_given;
@@ -396,13 +403,15 @@ ImportReport import_recording(Database& database, const ImportJob& job, const Im
     database.put(recording, half(progress, 0.5));
   } catch (const Error& error) {  // of a mapping file that does not fit
     if (options.rig && !options.rig->empty() && error.code() != ErrorCode::io) {
-      throw Error(error.code(), fmt::format("{}: its mapping file: {}", recording.name, error.what()));
+      throw Error(error.code(), fmt::format("{}: its mapping file: {}", recording.name, error.what()),
+                  error.remedies());
     }
     if (options.rig || !known || known->rig.empty() || error.code() != ErrorCode::not_found) throw;
     throw Error(error.code(),
-                fmt::format("{}: the mapping file of an earlier import says {}; give another with --rig, or "
+                fmt::format("{}: the mapping file of an earlier import says {}; give another, or "
                             "an empty file to forget it",
-                            recording.name, error.what()));
+                            recording.name, error.what()),
+                {{"rig", ""}});
   }
   report.signs = signs.size();
   report.tracks = recording.motion ? recording.motion->motion.tracks().size()

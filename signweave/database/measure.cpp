@@ -45,7 +45,7 @@ std::string fault_of_features(const kv::ReadTransaction& snapshot, const Recordi
   const std::optional<RecordingFeatures> stored = semantic_db::read_features(snapshot, info.document, info.name);
   if (!stored || !info.motion) return {};
   const auto fault = [&](const std::string& what) {
-    return fmt::format("{}: the stored features are not those of its {}; import it again with --replace-motion",
+    return fmt::format("{}: the stored features are not those of its {}; import it again, replacing its motion",
                        info.name, what);
   };
   const std::vector<TimeSpan> spans = semantic_db::phase_spans(segments);

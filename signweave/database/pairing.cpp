@@ -23,10 +23,11 @@ FileKind kind_of(const fs::path& path) {
 }
 
 [[noreturn]] void refuse_kind(const fs::path& path) {
-  throw Error(ErrorCode::unsupported,
-              fmt::format("{}: neither a motion file {}, an annotation file {} nor a face capture, which is called "
-                          "as its motion, NAME.face.csv",
-                          path.string(), readable_endings(FileKind::motion), readable_endings(FileKind::annotation)));
+  throw Error(
+      ErrorCode::unsupported,
+      fmt::format("{}: neither a motion file {}, an annotation file {} nor a face capture, which is called "
+                  "as its motion, NAME.face.csv",
+                  path.string(), readable_extensions(FileKind::motion), readable_extensions(FileKind::annotation)));
 }
 
 struct Files {
@@ -58,7 +59,7 @@ std::optional<fs::path> motion_called(const fs::path& stem) {
   for (const FileFormat& format : file_formats()) {
     if (format.kind != FileKind::motion || !format.reads) continue;
     fs::path path = stem;
-    path += format.ending;
+    path += format.extension;
     if (fs::is_regular_file(path, ignored)) return path;
   }
   return std::nullopt;
@@ -94,7 +95,7 @@ void pair_faces(const std::vector<fs::path>& faces, std::vector<ImportJob>& jobs
       notices.push_back(
           {face.string(), fmt::format("a face without its motion, passed over; put it beside the motion "
                                       "file '{}' {}",
-                                      printable(stem.filename().string()), readable_endings(FileKind::motion))});
+                                      printable(stem.filename().string()), readable_extensions(FileKind::motion))});
     }
   }
 }
@@ -128,7 +129,7 @@ Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
   for (const fs::path& input : inputs) {
     if (files.motions.empty() && kind_of(input) == FileKind::motion_part) {
       notices.push_back({input.string(), fmt::format("holds no motion of its own; name the motion files beside it {}",
-                                                     readable_endings(FileKind::motion))});
+                                                     readable_extensions(FileKind::motion))});
     }
   }
   for (std::vector<fs::path>* list : {&files.motions, &files.annotations, &files.faces}) {

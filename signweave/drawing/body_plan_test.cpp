@@ -9,7 +9,7 @@
 
 #include "signweave/drawing/body_mesh.h"
 #include "signweave/drawing/face_mesh.h"
-#include "signweave/formats/test_person.h"
+#include "signweave/drawing/test_person.h"
 
 namespace signweave {
 namespace {

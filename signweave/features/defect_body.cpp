@@ -180,7 +180,7 @@ std::vector<Defect> odd_scale(const Motion& motion, const RigMap& rig) {
   Defect defect{.kind = DefectKind::scale, .value = static_cast<float>(stature)};
   defect.text = fmt::format(
       "the body is {:.3g} m tall, as its bones go from foot to head: read the file with another "
-      "--unit",
+      "unit",
       stature);
   return {defect};
 }

@@ -91,7 +91,7 @@ std::vector<Defect> find_defects(const Motion& motion, const RigMap& rig) {
     Defect defect{.kind = DefectKind::permuted_root, .joint = 0};
     defect.text = fmt::format(
         "{} never turns, and stands turned by its own offset taken for degrees: its columns hold "
-        "the rotation first; read the file with --root-order rotation_first",
+        "the rotation first; read the file with the rotation first",
         printable(motion.skeleton().joint(0).name));
     all.push_back(std::move(defect));
   }

@@ -128,7 +128,8 @@ RecordingFeatures measure_phases(const Motion& motion, const SignerModel& model,
     features.seconds = short_one ? 0 : seconds_of(frames, motion.rate());
   }
   if (result.why_not.empty() && !known) {
-    result.why_not = "no phase lies within the motion; if the two do not start together, give --offset-ms or --sync";
+    result.why_not =
+        "no phase lies within the motion; if the two do not start together, import it with an offset or sync points";
   }
   return result;
 }

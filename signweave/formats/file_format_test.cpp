@@ -5,6 +5,7 @@
 #include <set>
 
 #include "signweave/formats/motion_file.h"
+#include "signweave/formats/write_file.h"
 
 namespace signweave {
 namespace {
@@ -21,21 +22,22 @@ TEST(FileFormats, AreToldByTheLongestEndingInAnyCase) {
 TEST(FileFormats, HaveEachEndingOnceAndSayWhatTheyHold) {
   std::set<std::string_view> endings;
   for (const FileFormat& format : file_formats()) {
-    EXPECT_TRUE(endings.insert(format.ending).second) << format.ending;
-    EXPECT_TRUE(format.reads || format.writes()) << format.ending;
+    EXPECT_TRUE(endings.insert(format.extension).second) << format.extension;
+    EXPECT_TRUE(format.reads || format.writes) << format.extension;
     EXPECT_FALSE(format.name.empty() || format.holds.empty() || format.lost.empty() || format.media_type.empty());
-    EXPECT_EQ(format.ending, file_format(std::string("x") + std::string(format.ending))->ending);
+    EXPECT_EQ(format.extension, file_format(std::string("x") + std::string(format.extension))->extension);
   }
 }
 
-TEST(FileFormats, OfEachWriterAreOne) {
-  std::set<FileWriter> writers;
-  for (const std::string_view ending : writable_endings()) {
-    EXPECT_NE(writer_of(ending), FileWriter::none) << ending;
-    EXPECT_TRUE(writers.insert(writer_of(ending)).second) << ending;
-  }
-  for (const std::string_view ending : {".fbx", ".anvil", ".mp4", "bvh", ".BVH", ""}) {
-    EXPECT_EQ(writer_of(ending), FileWriter::none) << ending;
+TEST(FileFormats, ThatAreWrittenAndNoOthersHaveAWriter) {
+  for (const FileFormat& format : file_formats()) {
+    try {
+      file_text(format.extension, {}, "x");
+      FAIL() << format.extension;
+    } catch (const Error& error) {
+      // A writer asks for its content; without a writer the extension is wrong.
+      EXPECT_EQ(error.code(), format.writes ? ErrorCode::not_found : ErrorCode::bad_input) << error.what();
+    }
   }
 }
 
@@ -43,8 +45,8 @@ TEST(MotionFiles, OfEveryReadableEndingHaveAReader) {
   for (const FileFormat& format : file_formats()) {
     if (format.kind != FileKind::motion || !format.reads) continue;
     try {
-      motion_file::read(std::string("no such file") + std::string(format.ending));
-      FAIL() << format.ending;
+      motion_file::read(std::string("no such file") + std::string(format.extension));
+      FAIL() << format.extension;
     } catch (const Error& error) {
       EXPECT_NE(error.code(), ErrorCode::unsupported) << error.what();
     }

@@ -72,10 +72,10 @@ std::vector<fs::path> only_itself(const fs::path& path, const ReadOptions&) {
   return {path};
 }
 
-/// One thing that a reader can be told, as the command line calls it.
+/// One reading option: the parameter of an import and its value.
 struct Telling {
   std::string_view option;
-  std::string text;  ///< empty: not told
+  std::string text;  ///< empty: not given
 };
 
 std::vector<Telling> tellings(const ReadOptions& options) {
@@ -86,10 +86,10 @@ std::vector<Telling> tellings(const ReadOptions& options) {
                  : *options.up == bvh::UpAxis::z ? "z"
                                                  : "y"},
           {"unit", number(options.unit)},
-          {"root-unit", number(options.root_unit)},
-          {"root-order", options.root_columns == bvh::RootColumns::rotation_first ? "rotation_first" : ""},
+          {"root_unit", number(options.root_unit)},
+          {"root_order", options.root_columns == bvh::RootColumns::rotation_first ? "rotation_first" : ""},
           {"mirror", options.mirror ? "yes" : ""},
-          {"source-rate", options.rate ? to_string(*options.rate) : ""},
+          {"source_rate", options.rate ? to_string(*options.rate) : ""},
           {"skeleton", options.skeleton.empty() ? "" : "given"},
           {"take", options.take}};  // the last, for a name may hold anything
 }
@@ -102,20 +102,20 @@ struct MotionReader {
 };
 
 constexpr MotionReader kMotionReaders[] = {
-    {".bvh", " up unit root-unit root-order mirror ", read_bvh, only_itself},
-    {".amc", " up unit source-rate skeleton ", read_asf, with_skeleton},
-    {".fbx", " unit source-rate take ", read_fbx, only_itself},
-    {".glb", " unit source-rate take ", read_gltf, with_buffers},
-    {".gltf", " unit source-rate take ", read_gltf, with_buffers},
+    {".bvh", " up unit root_unit root_order mirror ", read_bvh, only_itself},
+    {".amc", " up unit source_rate skeleton ", read_asf, with_skeleton},
+    {".fbx", " unit source_rate take ", read_fbx, only_itself},
+    {".glb", " unit source_rate take ", read_gltf, with_buffers},
+    {".gltf", " unit source_rate take ", read_gltf, with_buffers},
 };
 
 const MotionReader& reader_for(const fs::path& path) {
   const FileFormat* format = file_format(path);
   for (const MotionReader& reader : kMotionReaders) {
-    if (format != nullptr && format->ending == reader.ending) return reader;
+    if (format != nullptr && format->extension == reader.ending) return reader;
   }
   throw Error(ErrorCode::unsupported,
-              fmt::format("{}: is no motion file {}", path.string(), readable_endings(FileKind::motion)));
+              fmt::format("{}: is no motion file {}", path.string(), readable_extensions(FileKind::motion)));
 }
 
 bool knows(const MotionReader& reader, std::string_view option) {
@@ -131,7 +131,7 @@ File read(const fs::path& path, const ReadOptions& options) {
   for (const Telling& one : tellings(options)) {
     if (one.text.empty() || knows(reader, one.option)) continue;
     file.notices.push_back(
-        {path.string(), fmt::format("--{} says nothing about {} files, and was passed over", one.option, file.format)});
+        {path.string(), fmt::format("{} does not apply to {} files and was ignored", one.option, file.format)});
   }
   return file;
 }
@@ -150,7 +150,9 @@ std::string told(const fs::path& path, const ReadOptions& options) {
   for (const Telling& one : tellings(options)) {
     // Another skeleton is another fingerprint.
     if (one.text.empty() || one.option == "skeleton" || !knows(reader, one.option)) continue;
-    line += fmt::format("{}{}={}", line.empty() ? "" : ";", one.option, one.text);
+    std::string option(one.option);
+    std::ranges::replace(option, '_', '-');  // the spelling of stored lines
+    line += fmt::format("{}{}={}", line.empty() ? "" : ";", option, one.text);
   }
   return line;
 }

@@ -26,7 +26,8 @@ constexpr std::uint64_t kSampled = 16;
 [[noreturn]] void fail(const StoredMotion& stored, const Record& record, const Skeleton* skeleton, const char* fault) {
   throw Error(ErrorCode::corrupt,
               name_of(stored, record, skeleton) + ": " + fault +
-                  "; import the recording again (--replace-motion) or restore the database from a copy");
+                  "; import the recording again or restore the database from a copy",
+              {{"replace_motion", "true"}});
 }
 
 /// The value of a record; a fault of the engine says which record it met it in.
@@ -35,7 +36,7 @@ std::optional<ByteSpan> get(const kv::ReadTransaction& snapshot, const StoredMot
   try {
     return snapshot.get(key_of(stored.generation, record), buffer);
   } catch (const Error& error) {
-    throw Error(error.code(), name_of(stored, record, skeleton) + ": " + error.what());
+    throw Error(error.code(), name_of(stored, record, skeleton) + ": " + error.what(), error.remedies());
   }
 }
 

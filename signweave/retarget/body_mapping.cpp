@@ -142,9 +142,10 @@ std::string joints_at_rest(const Skeleton& skeleton, const Drives& drives) {
 void refuse_unsafe(const RecordedBody& source, const RecordedBody& target, const BodyMatch& match) {
   if (match.unsafe.empty()) return;
   throw Error(ErrorCode::bad_input,
-              fmt::format("recording '{}' cannot be put onto the skeleton of '{}': {}; name such joints in a mapping "
-                          "file (signweave import --rig FILE), or sign with recordings of one skeleton",
-                          source.recording, target.recording, fmt::join(match.unsafe, "; ")));
+              fmt::format("recording '{}' cannot be put onto the skeleton of '{}': {}; import them with a "
+                          "mapping file that names such joints, or sign with recordings of one skeleton",
+                          source.recording, target.recording, fmt::join(match.unsafe, "; ")),
+              {{"rig", ""}});
 }
 
 }  // namespace

@@ -360,8 +360,11 @@ class Mapper {
       say("the joints' names fit no known convention: parts are told by shape; a mapping file mends what is wrong");
     }
     if (map_.sides_swapped) {
-      say("left and right are swapped: joints named left are on the body's right side, and the map follows the body; "
-          "if the motion is mirrored, --mirror mends it, if the names are wrong, a mapping file does");
+      map_.notices.push_back(
+          {.where = {},
+           .text = "left and right are swapped: joints named left are on the body's right side, and the map follows "
+                   "the body; read the motion mirrored if it is, or correct the names with a mapping file",
+           .remedies = {{"mirror", "true"}}});
     }
     if (sides_guessed_) say("left and right are guessed: nothing on the body tells; a mapping file does");
     for (const Part part : names_.ambiguous) {

@@ -308,7 +308,7 @@ Score score_from_json(std::string_view text, const std::string& file) {
     const std::size_t byte = std::min<std::size_t>(error.byte, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
     throw Error(ErrorCode::bad_input,
-                fmt::format("{}:{}: this is no JSON; --score of 'sign' writes a score", file, line));
+                fmt::format("{}:{}: this is no JSON; scores are written by signing or editing", file, line));
   } catch (const Json::exception&) {
     throw Error(ErrorCode::bad_input, fmt::format("{}: a number that is too large for any member of a score", file));
   }

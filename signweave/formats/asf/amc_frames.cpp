@@ -135,7 +135,8 @@ std::size_t AmcReader::bone_of(std::string_view name) {
   for (const Bone& bone : bones) known.push_back(bone.name);
   const std::string near = did_you_mean_bone(name, known);
   lines_.fail(fmt::format("frame {} has the bone {}, which the skeleton has not{}", number_, in_quotes(name),
-                          near.empty() ? "; name another skeleton with --skeleton" : near));
+                          near.empty() ? "; name another skeleton" : near),
+              near.empty() ? Remedies{{"skeleton", ""}} : Remedies{});
 }
 
 void AmcReader::read_bone() {
@@ -194,9 +195,10 @@ void AmcReader::check_complete() const {
     names += fmt::format("{}{}", named++ == 0 ? "" : ", ", in_quotes(figure_.bones[i].name));
   }
   if (missing > named) names += fmt::format(" and {} more", missing - named);
-  lines_.fail_at(frame_line_, fmt::format("frame {} lacks the bone{} {}; restore {}, or name another skeleton with "
-                                          "--skeleton",
-                                          number_, missing == 1 ? "" : "s", names, missing == 1 ? "it" : "them"));
+  lines_.fail_at(frame_line_,
+                 fmt::format("frame {} lacks the bone{} {}; restore {}, or name another skeleton", number_,
+                             missing == 1 ? "" : "s", names, missing == 1 ? "it" : "them"),
+                 {{"skeleton", ""}});
 }
 
 /// So many bones without degrees of freedom that a few numbers would become gigabytes of joints at rest.

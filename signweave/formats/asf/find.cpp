@@ -46,12 +46,12 @@ std::filesystem::path skeleton_of(const std::filesystem::path& amc) {
     stem.resize(cut == std::string::npos ? 0 : cut);
   }
   if (skeletons.size() == 1) return amc.has_parent_path() ? skeletons[0] : skeletons[0].filename();
-  throw Error(ErrorCode::not_found,
-              fmt::format("{}: no skeleton belongs to it: looked for {} in {}, where {} .asf file{}; name it with "
-                          "--skeleton",
-                          amc.string(), looked_for, folder.string(),
-                          skeletons.empty() ? "is no" : fmt::format("are {} other", skeletons.size()),
-                          skeletons.empty() ? "" : "s"));
+  throw Error(
+      ErrorCode::not_found,
+      fmt::format("{}: no skeleton belongs to it: looked for {} in {}, where {} .asf file{}", amc.string(), looked_for,
+                  folder.string(), skeletons.empty() ? "is no" : fmt::format("are {} other", skeletons.size()),
+                  skeletons.empty() ? "" : "s"),
+      {{"skeleton", ""}});
 }
 
 }  // namespace signweave::asf

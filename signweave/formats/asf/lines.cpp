@@ -60,8 +60,8 @@ std::vector<double> Lines::numbers(std::size_t count, std::string_view what) con
   return result;
 }
 
-void Lines::fail_at(std::size_t line, std::string_view what) const {
-  throw Error(ErrorCode::bad_input, fmt::format("{}:{}: {}", reader_.name(), line, what));
+void Lines::fail_at(std::size_t line, std::string_view what, Remedies remedies) const {
+  throw Error(ErrorCode::bad_input, fmt::format("{}:{}: {}", reader_.name(), line, what), std::move(remedies));
 }
 
 double number_of(std::string_view word, const Lines& lines, std::string_view what) {

@@ -38,8 +38,10 @@ class Lines {
   const TextReader& reader() const noexcept { return reader_; }
   std::size_t line() const noexcept { return reader_.line(); }
   /// Throws Error{bad_input, "FILE:LINE: what"}.
-  [[noreturn]] void fail(std::string_view what) const { reader_.fail(what); }
-  [[noreturn]] void fail_at(std::size_t line, std::string_view what) const;
+  [[noreturn]] void fail(std::string_view what, Remedies remedies = {}) const {
+    reader_.fail(what, std::move(remedies));
+  }
+  [[noreturn]] void fail_at(std::size_t line, std::string_view what, Remedies remedies = {}) const;
 
  private:
   TextReader& reader_;

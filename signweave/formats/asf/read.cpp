@@ -29,14 +29,15 @@ double settle_unit(const Motion& motion, const Figure& figure, const ReadOptions
                    const std::string& name, std::vector<Notice>& notices) {
   if (options.unit) return *options.unit;
   if (figure.bones.size() > kMostBonesOfAGuess) {
-    throw Error(ErrorCode::bad_input, fmt::format("{}: {} bones are no body whose unit can be guessed; give --unit",
-                                                  name, figure.bones.size()));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: {} bones are no body whose unit can be guessed", name, figure.bones.size()),
+                {{"unit", ""}});
   }
   const bvh::Guess guess = bvh::guess_space(motion, up);
   const std::string divided =
       figure.length_unit == 1 ? "" : fmt::format(" for lengths divided by the {:g} of :units", figure.length_unit);
-  notices.push_back({name, fmt::format("unit {} guessed{}; --unit overrides", bvh::unit_reason(guess), divided)});
-  if (guess.upside_down) notices.push_back({name, "the head is below the feet; look at the motion and check --up"});
+  notices.push_back({name, fmt::format("unit {} guessed{}", bvh::unit_reason(guess), divided), {{"unit", ""}}});
+  if (guess.upside_down) notices.push_back({name, "the head is below the feet; look at the motion", {{"up", ""}}});
   return guess.unit;
 }
 
@@ -92,9 +93,9 @@ File read_pair(TextReader& asf, TextReader& amc, const ReadOptions& options) {
   frames.report();
   if (!options.rate) {
     file.notices.push_back(
-        {amc.name(), fmt::format("the format does not tell the frame rate; {} frames a second taken, "
-                                 "--source-rate overrides",
-                                 to_string(kAcclaimRate))});
+        {amc.name(),
+         fmt::format("the format does not tell the frame rate; {} frames a second taken", to_string(kAcclaimRate)),
+         {{"source_rate", ""}}});
   }
   const bvh::UpAxis up = options.up.value_or(bvh::UpAxis::y);
   const double unit = settle_unit(file.motion, figure, options, up, asf.name(), file.notices);

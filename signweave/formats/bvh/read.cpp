@@ -21,8 +21,9 @@ std::vector<Channel> root_columns(const std::vector<Channel>& declared, RootColu
   if (order == RootColumns::declared) return declared;
   if (!has_positions_then_rotations(declared)) {
     reader.fail(
-        "the root's columns can be read rotation first only where CHANNELS names three positions, then three "
-        "rotations; leave --root-order away");
+        "the root's columns can be read rotation first only if CHANNELS names three positions, then three "
+        "rotations",
+        {{"root_order", "declared"}});
   }
   std::vector<Channel> columns(declared.begin() + 3, declared.end());
   columns.insert(columns.end(), declared.begin(), declared.begin() + 3);
@@ -90,13 +91,15 @@ void settle_space(const Motion& motion, const ReadOptions& options, Layout& layo
     const std::string up = fmt::format("up axis {}{}", layout.up == UpAxis::z ? "z" : "y",
                                        options.up || guess.up_certain ? "" : " (the body gives no clear answer)");
     const std::string unit = "unit " + unit_reason(guess);
-    std::string text;
-    if (!options.up && !options.unit) text = fmt::format("{} and {} guessed; --up and --unit override", up, unit);
-    if (!options.up && options.unit) text = fmt::format("{} guessed; --up overrides", up);
-    if (options.up && !options.unit) text = fmt::format("{} guessed; --unit overrides", unit);
-    notices.push_back({name, text});
+    if (!options.up && !options.unit) {
+      notices.push_back({name, fmt::format("{} and {} guessed", up, unit), {{"up", ""}, {"unit", ""}}});
+    } else if (!options.up) {
+      notices.push_back({name, fmt::format("{} guessed", up), {{"up", ""}}});
+    } else {
+      notices.push_back({name, fmt::format("{} guessed", unit), {{"unit", ""}}});
+    }
     if (guess.upside_down && !options.up) {
-      notices.push_back({name, "the head is below the feet; look at the motion and check --up"});
+      notices.push_back({name, "the head is below the feet; look at the motion", {{"up", ""}}});
     }
   }
   layout.root_unit = options.root_unit.value_or(layout.unit);
@@ -145,7 +148,8 @@ File read(TextReader& reader, const ReadOptions& options) {
   if (frames.root_is_permuted() && options.root_columns == RootColumns::declared) {
     file.notices.push_back({reader.name(),
                             "the root's columns look permuted: where CHANNELS says rotation they hold the root's "
-                            "OFFSET in every frame; --root-order rotation_first --root-unit m would mend it"});
+                            "OFFSET in every frame",
+                            {{"root_order", "rotation_first"}, {"root_unit", "m"}}});
   }
   file.layout.frame_time = header.frame_time;
   settle_space(file.motion, options, file.layout, reader.name(), file.notices);

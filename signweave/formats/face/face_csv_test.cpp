@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "signweave/formats/test_person.h"
+#include "signweave/drawing/test_person.h"
 
 namespace signweave {
 namespace {

@@ -176,7 +176,7 @@ std::string made(std::string_view character, const Motion& motion, const Charact
   for (const Json& name : document.value("extensionsRequired", Json::array())) {
     throw Error(ErrorCode::unsupported,
                 fmt::format("the file is packed ({}), which most programs cannot open; make a plain one with "
-                            "studio/avatar/build --plain",
+                            "studio/avatar/build",
                             name.get<std::string>()));
   }
   if (document.at("buffers").size() != 1) throw Error(ErrorCode::bad_input, "no GLB of one buffer");
@@ -206,7 +206,7 @@ std::string on_character(const std::string& file, std::string_view character, co
   } catch (const Json::exception& error) {
     throw Error(ErrorCode::bad_input, fmt::format("{}: not as glTF has it: {}", file, error.what()));
   } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
+    throw Error(error.code(), fmt::format("{}: {}", file, error.what()), error.remedies());
   }
 }
 

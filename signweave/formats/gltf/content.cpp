@@ -183,7 +183,7 @@ std::string outside_bytes(const std::string& place, const fs::path& path) {
   try {
     return read_file(path);
   } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("{}: {}", place, error.what()));
+    throw Error(error.code(), fmt::format("{}: {}", place, error.what()), error.remedies());
   }
 }
 

@@ -9,8 +9,8 @@
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/error.h"
+#include "signweave/drawing/test_person.h"
 #include "signweave/formats/gltf/gltf.h"
-#include "signweave/formats/test_person.h"
 
 namespace signweave {
 namespace {

@@ -368,7 +368,7 @@ void write(const std::filesystem::path& path, const Motion& motion, const WriteO
     if (!text) require_size(buffer.bytes());
   } catch (const Error& error) {
     if (error.code() == ErrorCode::io) throw;
-    throw Error(error.code(), fmt::format("{}: {}", path.string(), error.what()));
+    throw Error(error.code(), fmt::format("{}: {}", path.string(), error.what()), error.remedies());
   }
   file.commit();
 }

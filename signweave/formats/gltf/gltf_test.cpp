@@ -9,8 +9,8 @@
 #include <set>
 
 #include "signweave/core/error.h"
+#include "signweave/drawing/test_person.h"
 #include "signweave/formats/gltf/test_reader.h"
-#include "signweave/formats/test_person.h"
 #include "signweave/motion/kinematics.h"
 
 namespace signweave {

@@ -96,9 +96,11 @@ class JointChoice {
       any = any || seeds_[node];
     }
     if (any) return;
-    throw Error(ErrorCode::bad_input, fmt::format("{}: the take '{}' moves no joint; choose another with --take or "
-                                                  "export it with keys",
-                                                  content_.name, printable(take_.name)));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: the take '{}' moves no joint; choose another or "
+                            "export it with keys",
+                            content_.name, printable(take_.name)),
+                {{"take", ""}});
   }
 
   bool is_moved(std::size_t node) const {

@@ -90,8 +90,7 @@ void tell_of_loss(const Content& content, const Take& take, const std::vector<Jo
                   rate_told ? "its keys do not stand" : "its keys stand unevenly and were read", to_string(timing.rate),
                   turn.text(content, "degrees", 1), place.text(content, "mm", 1000));
   if (weight.node != kNoNode) text += fmt::format(", its weights by {:.2g}", weight.most);
-  if (!rate_told) text += "; --source-rate overrides";
-  notices.push_back({content.name, std::move(text)});
+  notices.push_back({content.name, std::move(text), rate_told ? Remedies{} : Remedies{{"source_rate", ""}}});
 }
 
 }  // namespace signweave::gltf

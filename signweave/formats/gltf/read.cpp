@@ -64,8 +64,9 @@ void tell_of_timing(const std::string& name, const Timing& timing, const ReadOpt
         {name, fmt::format("its first key is at {:.6g} seconds; that is the motion's first frame", timing.start)});
   }
   if (one_pose && !options.rate) {
-    notices.push_back({name, fmt::format("it has one key only, so its rate is taken to be {}; --source-rate overrides",
-                                         to_string(timing.rate))});
+    notices.push_back({name,
+                       fmt::format("it has one key only, so its rate is taken to be {}", to_string(timing.rate)),
+                       {{"source_rate", ""}}});
   }
 }
 
@@ -78,9 +79,8 @@ void tell_of_size(const std::string& name, const Motion& motion, const ReadOptio
   const char* const unit = fits(0.01f) ? "centimetres" : fits(0.001f) ? "millimetres" : fits(0.0254f) ? "inches" : "";
   const char* const told = fits(0.01f) ? "0.01" : fits(0.001f) ? "0.001" : fits(0.0254f) ? "0.0254" : "";
   std::string text = fmt::format("its joints span {:.3g} metres", size);
-  text += *unit == '\0' ? "; check its unit, --unit tells it"
-                        : fmt::format(", as if it were in {}; --unit {} would mend that", unit, told);
-  notices.push_back({name, std::move(text)});
+  text += *unit == '\0' ? "; check its unit" : fmt::format(", as if it were in {}", unit);
+  notices.push_back({name, std::move(text), {{"unit", told}}});
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {

@@ -39,8 +39,9 @@ std::size_t chosen_take(const Content& content, const std::string& wanted, std::
   if (count == 0) refuse_take(content, "it holds no animation; export it with one");
   if (wanted.empty()) {
     if (count > 1) {
-      notices.push_back({content.name, fmt::format("it has {} takes, {}; the first was read, --take reads another",
-                                                   count, names_of_takes(content))});
+      notices.push_back({content.name,
+                         fmt::format("it has {} takes, {}; the first was read", count, names_of_takes(content)),
+                         {{"take", ""}}});
     }
     return 0;
   }

@@ -1,4 +1,4 @@
-#include "app/calls/files.h"
+#include "signweave/formats/write_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "signweave/database/test_signing.h"
 #include "signweave/formats/file_format.h"
 
-namespace signweave::calls {
+namespace signweave {
 namespace {
 
 using testing::HasSubstr;
@@ -45,56 +45,56 @@ bool is_json(const std::string& text) {
   return nlohmann::json::accept(text);
 }
 
-TEST(WrittenFiles, OfEveryEndingHaveAWriterOfTheirOwn) {
+TEST(WrittenFiles, OfEveryExtensionHaveAWriterOfTheirOwn) {
   const Motion motion = smiling();
   const AnnotationDocument document = recording_of("one", 1, {"A", "B"}).annotation->document;
-  const Outgoing outgoing{.motion = &motion, .document = &document, .title = "one"};
-  Synthesized made;
-  made.result.motion = motion;
+  const FileContent content{.motion = &motion, .document = &document, .title = "one"};
+  Synthesis made;
+  made.motion = motion;
   const TestFolder folder;
-  for (const std::string_view ending : writable_endings()) {
+  for (const std::string_view ending : writable_extensions()) {
     const bool json = ending == ".json" || ending == ".gltf";
-    const std::string text = recording_text(ending, outgoing, "one");
+    const std::string text = file_text(ending, content, "one");
     EXPECT_EQ(is_json(text), json) << ending;
     const std::string path = folder / ("one" + std::string(ending));
-    write_recording(path, outgoing);
+    write_file(path, content);
     EXPECT_EQ(read_file(path), text) << ending;
-    EXPECT_EQ(is_json(synthesis_text(ending, made, {}, "")), json) << ending;
-    write_synthesis({path}, made, {});
+    EXPECT_EQ(is_json(file_text(ending, content_of(made), "x")), json) << ending;
+    save(made, {path});
     EXPECT_EQ(is_json(read_file(path)), json) << ending;
   }
 }
 
-TEST(WrittenFiles, OfNoOtherEndingAreWritten) {
+TEST(WrittenFiles, OfNoOtherExtensionAreWritten) {
   const Motion motion = smiling();
-  const Outgoing outgoing{.motion = &motion, .title = "one"};
-  Synthesized made;
-  made.result.motion = motion;
+  const FileContent content{.motion = &motion, .title = "one"};
+  Synthesis made;
+  made.motion = motion;
   const TestFolder folder;
   for (const std::string ending : {".fbx", ".amc", ".asf", ".anvil", ".mp4", ".frames", ".truth"}) {
     const std::string wrong = "'" + ending + "' cannot be written here; use " + kEndings;
-    EXPECT_EQ(fault_from([&] { recording_text(ending, outgoing, "one"); }), "one: " + wrong);
-    EXPECT_THAT(fault_from([&] { synthesis_text(ending, made, {}, ""); }), HasSubstr(wrong));
+    EXPECT_EQ(fault_from([&] { file_text(ending, content, "one"); }), "one: " + wrong);
+    EXPECT_THAT(fault_from([&] { file_text(ending, content_of(made), "x"); }), HasSubstr(wrong));
     const std::string path = folder / ("one" + ending);
-    EXPECT_EQ(fault_from([&] { write_recording(path, outgoing); }), path + ": " + wrong);
+    EXPECT_EQ(fault_from([&] { write_file(path, content); }), path + ": " + wrong);
     // Nothing else is written either.
     const std::string good = folder / "good.bvh";
-    EXPECT_EQ(fault_from([&] { write_synthesis({good, path}, made, {}); }), path + ": " + wrong);
+    EXPECT_EQ(fault_from([&] { save(made, {good, path}); }), path + ": " + wrong);
     EXPECT_FALSE(fs::exists(path) || fs::exists(good)) << ending;
   }
   const std::string path = folder / "one";
-  EXPECT_EQ(fault_from([&] { write_recording(path, outgoing); }), path + ": has no ending; use " + kEndings);
+  EXPECT_EQ(fault_from([&] { write_file(path, content); }), path + ": has no extension; use " + kEndings);
   EXPECT_FALSE(fs::exists(path));
 }
 
-TEST(CheckEnding, NamesTheFileItsEndingAndWhatItMayBe) {
-  EXPECT_EQ(check_ending("a/b.SVG", {".svg"}), "");
-  EXPECT_EQ(check_ending("a/b.png", {".svg"}), "a/b.png: '.png' cannot be written here; use .svg");
-  EXPECT_EQ(check_ending("film.avi", {".webm", ".png"}), "film.avi: '.avi' cannot be written here; use .webm .png");
-  EXPECT_EQ(check_ending("one.face.csv", {".csv"}), "one.face.csv: '.face.csv' cannot be written here; use .csv");
-  EXPECT_EQ(check_ending(".svg", {".svg"}), ".svg: has no ending; use .svg");
-  EXPECT_THAT(check_ending("b.\n", {".svg"}), StartsWith("b.\\"));
+TEST(CheckExtension, NamesTheFileItsExtensionAndThoseAllowed) {
+  EXPECT_EQ(check_extension("a/b.SVG", {".svg"}), "");
+  EXPECT_EQ(check_extension("a/b.png", {".svg"}), "a/b.png: '.png' cannot be written here; use .svg");
+  EXPECT_EQ(check_extension("film.avi", {".webm", ".png"}), "film.avi: '.avi' cannot be written here; use .webm .png");
+  EXPECT_EQ(check_extension("one.face.csv", {".csv"}), "one.face.csv: '.face.csv' cannot be written here; use .csv");
+  EXPECT_EQ(check_extension(".svg", {".svg"}), ".svg: has no extension; use .svg");
+  EXPECT_THAT(check_extension("b.\n", {".svg"}), StartsWith("b.\\"));
 }
 
 }  // namespace
-}  // namespace signweave::calls
+}  // namespace signweave
